@@ -1,15 +1,45 @@
 //! `mpm-verify compare`.
 
-use super::args::{CompareArgs, Page};
+use super::arguments::share;
 use super::output;
-use super::status::{BAD_INPUT, FAILED, PASSED};
-use mpm_verify::report::compare;
-use mpm_verify::report::compare::{ReportComparison, ReportDocument, Unreadable};
+use super::status::{CommandError, Status};
+use clap::{Args, ValueEnum};
+use mpm_verify::report::compare::{self, ReportComparison, ReportDocument, Unreadable};
 use mpm_verify::suite::yaml::Diagnostic;
-use std::fs;
 use std::ops::Range;
 use std::path::Path;
 use std::process::Command;
+use std::{fs, io};
+
+#[derive(Debug, Args)]
+pub(super) struct CompareArgs {
+    /// Results before: the JSON of `mpm-verify run --format json`, a folder of `run --out`, a
+    /// folder of snapshots, or a commit that has snapshots
+    #[arg(value_name = "OLD")]
+    old: String,
+    /// Results after
+    #[arg(value_name = "NEW", default_value = "verification")]
+    new: String,
+    /// Folder of the snapshots in the tree of a commit
+    #[arg(long, default_value = "verification")]
+    folder: String,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t = Page::Text)]
+    format: Page,
+    /// Largest relative change of a figure that counts as none
+    #[arg(long, value_name = "SHARE", default_value_t = compare::TOLERANCE, value_parser = share, allow_negative_numbers = true)]
+    tolerance: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Page {
+    /// Aligned tables
+    Text,
+    /// A comment for a pull request
+    Markdown,
+    /// One JSON document
+    Json,
+}
 
 /// Name of the snapshot of all cases.
 const OVERVIEW: &str = "OVERVIEW.snap";
@@ -27,42 +57,40 @@ enum ComparedResults {
 
 /// Prints what moved between two runs. Both sides are read first, so that mistakes in both are
 /// reported.
-pub(super) fn compare(args: &CompareArgs) -> u8 {
+pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
     let tolerance = args.tolerance;
     if !(tolerance.is_finite() && tolerance >= 0.0) {
         let message = "expected a share of at least 0, such as 0.001";
-        output::complain(&format!("error: --tolerance {tolerance}: {message}"));
-        return BAD_INPUT;
+        return Err(CommandError::option("--tolerance", tolerance, message));
     }
     let (old, new) = match (side(&args.old, &args.folder), side(&args.new, &args.folder)) {
         (Ok(ComparedResults::Run(old)), Ok(ComparedResults::Run(new)))
         | (Ok(ComparedResults::Snapshots(old)), Ok(ComparedResults::Snapshots(new))) => (old, new),
         (Ok(_), Ok(_)) => {
-            output::complain(&format!(
-                "error: `{}` and `{}` are the results of a run and snapshots, which have other figures\n\
+            return Err(CommandError::Message(format!(
+                "`{}` and `{}` are the results of a run and snapshots, which have other figures\n\
                  help: compare two runs (JSON), or two sets of snapshots (folders or commits)",
                 args.old, args.new
-            ));
-            return BAD_INPUT;
+            )));
         }
         (old, new) => {
             for diagnostic in [old.err(), new.err()].into_iter().flatten() {
                 output::diagnose(&diagnostic);
             }
-            return BAD_INPUT;
+            return Ok(Status::BadInput);
         }
     };
-    print(&compare::compare(&old, &new, tolerance), args.format)
+    Ok(print(&compare::compare(&old, &new, tolerance), args.format))
 }
 
 /// Prints a comparison, and gives the exit status that it stands for.
-fn print(found: &ReportComparison, format: Page) -> u8 {
+fn print(found: &ReportComparison, format: Page) -> Status {
     output::print(&match format {
         Page::Text => compare::text(found),
         Page::Markdown => compare::markdown(found),
         Page::Json => compare::json(found),
     });
-    if found.is_worse() { FAILED } else { PASSED }
+    if found.is_worse() { Status::Failed } else { Status::Passed }
 }
 
 /// The results at `place`: a file, a folder or a commit, in whose tree snapshots are in `folder`.
@@ -103,16 +131,16 @@ fn snapshots(overview: &str, read: impl Fn(&str) -> Option<String>) -> ComparedR
 }
 
 /// The text of a file as a commit has it.
-fn committed(commit: &str, file: &str) -> Result<String, String> {
+fn committed(commit: &str, file: &str) -> io::Result<String> {
     if commit.starts_with('-') {
-        return Err("a commit does not begin with a dash".to_owned());
+        return Err(io::Error::other("a commit does not begin with a dash"));
     }
     let output = Command::new("git").args(["show", &format!("{commit}:./{file}")]).output();
-    let output = output.map_err(|error| format!("git cannot be run: {error}"))?;
+    let output = output.map_err(|error| io::Error::other(format!("git cannot be run: {error}")))?;
     if output.status.success() {
-        String::from_utf8(output.stdout).map_err(|error| error.to_string())
+        String::from_utf8(output.stdout).map_err(io::Error::other)
     } else {
-        Err(String::from_utf8_lossy(&output.stderr).trim().to_owned())
+        Err(io::Error::other(String::from_utf8_lossy(&output.stderr).trim().to_owned()))
     }
 }
 

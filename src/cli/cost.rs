@@ -1,35 +1,47 @@
 //! `mpm-verify cost`: what accuracy costs, measured on this machine.
 
-use super::args::CostArgs;
-use super::status::{BAD_INPUT, FAILED, PASSED};
+use super::arguments::{FormatArgs, SolverArgs, Targets, seconds};
+use super::status::{CommandError, Status};
 use super::{output, select, solver};
+use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::external::{SolverFactory, SolverProgram};
 use mpm_verify::report;
 use mpm_verify::study::cost::{best_candidate, price};
 use mpm_verify::suite::{ConvergencePlan, Extent, Suite};
 use mpm_verify::verify::{BestCandidate, TimedSuite};
-use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+#[derive(Debug, Args)]
+pub(super) struct CostArgs {
+    #[command(flatten)]
+    targets: Targets,
+    /// Choose and run the most accurate setting that is predicted to take no longer: `10s`,
+    /// `500ms`, `2min`
+    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, conflicts_with_all = ["figures", "solver"])]
+    budget: Option<f64>,
+    #[command(flatten)]
+    format: FormatArgs,
+    /// Write work-precision diagrams into this folder
+    #[arg(long, value_name = "DIR")]
+    figures: Option<PathBuf>,
+    /// Measure the finer levels too that suites list under `full`
+    #[arg(long)]
+    full: bool,
+    #[command(flatten)]
+    program: SolverArgs,
+}
 
 /// Prices suites one after the other; nothing else of the harness runs while one is timed.
-pub(super) fn cost(args: &CostArgs) -> u8 {
-    if let Some(folder) = &args.figures
-        && let Err(error) = fs::create_dir_all(folder)
-    {
-        output::complain(&format!("error: --figures {}: {error}", folder.display()));
-        return BAD_INPUT;
+pub(super) fn cost(args: &CostArgs) -> Result<Status, CommandError> {
+    if let Some(folder) = &args.figures {
+        fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
     }
     let (suites, refused): (Vec<_>, Vec<_>) =
         select::suites(&args.targets.targets).into_iter().partition(Result::is_ok);
     let mut suites: Vec<Suite> = suites.into_iter().filter_map(Result::ok).collect();
-    let solver = match solver::greeted(&args.program) {
-        Ok(solver) => solver,
-        Err(message) => {
-            output::complain(&message);
-            return BAD_INPUT;
-        }
-    };
+    let solver = solver::greeted(&args.program)?;
     if let Some(solver) = &solver {
         (suites, _) = solver::suites_of_solver(suites, solver, |_| None);
     }
@@ -40,13 +52,13 @@ pub(super) fn cost(args: &CostArgs) -> u8 {
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
         output::diagnose(diagnostic);
     }
-    if refused.is_empty() { found } else { BAD_INPUT }
+    Ok(if refused.is_empty() { found } else { Status::BadInput })
 }
 
 /// The most accurate setting of each suite within the budget.
-fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
+fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> Status {
     let mut found: Vec<(String, BestCandidate)> = Vec::new();
-    let mut code = PASSED;
+    let mut code = Status::Passed;
     for suite in suites {
         match best_candidate(suite, budget) {
             Ok(one) => {
@@ -57,7 +69,7 @@ fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
             }
             Err(reason) => {
                 output::complain(&format!("error: --budget: {}: {reason}", suite.name));
-                code = FAILED;
+                code = Status::Failed;
             }
         }
     }
@@ -68,17 +80,17 @@ fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> u8 {
 }
 
 /// Errors and seconds of every level of each convergence suite; others have no error to pay for.
-fn prices(suites: &[Suite], solver: Option<&SolverProgram>, args: &CostArgs) -> u8 {
+fn prices(suites: &[Suite], solver: Option<&SolverProgram>, args: &CostArgs) -> Status {
     let mut all: Vec<TimedSuite> = Vec::new();
-    let mut code = PASSED;
+    let mut code = Status::Passed;
     for suite in suites.iter().filter(|suite| suite.plan::<ConvergencePlan>().is_some()) {
         let timed = one(suite, solver, args);
         if !args.format.is_json() {
             output::print(&format!("{}\n", report::timed(&timed)));
         }
         if let Some(Err(error)) = args.figures.as_deref().map(|folder| draw(folder, &timed)) {
-            output::complain(&error);
-            code = BAD_INPUT;
+            output::complain(&error.to_string());
+            code = Status::BadInput;
         }
         all.push(timed);
     }
@@ -105,7 +117,7 @@ fn one(suite: &Suite, solver: Option<&SolverProgram>, args: &CostArgs) -> TimedS
     timed
 }
 
-fn draw(folder: &Path, timed: &TimedSuite) -> Result<(), String> {
+fn draw(folder: &Path, timed: &TimedSuite) -> Result<(), CommandError> {
     let outcome = &timed.outcome;
     let seconds = "seconds of the steps, one thread";
     let transfers = "particle-node transfers";
@@ -114,8 +126,11 @@ fn draw(folder: &Path, timed: &TimedSuite) -> Result<(), String> {
     figures.extend(report::cost_figures(outcome, &counted, transfers, "transfers"));
     for figure in figures {
         let path = folder.join(&figure.file);
-        fs::write(&path, figure.svg)
-            .map_err(|error| format!("error: --figures {}: {error}", path.display()))?;
+        fs::write(&path, figure.svg).map_err(|error| unwritable(&path, &error))?;
     }
     Ok(())
+}
+
+fn unwritable(path: &Path, error: &io::Error) -> CommandError {
+    CommandError::option("--figures", path.display(), error)
 }

@@ -1,51 +1,61 @@
 //! `mpm-verify diagnose`: why cases do not have the order of theory.
 
-use super::args::DiagnoseArgs;
-use super::status::{BAD_INPUT, PASSED};
+use super::arguments::{FormatArgs, SolverArgs, Targets, seconds};
+use super::status::{CommandError, Status};
 use super::{output, select, solver};
+use clap::Args;
 use mpm_verify::external::SolverFactory;
-use mpm_verify::report;
-use mpm_verify::study;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
+use mpm_verify::{report, study};
 use serde_json::{Value, json};
 
+#[derive(Debug, Args)]
+pub(super) struct DiagnoseArgs {
+    #[command(flatten)]
+    targets: Targets,
+    /// Cases whose name contains this
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    case: String,
+    /// Predicted time for the runs of each case: `30s`, `2min`
+    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "60s")]
+    budget: f64,
+    #[command(flatten)]
+    format: FormatArgs,
+    #[command(flatten)]
+    solver: SolverArgs,
+}
+
 /// Prints the diagnosis of each case that is named.
-pub(super) fn diagnose(args: &DiagnoseArgs) -> u8 {
-    let solver = match solver::greeted(&args.solver) {
-        Ok(solver) => solver,
-        Err(message) => {
-            output::complain(&message);
-            return BAD_INPUT;
-        }
-    };
+pub(super) fn diagnose(args: &DiagnoseArgs) -> Result<Status, CommandError> {
+    let solver = solver::greeted(&args.solver)?;
     let solver = solver.as_ref().map(|solver| solver as &dyn SolverFactory);
-    let mut all = Diagnoses { args, solver, code: PASSED, diagnosed: 0, json: Vec::new() };
+    let mut all = Diagnoses { args, solver, code: Status::Passed, diagnosed: 0, json: Vec::new() };
     for found in select::with_sources(&args.targets.targets) {
         match found.map(|(source, suite)| (source, solver::in_place_of_methods(suite, solver))) {
             Ok((source, Some(suite))) => all.suite(&source, &suite),
             Ok((_, None)) => {}
             Err(diagnostic) => {
                 output::diagnose(&diagnostic);
-                all.code = BAD_INPUT;
+                all.code = Status::BadInput;
             }
         }
     }
     if args.format.is_json() {
         output::print(&format!("{:#}\n", json!({"cases": all.json})));
     }
-    if solver.is_some() && all.diagnosed == 0 && all.code == PASSED {
-        output::complain("error: no case is applicable to the solver");
-        return BAD_INPUT;
+    if solver.is_some() && all.diagnosed == 0 && all.code == Status::Passed {
+        let message = "no case is applicable to the solver";
+        return Err(CommandError::Message(message.to_owned()));
     }
-    all.code
+    Ok(all.code)
 }
 
 /// Diagnoses of all cases, as far as they are made.
 struct Diagnoses<'a> {
     args: &'a DiagnoseArgs,
     solver: Option<&'a dyn SolverFactory>,
-    code: u8,
+    code: Status,
     /// Number of cases that were run.
     diagnosed: usize,
     json: Vec<Value>,
@@ -83,7 +93,7 @@ impl Diagnoses<'_> {
                 }
                 Err(reason) => {
                     output::complain(&format!("error: {name}: {reason}"));
-                    self.code = BAD_INPUT;
+                    self.code = Status::BadInput;
                 }
             }
         }

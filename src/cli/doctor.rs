@@ -1,30 +1,30 @@
 //! `mpm-verify doctor`: what is wrong with a solver of another program.
 
-use super::args::DoctorArgs;
-use super::status::{BAD_INPUT, FAILED, PASSED};
+use super::arguments::{FormatArgs, SolverArgs};
+use super::status::{CommandError, Status};
 use super::{output, solver};
+use clap::Args;
 use mpm_verify::testing::{DoctorReport, doctor as examine, page};
 
+#[derive(Debug, Args)]
+pub(super) struct DoctorArgs {
+    #[command(flatten)]
+    solver: SolverArgs,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
 /// Examines the solver that the command line names, and prints what was found.
-pub(super) fn doctor(args: &DoctorArgs) -> u8 {
-    let program = match solver::greeted(&args.solver) {
-        Ok(Some(program)) => program,
-        Ok(None) => {
-            output::complain("error: expected a solver: `--solver COMMAND`");
-            return BAD_INPUT;
-        }
-        Err(message) => {
-            output::complain(&message);
-            return BAD_INPUT;
-        }
-    };
+pub(super) fn doctor(args: &DoctorArgs) -> Result<Status, CommandError> {
+    let program = solver::greeted(&args.solver)?
+        .ok_or_else(|| CommandError::Message("expected a solver: `--solver COMMAND`".to_owned()))?;
     let report = examine(&program, &|name| output::complain(&format!("examining: {name}")));
     output::print(&if args.format.is_json() { json(&report) } else { page(&report) });
-    match report.silent {
-        Some(_) => BAD_INPUT,
-        None if report.defects() > 0 => FAILED,
-        None => PASSED,
-    }
+    Ok(match report.silent {
+        Some(_) => Status::BadInput,
+        None if report.defects() > 0 => Status::Failed,
+        None => Status::Passed,
+    })
 }
 
 fn json(report: &DoctorReport) -> String {

@@ -1,62 +1,62 @@
 //! `mpm-verify explain`: the problem, what a step of each case takes, and what is expected.
 
-use super::args::ExplainArgs;
-use super::status::{BAD_INPUT, PASSED};
-use super::{output, select, show};
-use mpm_verify::nearest;
-use mpm_verify::report;
-use mpm_verify::study;
-use mpm_verify::study::Estimate;
+use super::arguments::{FormatArgs, Targets};
+use super::status::{CommandError, Status};
+use super::{select, show};
+use clap::Args;
 use mpm_verify::study::describe::level_list::{PlannedLevel, planned_levels};
 use mpm_verify::study::describe::profiles::Dispensable;
 use mpm_verify::study::describe::sketch::{sketch_svg, sketch_text};
+use mpm_verify::study::{self, Estimate};
 use mpm_verify::suite::Suite;
+use mpm_verify::{nearest, report};
 use serde_json::{Value, json};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(super) struct ExplainArgs {
+    #[command(flatten)]
+    targets: Targets,
+    /// Say what a step would no longer take without this effect of the scene
+    #[arg(long, value_name = "EFFECT")]
+    without: Option<String>,
+    /// Draw the scene of one suite into this file (SVG), and print nothing
+    #[arg(long, value_name = "FILE")]
+    sketch: Option<PathBuf>,
+    #[command(flatten)]
+    format: FormatArgs,
+}
 
 /// Prints the page of each suite.
-pub(super) fn explain(args: &ExplainArgs) -> u8 {
-    let without = match args.without.as_deref().map(named).transpose() {
-        Ok(without) => without,
-        Err(message) => {
-            output::complain(&message);
-            return BAD_INPUT;
-        }
-    };
+pub(super) fn explain(args: &ExplainArgs) -> Result<Status, CommandError> {
+    let without = args.without.as_deref().map(named).transpose()?;
     if let Some(file) = &args.sketch {
         return draw(args, file);
     }
     let targets = &args.targets.targets;
     if args.format.is_json() {
-        return show::json(targets, |_, suite| Ok(explained(suite, without)));
+        return Ok(show::json(targets, |_, suite| Ok(explained(suite, without))));
     }
-    show::each(targets, |suite| explanation(suite, without))
+    Ok(show::each(targets, |suite| explanation(suite, without)))
 }
 
 /// Writes the sketch of the only suite that is named into `file`.
-fn draw(args: &ExplainArgs, file: &Path) -> u8 {
+fn draw(args: &ExplainArgs, file: &Path) -> Result<Status, CommandError> {
     let mut suites = select::suites(&args.targets.targets);
-    let drawn = match (suites.pop(), suites.is_empty()) {
-        (Some(Ok(suite)), true) => sketch_svg(&suite)
-            .ok_or_else(|| format!("error: --sketch: `{}` has no scene to draw", suite.name))
-            .and_then(|svg| {
-                let failed = |error| format!("error: --sketch {}: {error}", file.display());
-                fs::write(file, svg).map_err(failed)
-            }),
-        (Some(Err(diagnostic)), true) => Err(diagnostic.styled()),
-        _ => Err("error: --sketch: name one suite".to_owned()),
+    let suite = match (suites.pop(), suites.is_empty()) {
+        (Some(suite), true) => suite?,
+        _ => return Err(CommandError::about("--sketch", "name one suite")),
     };
-    match drawn {
-        Ok(()) => PASSED,
-        Err(message) => {
-            output::complain(&message);
-            BAD_INPUT
-        }
-    }
+    let svg = sketch_svg(&suite).ok_or_else(|| {
+        CommandError::about("--sketch", format!("`{}` has no scene to draw", suite.name))
+    })?;
+    fs::write(file, svg)
+        .map_err(|error| CommandError::option("--sketch", file.display(), error))?;
+    Ok(Status::Passed)
 }
 
-fn named(name: &str) -> Result<Dispensable, String> {
+fn named(name: &str) -> Result<Dispensable, CommandError> {
     if let Some(found) = Dispensable::all().find(|known| known.name() == name) {
         return Ok(found);
     }
@@ -65,7 +65,8 @@ fn named(name: &str) -> Result<Dispensable, String> {
         Some(nearest) => format!("did you mean `{nearest}`?"),
         None => format!("known effects: {}", known.join(", ")),
     };
-    Err(format!("error: --without {name}: there is no such effect\nhelp: {hint}"))
+    let reason = format!("there is no such effect\nhelp: {hint}");
+    Err(CommandError::option("--without", name, reason))
 }
 
 /// How solvers integrate linear elasticity, which the equation of small strain leaves open.

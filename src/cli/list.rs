@@ -1,14 +1,27 @@
-//! `mpm-verify list`.
+//! `mpm-verify list` and `mpm-verify steps`: suites with their cases, and the time step of every
+//! level.
 
-use super::args::ListArgs;
+use super::arguments::{FormatArgs, Targets};
 use super::show;
-use mpm_verify::study::{Estimate, estimates};
+use super::status::Status;
+use clap::Args;
+use mpm_verify::study::{Estimate, TimeStep, estimates, time_steps};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
+use mpm_verify::verify::STEP_TOLERANCE;
 use serde_json::{Value, json};
+use std::cell::Cell;
+
+#[derive(Debug, Args)]
+pub(super) struct ListArgs {
+    #[command(flatten)]
+    targets: Targets,
+    #[command(flatten)]
+    format: FormatArgs,
+}
 
 /// Prints every suite with its cases.
-pub(super) fn list(args: &ListArgs) -> u8 {
+pub(super) fn list(args: &ListArgs) -> Status {
     let targets = &args.targets.targets;
     if args.format.is_json() {
         return show::json(targets, |source, suite| Ok(listed(source, suite)));
@@ -32,4 +45,64 @@ fn listed(source: &Source, suite: &Suite) -> Value {
     });
     let cases: Vec<Value> = cases.collect();
     json!({"suite": suite.name, "title": suite.title, "file": source.name(), "cases": cases})
+}
+
+#[derive(Debug, Args)]
+pub(super) struct StepsArgs {
+    #[command(flatten)]
+    targets: Targets,
+    /// Also the finer levels that suites list under `full`
+    #[arg(long)]
+    full: bool,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+/// Prints the steps of each suite. The status says whether all are within the tolerance.
+pub(super) fn steps(args: &StepsArgs) -> Status {
+    let extent = if args.full { Extent::Full } else { Extent::Usual };
+    let is_off = Cell::new(false);
+    let of_suite = |suite: &Suite| {
+        let steps = time_steps(suite, extent);
+        is_off.set(is_off.get() || steps.iter().any(beyond));
+        steps
+    };
+    let targets = &args.targets.targets;
+    let code = if args.format.is_json() {
+        show::json(targets, |_, suite| {
+            let levels: Vec<Value> = of_suite(suite).iter().map(level).collect();
+            Ok(json!({"suite": suite.name, "levels": levels}))
+        })
+    } else {
+        show::each(targets, |suite| {
+            let rows: String = of_suite(suite).iter().map(row).collect();
+            format!("{}\n{rows}", suite.name)
+        })
+    };
+    if code == Status::Passed && is_off.get() { Status::Failed } else { code }
+}
+
+fn beyond(step: &TimeStep) -> bool {
+    !((step.ratio() - 1.0).abs() <= STEP_TOLERANCE)
+}
+
+fn row(step: &TimeStep) -> String {
+    let TimeStep { case, level, wanted, clock } = step;
+    let cells = level.cells;
+    let note = if beyond(step) { "  off by more than 1 %" } else { "" };
+    format!(
+        "  {case}, {cells} cells: {} steps of {:.4e} s, {:.4} of {wanted:.4e} s, {} instants{note}\n",
+        clock.steps,
+        clock.dt(),
+        step.ratio(),
+        clock.instants,
+    )
+}
+
+fn level(step: &TimeStep) -> Value {
+    let TimeStep { case, level, wanted, clock } = step;
+    json!({
+        "case": case, "cells": level.cells, "steps": clock.steps, "dt": clock.dt(),
+        "wanted": wanted, "ratio": step.ratio(), "instants": clock.instants, "off": beyond(step),
+    })
 }

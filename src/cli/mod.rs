@@ -1,59 +1,116 @@
 //! `mpm-verify`: write, run, list, check and explain suites, propose expectations, compare runs,
 //! and what accuracy costs.
 
-mod args;
+mod arguments;
 mod check;
-mod command_line;
 mod compare;
 mod cost;
 mod diagnose;
 mod doctor;
 mod explain;
+mod generate;
 mod list;
-mod merge;
 mod new;
+mod output;
 mod problem;
 mod propose;
 mod run;
-mod schema;
 mod select;
-mod shell;
 mod show;
 mod solver;
 mod status;
-mod steps;
-mod terminal;
-mod watch;
 
-use args::{Cli, Command};
-use clap::Parser;
+use arguments::ColorArgs;
 use clap::error::ContextKind;
-use status::{BAD_INPUT, PASSED};
+use clap::{CommandFactory, Parser, Subcommand};
+use mpm_verify::nearest;
+use status::{CommandError, Status};
 use std::ffi::OsString;
 use std::process::ExitCode;
-use terminal::output;
 
-/// Parses the command line and does what it says. What could not be printed is an error.
-pub(crate) fn main() -> ExitCode {
-    let mut code = match command_line::with_command(std::env::args_os().collect()) {
-        Ok(words) => parsed(words),
-        Err(message) => {
-            output::complain(&message);
-            BAD_INPUT
-        }
-    };
-    if let Some(message) = output::failure() {
-        output::complain(message);
-        code = BAD_INPUT;
-    }
-    ExitCode::from(code)
+/// Verifies Material Point Method solvers: suites of benchmarks, observed orders, verdicts.
+#[derive(Debug, Parser)]
+#[command(
+    version,
+    about,
+    override_usage = "mpm-verify [OPTIONS] [SUITE]...\n       mpm-verify <COMMAND>",
+    after_help = "Without a command: `run`, whose options `mpm-verify run --help` lists."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    color: ColorArgs,
 }
 
-fn parsed(words: Vec<OsString>) -> u8 {
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run suites and judge them (the default); exit status 1 if an expectation is not met, 2 on
+    /// bad input
+    Run(run::RunArgs),
+    /// Write a suite that runs; what no option says is asked for, if a terminal is there to answer
+    New(new::NewArgs),
+    /// Report what the parts of a run have found (`run --shard K/N --resume DIR`), byte for byte as
+    /// one run of all would; nothing runs
+    Merge(run::MergeArgs),
+    /// List suites and their cases, as JSON with the predicted cost of each
+    List(list::ListArgs),
+    /// Validate suites without running them: grammar, formulas, the truth itself, and whether the
+    /// runs can support what is expected; exit status 2 on bad input
+    Check(check::CheckArgs),
+    /// Print the problem of a suite, its source, what a step of each case takes (effects, passes,
+    /// memory), and what is expected
+    Explain(explain::ExplainArgs),
+    /// Run suites and print the `expect` entries that theory gives and the runs support, each with
+    /// its origin; no file is changed
+    Propose(propose::ProposeArgs),
+    /// Find the cause if a case does not have the order of theory: its finest levels run again with
+    /// one thing changed at a time
+    Diagnose(diagnose::DiagnoseArgs),
+    /// Put a solver to small problems that each show one kind of mistake, and say what is wrong
+    /// with it in the words that its author needs; exit status 1 if something is, 2 if it cannot
+    /// be talked to
+    Doctor(doctor::DoctorArgs),
+    /// Print a JSON Schema, for editors and for authors of solvers
+    Schema(generate::SchemaArgs),
+    /// Print the time step of every level, as the suite asks for it and as it is taken; exit status
+    /// 1 if one is off by more than 1 %
+    Steps(list::StepsArgs),
+    /// Write the initial state of one level, ready to be stepped by any solver, or its exact state
+    /// at a time: particles, grid, faces, material, steps
+    Problem(problem::ProblemArgs),
+    /// Measure what accuracy costs: error against work and seconds, the cheapest method for an
+    /// error, and the most accurate setting within a budget
+    Cost(cost::CostArgs),
+    /// Compare two runs or two sets of snapshots, and list the changes, the most important first;
+    /// exit status 1 if something got worse (a verdict, an error, a limit of stability, the work),
+    /// 2 on bad input
+    Compare(compare::CompareArgs),
+    /// Print a script with which a shell completes the words of this command line
+    Completions(generate::CompletionsArgs),
+    /// Print the page of this program for `man`
+    Man(generate::ManArgs),
+}
+
+/// Parses the command line and runs the command. Output that could not be written is an error.
+pub(crate) fn main() -> ExitCode {
+    let words = with_command(std::env::args_os().collect(), &Cli::command());
+    let mut status = words.and_then(run_words).unwrap_or_else(|error| {
+        output::complain(&error.to_string());
+        Status::BadInput
+    });
+    if let Some(message) = output::failure() {
+        output::complain(message);
+        status = Status::BadInput;
+    }
+    status.into()
+}
+
+fn run_words(words: Vec<OsString>) -> Result<Status, CommandError> {
     match Cli::try_parse_from(words) {
         Ok(cli) => {
             cli.color.write_global();
-            done(cli.command)
+            run_command(cli.command)
         }
         // Help and the version too, which are printed to standard output.
         Err(mut answer) => {
@@ -64,28 +121,71 @@ fn parsed(words: Vec<OsString>) -> u8 {
                 answer.remove(ContextKind::Suggested);
             }
             output::keep(answer.print());
-            if answer.use_stderr() { BAD_INPUT } else { PASSED }
+            Ok(if answer.use_stderr() { Status::BadInput } else { Status::Passed })
         }
     }
 }
 
-fn done(command: Command) -> u8 {
+fn run_command(command: Command) -> Result<Status, CommandError> {
     match command {
         Command::Run(args) => run::run(&args),
         Command::New(args) => new::new(&args),
-        Command::Merge(args) => merge::merge(&args),
-        Command::List(args) => list::list(&args),
+        Command::Merge(args) => run::merge(&args),
+        Command::List(args) => Ok(list::list(&args)),
         Command::Check(args) => check::check(&args),
         Command::Explain(args) => explain::explain(&args),
         Command::Diagnose(args) => diagnose::diagnose(&args),
         Command::Doctor(args) => doctor::doctor(&args),
         Command::Propose(args) => propose::propose(&args),
-        Command::Schema(args) => schema::schema(&args),
-        Command::Steps(args) => steps::steps(&args),
+        Command::Schema(args) => Ok(generate::schema(&args)),
+        Command::Steps(args) => Ok(list::steps(&args)),
         Command::Problem(args) => problem::problem(&args),
         Command::Cost(args) => cost::cost(&args),
         Command::Compare(args) => compare::compare(&args),
-        Command::Completions(args) => shell::completions(&args),
-        Command::Man(args) => shell::man(&args),
+        Command::Completions(args) => Ok(generate::completions(&args, Cli::command())),
+        Command::Man(args) => generate::man(&args, Cli::command()),
     }
+}
+
+/// The arguments with `run` in front of those that name no command.
+///
+/// # Errors
+/// If the first argument is neither a command nor a suite, and is most like a command.
+fn with_command(words: Vec<OsString>, cli: &clap::Command) -> Result<Vec<OsString>, CommandError> {
+    let at = first(&words);
+    let word = words.get(at).map(|word| word.to_string_lossy());
+    let word = word.as_deref().unwrap_or_default();
+    if ["help", "-h", "--help", "-V", "--version"].contains(&word) {
+        return Ok(words);
+    }
+    let commands: Vec<&str> = cli.get_subcommands().map(clap::Command::get_name).collect();
+    if commands.contains(&word) {
+        return Ok(words);
+    }
+    if !word.is_empty() && !word.starts_with('-') && !select::is_known(word) {
+        let suites = select::suite_names();
+        let known = suites.iter().map(String::as_str).chain(commands.iter().copied());
+        let near = nearest(word, known).filter(|near| commands.contains(near));
+        if let Some(command) = near.filter(|near| suites.iter().all(|suite| suite != near)) {
+            let message = format!("there is no command or suite called `{word}`");
+            let help = format!("did you mean the command `{command}`?");
+            return Err(CommandError::Message(format!("{message}\nhelp: {help}")));
+        }
+    }
+    let mut words = words;
+    words.insert(at, "run".into());
+    Ok(words)
+}
+
+/// Place of the first argument after the program's name and the options that any command has.
+fn first(words: &[OsString]) -> usize {
+    let mut at = words.len().min(1);
+    while let Some(word) = words.get(at).and_then(|word| word.to_str()) {
+        match word {
+            "--color" => at += 2,
+            _ if word.starts_with("--color=") => at += 1,
+            _ => break,
+        }
+    }
+    at.min(words.len())
 }

@@ -1,8 +1,9 @@
 //! `mpm-verify propose`: entries of `expect` that a run supports.
 
-use super::args::ProposeArgs;
-use super::status::BAD_INPUT;
-use super::{output, show, solver};
+use super::arguments::{FormatArgs, SolverArgs, Targets};
+use super::status::{CommandError, Status};
+use super::{show, solver};
+use clap::Args;
 use mpm_verify::external::SolverFactory;
 use mpm_verify::report;
 use mpm_verify::study::{Runner, preflight, under};
@@ -10,38 +11,42 @@ use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use serde_json::json;
 
+#[derive(Debug, Args)]
+pub(super) struct ProposeArgs {
+    #[command(flatten)]
+    targets: Targets,
+    #[command(flatten)]
+    format: FormatArgs,
+    #[command(flatten)]
+    solver: SolverArgs,
+}
+
 /// Runs each suite as if it expected nothing, and prints what it could expect.
-pub(super) fn propose(args: &ProposeArgs) -> u8 {
+pub(super) fn propose(args: &ProposeArgs) -> Result<Status, CommandError> {
     let targets = &args.targets.targets;
-    let solver = match solver::greeted(&args.solver) {
-        Ok(solver) => solver,
-        Err(message) => {
-            output::complain(&message);
-            return BAD_INPUT;
-        }
-    };
+    let solver = solver::greeted(&args.solver)?;
     let solver = solver.as_ref().map(|solver| solver as &dyn SolverFactory);
     if args.format.is_json() {
-        return show::json(targets, |source, suite| {
+        return Ok(show::json(targets, |source, suite| {
             Ok(json!({"suite": suite.name, "yaml": of_suite(source, suite, solver)?}))
-        });
+        }));
     }
-    show::try_each(targets, |source, suite| of_suite(source, suite, solver))
+    Ok(show::try_each(targets, |source, suite| of_suite(source, suite, solver)))
 }
 
 fn of_suite(
     source: &Source,
     suite: &Suite,
     solver: Option<&dyn SolverFactory>,
-) -> Result<String, String> {
+) -> Result<String, CommandError> {
     let name = &suite.name;
-    let looks_inside = || format!("error: {name}: it looks inside the methods of this crate");
+    let looks_inside = || CommandError::about(name, "it looks inside the methods of this crate");
     let suite = match solver {
         None => suite,
         Some(solver) => &under(suite, solver, false).ok_or_else(looks_inside)?,
     };
     let exploring = suite.without_expectations().ok_or_else(|| {
-        format!("error: {name}: expectations are proposed for convergence studies only")
+        CommandError::about(name, "expectations are proposed for convergence studies only")
     })?;
     let runner = Runner::new(&exploring);
     let outcome = match solver {
@@ -50,7 +55,7 @@ fn of_suite(
     }
     .run(&|| ());
     if let Some(refused) = outcome.cases.iter().find(|case| case.study.is_none()) {
-        return Err(format!("error: {name}::{}: {}", refused.case, refused.reason));
+        return Err(CommandError::about(format_args!("{name}::{}", refused.case), &refused.reason));
     }
     // The amplitude, the grid and the steps, which no claim can make up for.
     let found = preflight(&exploring, source);

@@ -45,32 +45,6 @@ fn everything() -> Sources {
     }
 }
 
-/// Files and folders that `targets` name: what can change.
-///
-/// # Errors
-/// If one of them names no file: a suite that is built in, or none.
-pub(super) fn places(targets: &[PathBuf]) -> Result<Vec<PathBuf>, Diagnostic> {
-    if targets.is_empty() {
-        let folder = Path::new(FOLDER);
-        let message = format!("there is no folder `{FOLDER}/` to watch");
-        let help = "name a file or a folder: suites that are built in do not change";
-        let found = folder.is_dir().then(|| vec![folder.to_path_buf()]);
-        return found.ok_or_else(|| Diagnostic::about("--watch", &message).with_help(help));
-    }
-    targets.iter().map(|target| place(target).ok_or_else(|| no_file(target))).collect()
-}
-
-fn no_file(target: &Path) -> Diagnostic {
-    let name = target.to_string_lossy();
-    let message = match &*name {
-        STDIN => "standard input does not change".to_owned(),
-        _ if is_pattern(target) => format!("`{name}` is a pattern of names, and none of a file"),
-        _ if named(&name).is_none() => return unknown(&name),
-        _ => format!("`{name}` is built in: there is no file to watch"),
-    };
-    Diagnostic::about("--watch", &message).with_help("name a file or a folder")
-}
-
 /// Names of the suites that `targets` name one by one: as a file, by name or on standard input, and
 /// not by a folder, a group or a pattern. `suites` are all that the targets select.
 pub(super) fn named_singly(targets: &[PathBuf], suites: &[Suite]) -> BTreeSet<String> {

@@ -1,7 +1,8 @@
 //! Suites under a solver of another program.
 
-use super::args::SolverArgs;
+use super::arguments::SolverArgs;
 use super::output;
+use super::status::CommandError;
 use mpm_verify::external::{ProgramLimits, SolverFactory, SolverProgram};
 use mpm_verify::study::under_on;
 use mpm_verify::suite::{GateTerms, Suite};
@@ -11,16 +12,17 @@ use std::time::Duration;
 /// The solver that the command line names, if it does.
 ///
 /// # Errors
-/// One line that says what is wrong with it.
-pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, String> {
+/// The solver cannot be used.
+pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, CommandError> {
     let Some(command) = &args.solver else { return Ok(None) };
     let silence = Duration::try_from_secs_f64(args.solver_timeout)
-        .map_err(|error| format!("error: --solver-timeout: {error}"))?;
+        .map_err(|error| CommandError::about("--solver-timeout", error))?;
     let memory = args.solver_memory.map(|mb| mb.saturating_mul(1_000_000));
     let limits = ProgramLimits { silence, memory };
     let solver = SolverProgram::greet(command, limits);
-    let solver =
-        solver.map_err(|reason| format!("error: --solver {command}: the solver {reason}"))?;
+    let solver = solver.map_err(|error| {
+        CommandError::option("--solver", command, format_args!("the solver {error}"))
+    })?;
     for warning in solver.warnings() {
         output::complain(&format!("warning: capabilities of the solver: {warning}"));
     }

@@ -1,6 +1,7 @@
-//! Abilities of solvers, and needs of problems.
+//! Abilities of solvers, needs of problems, and the names that both have for them.
 
-use super::names;
+use crate::members::{each_effect, each_material};
+use crate::nearest::nearest;
 use serde::{Deserialize, Serialize};
 
 /// Abilities of a solver. What is not named is lacking.
@@ -101,7 +102,7 @@ impl Capabilities {
             ("columns", &self.columns, &column),
         ] {
             let missing = wanted.iter().filter(|name| !has.iter().any(|known| known == *name));
-            lacking.extend(missing.map(|name| match names::misspelt(capability, name, has) {
+            lacking.extend(missing.map(|name| match misspelt(capability, name, has) {
                 Some(stated) => format!("{capability}: {name} (stated as `{stated}`)"),
                 None => format!("{capability}: {name}"),
             }));
@@ -139,8 +140,8 @@ impl Capabilities {
     #[cfg(feature = "external-programs")]
     pub(super) fn unknown_names(&self, keys: &[String]) -> Vec<String> {
         let mut warnings = Vec::new();
-        for key in keys.iter().filter(|key| !names::KEYS.contains(&key.as_str())) {
-            let hint = names::hint(key, names::KEYS);
+        for key in keys.iter().filter(|key| !KEYS.contains(&key.as_str())) {
+            let hint = hint(key, KEYS);
             warnings.push(format!("unknown capability `{key}`; {hint}"));
         }
         for (capability, stated) in [
@@ -149,9 +150,9 @@ impl Capabilities {
             ("loads", &self.loads),
             ("columns", &self.columns),
         ] {
-            let known = names::known(capability);
+            let known = known(capability);
             for name in stated.iter().filter(|name| !known.contains(&name.as_str())) {
-                let hint = names::hint(name, known);
+                let hint = hint(name, known);
                 warnings.push(format!("`{name}` is not one of the {capability}; {hint}"));
             }
         }
@@ -193,6 +194,81 @@ impl ProblemNeeds {
             self.flags().into_iter().filter(|(name, wanted)| *wanted && !old.contains(name));
         all.extend(flags.map(|(name, _)| name.to_owned()));
         all
+    }
+}
+
+/// Declares the names of the materials, from the lines of [`each_material`](crate::members).
+macro_rules! laws {
+    ($($name:literal => $file:ident::$law:ident {$($parameters:tt)*}
+        $(, truth $truth_file:ident::$truth:ident)?;)+
+    ) => {
+        /// Names of the materials.
+        const LAWS: &[&str] = &[$($name),+];
+    };
+}
+
+each_material!(laws);
+
+/// Declares the names of the loads and effects, from the lines of [`each_effect`](crate::members).
+macro_rules! loads {
+    ($($(#[$meta:meta])* $member:ident = $name:literal => $file:ident::$spec:ident
+        $(, effect $effect_file:ident::$effect:ident)? $(, needs [$($need:ident),+])?;)+
+    ) => {
+        /// Names of the loads and effects.
+        const LOADS: &[&str] = &[$($name),+];
+    };
+}
+
+each_effect!(loads);
+
+/// Names of the conditions on faces.
+const CONDITIONS: &[&str] = &["free", "fixed", "roller", "periodic", "friction", "velocity"];
+
+/// Names of the optional columns of a state.
+const COLUMNS: &[&str] = &["stress", "deformation_gradient", "temperature"];
+
+/// Keys of the capabilities.
+#[cfg(feature = "external-programs")]
+const KEYS: &[&str] = &[
+    "dimensions",
+    "laws",
+    "conditions",
+    "loads",
+    "columns",
+    "manufactured",
+    "initial_deformation",
+    "several_bodies",
+    "contact",
+    "plane_stress",
+    "axisymmetric",
+    "initial_stress",
+    "displacement_force",
+    "binary",
+];
+
+/// The names that the list called `capability` may contain.
+fn known(capability: &str) -> &'static [&'static str] {
+    match capability {
+        "laws" => LAWS,
+        "conditions" => CONDITIONS,
+        "loads" => LOADS,
+        _ => COLUMNS,
+    }
+}
+
+/// The unknown name among `stated` that most likely means `name`.
+fn misspelt<'a>(capability: &str, name: &str, stated: &'a [String]) -> Option<&'a str> {
+    let known = known(capability);
+    let unknown = stated.iter().map(String::as_str).filter(|stated| !known.contains(stated));
+    unknown.into_iter().find(|stated| nearest(stated, known.iter().copied()) == Some(name))
+}
+
+/// The known name that a misspelt one most likely means, or all of them.
+#[cfg(feature = "external-programs")]
+fn hint(name: &str, known: &[&'static str]) -> String {
+    match nearest(name, known.iter().copied()) {
+        Some(known) => format!("did you mean `{known}`?"),
+        None => format!("known: {}", known.join(", ")),
     }
 }
 
@@ -257,7 +333,7 @@ mod tests {
     fn known_keys_are_the_fields_of_the_capabilities() {
         let all = serde_json::to_value(Capabilities::default()).unwrap();
         let mut fields: Vec<&str> = all.as_object().unwrap().keys().map(String::as_str).collect();
-        let mut keys = names::KEYS.to_vec();
+        let mut keys = KEYS.to_vec();
         fields.sort_unstable();
         keys.sort_unstable();
         assert_eq!(keys, fields);
@@ -283,7 +359,7 @@ mod tests {
         for (warning, expected) in warnings.iter().zip(expected) {
             assert!(warning.starts_with(expected), "{warning}");
         }
-        let misspelt = |name| names::misspelt("laws", name, &stated.laws);
+        let misspelt = |name| misspelt("laws", name, &stated.laws);
         assert_eq!(misspelt("linear_elastic"), Some("linear-elastic"));
         assert_eq!(misspelt("hencky"), None);
     }

@@ -5,6 +5,7 @@ use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
+use thiserror::Error;
 
 /// A constant: one number, or the components of a vector.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -101,20 +102,15 @@ impl<'a> FieldPlaces<'a> {
     }
 }
 
-/// Why there are no values.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// Reason for which there are no values.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum FieldError {
     /// The request is wrong: one line.
+    #[error("{0}")]
     Request(String),
     /// The problem does not define the values that are requested: one line.
+    #[error("{0}")]
     Undefined(String),
-}
-
-impl fmt::Display for FieldError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (Self::Request(reason) | Self::Undefined(reason)) = self;
-        f.write_str(reason)
-    }
 }
 
 /// Evaluates the fields of a scene.

@@ -1,14 +1,12 @@
-//! Solvers that are not of this crate: the problem that they are handed, ready to be stepped, and
-//! the protocol by which a program takes part.
+//! External solvers: the problem that they receive, ready to be stepped, and the protocol by which a
+//! program takes part.
 //!
 //! ```text
 //! problem        initial state of one level: particles, grid, faces, materials, loads, steps
-//! particles      particles at the start
 //! fields         quantities of a problem at any place and time
-//! names          names that capabilities may contain
-//! capabilities   what a solver can do, and what a problem needs
+//! capabilities   what a solver can do, what a problem needs, and the names of both
 //! factory        makes a subject of each problem: of a library's user, or
-//! format/        a problem as a file
+//! format         a problem as a file
 //! program/       of a command that speaks the protocol (docs/protocol.md)
 //! ```
 
@@ -17,8 +15,6 @@ mod factory;
 mod fields;
 #[cfg(feature = "external-programs")]
 mod format;
-mod names;
-mod particles;
 mod problem;
 #[cfg(feature = "external-programs")]
 mod program;
@@ -32,10 +28,9 @@ pub use fields::{
 pub(crate) use fields::{FieldSource, ForceSource, owned};
 #[cfg(feature = "external-programs")]
 pub use format::ProblemFormat;
-pub use particles::ProblemParticles;
 pub use problem::{
     LevelProblem, ProblemBody, ProblemContact, ProblemFace, ProblemGrid, ProblemLoad,
-    ProblemMaterial, ProblemRegion,
+    ProblemMaterial, ProblemParticles, ProblemRegion,
 };
 #[cfg(feature = "external-programs")]
-pub use program::{ProgramLimits, SolverProgram, protocol_schema, read_answers};
+pub use program::{ProgramError, ProgramLimits, SolverProgram, protocol_schema, read_answers};

@@ -1,42 +1,62 @@
 //! `mpm-verify new`: a suite to begin with.
 
-pub(super) mod args;
-mod ask;
 mod template;
 
+use super::arguments::FormatArgs;
 use super::output;
-use super::status::{BAD_INPUT, PASSED};
-use args::{LawChoice, NewArgs, TruthChoice};
-use ask::Question;
-use clap::ValueEnum;
+use super::status::{CommandError, Status};
+use clap::{Args, ValueEnum};
 use mpm_verify::mpm::{BasisName, SchemeName, TransferName};
+use mpm_verify::nearest;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
 use std::fs::File;
-use std::io::{self, Write};
+use std::io::{self, BufRead, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use template::{Choices, NamedChoice};
+use template::{Choices, LawChoice, NamedChoice, TruthChoice};
 
-/// Writes a suite, and says where it is and what comes next.
-pub(super) fn new(args: &NewArgs) -> u8 {
-    match written(args) {
-        Ok(path) => {
-            let path = path.display().to_string();
-            output::print(&if args.format.is_json() {
-                format!("{:#}\n", serde_json::json!({"file": path}))
-            } else {
-                format!("wrote {path}\nnext: mpm-verify check {path}\n")
-            });
-            PASSED
-        }
-        Err(message) => {
-            output::complain(&message);
-            BAD_INPUT
-        }
-    }
+#[derive(Debug, Args)]
+pub(super) struct NewArgs {
+    /// Name of the suite: lower-case letters, digits and hyphens
+    #[arg(value_name = "NAME")]
+    name: String,
+    /// Dimension of space [default: 1]
+    #[arg(long, value_name = "D", value_parser = ["1", "2", "3"])]
+    dimension: Option<String>,
+    /// Material of the body [default: neo_hookean, or the one that goes with the truth]
+    #[arg(long, value_enum)]
+    material: Option<LawChoice>,
+    /// Exact solution [default: the one that goes with the material]
+    #[arg(long, value_enum)]
+    truth: Option<TruthChoice>,
+    /// Basis functions [default: quadratic_bspline]
+    #[arg(long)]
+    basis: Option<String>,
+    /// Transfer between particles and grid [default: flip]
+    #[arg(long)]
+    transfer: Option<String>,
+    /// Time scheme [default: musl]
+    #[arg(long)]
+    scheme: Option<String>,
+    /// File to write; one that is there is left alone [default: NAME.yaml]
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
-fn written(args: &NewArgs) -> Result<PathBuf, String> {
+/// Writes a suite, and says where it is and what comes next.
+pub(super) fn new(args: &NewArgs) -> Result<Status, CommandError> {
+    let path = written(args)?.display().to_string();
+    output::print(&if args.format.is_json() {
+        format!("{:#}\n", serde_json::json!({"file": path}))
+    } else {
+        format!("wrote {path}\nnext: mpm-verify check {path}\n")
+    });
+    Ok(Status::Passed)
+}
+
+fn written(args: &NewArgs) -> Result<PathBuf, CommandError> {
     let path = args.output.clone().unwrap_or_else(|| format!("{}.yaml", args.name).into());
     // Before any question; `save` makes sure.
     if path.exists() {
@@ -44,13 +64,13 @@ fn written(args: &NewArgs) -> Result<PathBuf, String> {
     }
     let choices = choices(args)?;
     let text = template::text(&choices, &path);
-    load(&choices, &path, &text).map_err(|diagnostic| diagnostic.to_string())?;
+    load(&choices, &path, &text)?;
     save(&path, &text)?;
     Ok(path)
 }
 
 /// All choices: those of the options, and the answers or defaults.
-fn choices(args: &NewArgs) -> Result<Choices, String> {
+fn choices(args: &NewArgs) -> Result<Choices, CommandError> {
     let law = law(args)?;
     let dimension = setting("dimension", args.dimension.as_ref(), vec!["1", "2", "3"], "1");
     let bases = BasisName::ALL.iter().map(|basis| basis.name()).collect();
@@ -78,21 +98,22 @@ fn setting(
 }
 
 /// The material, which settles the truth.
-fn law(args: &NewArgs) -> Result<LawChoice, String> {
+fn law(args: &NewArgs) -> Result<LawChoice, CommandError> {
     if let (Some(law), Some(truth)) = (args.material, args.truth)
         && law.truth() != truth
     {
         let law = law.name();
-        return Err(match truth {
+        let reason = match truth {
             TruthChoice::Manufactured => format!(
-                "error: --truth manufactured: no force is manufactured for `{law}`, a law in rate \
+                "no force is manufactured for `{law}`, a law in rate \
                  form has no stress of the deformation alone"
             ),
             TruthChoice::StandingWave => format!(
-                "error: --truth standing_wave: no wave of `{law}` stands, waves of finite strain \
+                "no wave of `{law}` stands, waves of finite strain \
                  steepen; it is a truth of `linear_elastic`"
             ),
-        });
+        };
+        return Err(CommandError::option("--truth", truth.name(), reason));
     }
     if let Some(law) = args.material {
         return Ok(law);
@@ -102,7 +123,7 @@ fn law(args: &NewArgs) -> Result<LawChoice, String> {
     let laws: Vec<LawChoice> = truths.iter().flat_map(|truth| truth.laws()).copied().collect();
     let names: Vec<&str> = laws.iter().map(|law| law.name()).collect();
     let answer = Question { what: "material", choices: &names, default: names[0] }.ask();
-    LawChoice::from_str(&answer, false)
+    LawChoice::from_str(&answer, false).map_err(CommandError::Message)
 }
 
 /// Loads the suite. Where an option is to blame, the diagnostic shows that, not a file that is not
@@ -132,15 +153,83 @@ fn at_its_option(choices: &Choices, text: &str, diagnostic: &Diagnostic) -> Opti
 }
 
 /// Writes a new file; one that has come meanwhile stays as it is.
-fn save(path: &Path, text: &str) -> Result<(), String> {
+fn save(path: &Path, text: &str) -> Result<(), CommandError> {
     let written = File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
     written.map_err(|error| match error.kind() {
         io::ErrorKind::AlreadyExists => in_the_way(path),
-        _ => format!("error: {}: {error}", path.display()),
+        _ => CommandError::about(path.display(), error),
     })
 }
 
-fn in_the_way(path: &Path) -> String {
+fn in_the_way(path: &Path) -> CommandError {
     let path = path.display();
-    format!("error: {path} is there already, and is not overwritten; --output names another file")
+    CommandError::Message(format!(
+        "{path} is there already, and is not overwritten; --output names another file"
+    ))
+}
+
+/// A choice that no option has made.
+struct Question<'a> {
+    /// Subject of the question.
+    what: &'a str,
+    choices: &'a [&'a str],
+    /// The choice that an empty answer stands for.
+    default: &'a str,
+}
+
+impl Question<'_> {
+    /// The answer on standard input if that is a terminal; the default otherwise, and where there
+    /// is nothing to choose.
+    fn ask(&self) -> String {
+        let input = std::io::stdin();
+        if self.choices.len() < 2 || !input.is_terminal() {
+            return self.default.to_owned();
+        }
+        self.ask_on(&mut input.lock(), &mut std::io::stderr())
+    }
+
+    /// Asks until one of the choices is named; an empty line, or the end of input, takes the
+    /// default.
+    fn ask_on(&self, input: &mut impl BufRead, out: &mut impl Write) -> String {
+        let Self { what, choices, default } = self;
+        loop {
+            let _ = write!(out, "{what} ({}) [{default}]: ", choices.join(", "));
+            let _ = out.flush();
+            let mut line = String::new();
+            let is_over = !input.read_line(&mut line).is_ok_and(|bytes| bytes > 0);
+            let answer = line.trim();
+            if is_over || answer.is_empty() {
+                return (*default).to_owned();
+            }
+            if choices.contains(&answer) {
+                return answer.to_owned();
+            }
+            let near = nearest(answer, choices.iter().copied());
+            let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            let _ = writeln!(out, "`{answer}` is none of these{help}");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case::named("usl\n", "usl", 1)]
+    #[case::nothing_said("\n", "musl", 1)]
+    #[case::spaces("  usf \n", "usf", 1)]
+    #[case::end_of_input("", "musl", 1)]
+    #[case::asked_again("mulsl\nusl\n", "usl", 2)]
+    #[case::no_line_end("usf", "usf", 1)]
+    fn answers(#[case] typed: &str, #[case] wanted: &str, #[case] asked: usize) {
+        let question =
+            Question { what: "time scheme", choices: &["usf", "usl", "musl"], default: "musl" };
+        let mut out = Vec::new();
+        assert_eq!(question.ask_on(&mut typed.as_bytes(), &mut out), wanted);
+        let out = String::from_utf8(out).unwrap();
+        assert_eq!(out.matches("time scheme (usf, usl, musl) [musl]: ").count(), asked, "{out}");
+        assert_eq!(out.contains("did you mean `musl`?"), asked > 1, "{out}");
+    }
 }

@@ -1,12 +1,70 @@
-//! The text of a new suite.
+//! The text of a new suite: a template for each kind of exact solution, and one for the method.
 
-use super::args::{LawChoice, TruthChoice};
+use clap::ValueEnum;
 use std::path::Path;
 
-/// Width of what stands before a comment.
-const WIDTH: usize = 33;
+const MANUFACTURED: &str = include_str!("manufactured.yaml");
+const STANDING_WAVE: &str = include_str!("standing_wave.yaml");
+const METHOD: &str = include_str!("method.yaml");
 
-/// Choices of a new suite, in the words of suites.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub(in crate::cli) enum LawChoice {
+    /// Small strain, in MPM integrated in rate form
+    LinearElastic,
+    /// Finite strain
+    NeoHookean,
+    /// Finite strain, linear in the logarithmic strain
+    Hencky,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub(in crate::cli) enum TruthChoice {
+    /// A stated motion along the axes, and the body force that it takes
+    Manufactured,
+    /// A standing wave of small strain
+    StandingWave,
+}
+
+impl LawChoice {
+    /// Name of the material in suites.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::LinearElastic => "linear_elastic",
+            Self::NeoHookean => "neo_hookean",
+            Self::Hencky => "hencky",
+        }
+    }
+
+    /// The exact solution that is known for the material.
+    pub(super) fn truth(self) -> TruthChoice {
+        match self {
+            Self::LinearElastic => TruthChoice::StandingWave,
+            Self::NeoHookean | Self::Hencky => TruthChoice::Manufactured,
+        }
+    }
+}
+
+impl TruthChoice {
+    /// Name of the solution on the command line.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Manufactured => "manufactured",
+            Self::StandingWave => "standing_wave",
+        }
+    }
+
+    /// Materials for which the solution is known, the default first.
+    pub(super) fn laws(self) -> &'static [LawChoice] {
+        match self {
+            Self::Manufactured => &[LawChoice::NeoHookean, LawChoice::Hencky],
+            Self::StandingWave => &[LawChoice::LinearElastic],
+        }
+    }
+}
+
+/// Choices of a new suite, by their names in suites.
 pub(super) struct Choices {
     pub(super) name: String,
     pub(super) dimension: String,
@@ -19,197 +77,96 @@ pub(super) struct Choices {
 /// A setting of the method.
 pub(super) struct NamedChoice {
     pub(super) value: String,
-    /// Names that it may have.
+    /// Names that the setting may have.
     pub(super) known: Vec<&'static str>,
 }
 
-/// All that depends on the dimension. Levels run within seconds, in 3-D the coarse ones only; steps
-/// divide the time between instants.
-struct Shape {
-    body: &'static str,
-    zeros: &'static str,
-    lengths: &'static str,
-    boundary: &'static str,
-    held: &'static str,
-    cells: &'static str,
-    ppc: &'static str,
-    instants: &'static str,
-    /// Axes, and phases of a motion along each: some parts are stretched while others are
-    /// compressed.
-    axes: &'static [(&'static str, &'static str)],
-}
-
-const BAR: Shape = Shape {
-    body: "bar",
-    zeros: "[0]",
-    lengths: "[L]",
-    boundary: "{left: fixed, right: fixed}",
-    held: "a face that is not named is free",
-    cells: "[8, 16, 32, 64]",
-    ppc: "4",
-    instants: "8",
-    axes: &[("X", "")],
-};
-
-const SQUARE: Shape = Shape {
-    body: "square",
-    zeros: "[0, 0]",
-    lengths: "[L, L]",
-    boundary: "{left: roller, right: roller, bottom: roller, top: roller}",
-    held: "a roller holds along its normal; a face that is not named is free",
-    cells: "[8, 12, 16, 24]",
-    ppc: "4",
-    instants: "8",
-    axes: &[("X", ""), ("Y", " + pi")],
-};
-
-const CUBE: Shape = Shape {
-    body: "cube",
-    zeros: "[0, 0, 0]",
-    lengths: "[L, L, L]",
-    boundary: "{left: roller, right: roller, bottom: roller, top: roller, back: roller, front: roller}",
-    held: "a roller holds along its normal; a face that is not named is free",
-    cells: "[8, 10, 12, 16]",
-    ppc: "8",
-    instants: "4",
-    axes: &[("X", ""), ("Y", " + 2*pi/3"), ("Z", " + 4*pi/3")],
-};
+/// Variables of the templates that depend on the dimension. Levels run within seconds, in 3-D the
+/// coarse ones only; steps divide the time between instants. The motion has another phase along
+/// each axis, so that some parts are stretched while others are compressed.
+const SHAPES: [[(&str, &str); 9]; 3] = [
+    [
+        ("body", "bar"),
+        ("zeros", ""),
+        ("edges", ""),
+        ("condition", "a face that is not named is free"),
+        ("boundary", "left: fixed, right: fixed"),
+        ("cells", "[8, 16, 32, 64]"),
+        ("ppc", "4"),
+        ("instants", "8"),
+        ("transverse", ""),
+    ],
+    [
+        ("body", "square"),
+        ("zeros", ", 0"),
+        ("edges", ", L"),
+        ("condition", "a roller holds along its normal; a face that is not named is free"),
+        ("boundary", "left: roller, right: roller, bottom: roller, top: roller"),
+        ("cells", "[8, 12, 16, 24]"),
+        ("ppc", "4"),
+        ("instants", "8"),
+        ("transverse", "\n    - \"A*sin(pi*Y/L)*sin(omega*t + pi)\""),
+    ],
+    [
+        ("body", "cube"),
+        ("zeros", ", 0, 0"),
+        ("edges", ", L, L"),
+        ("condition", "a roller holds along its normal; a face that is not named is free"),
+        (
+            "boundary",
+            "left: roller, right: roller, bottom: roller, top: roller, back: roller, front: roller",
+        ),
+        ("cells", "[8, 10, 12, 16]"),
+        ("ppc", "8"),
+        ("instants", "4"),
+        (
+            "transverse",
+            "\n    - \"A*sin(pi*Y/L)*sin(omega*t + 2*pi/3)\"\n    - \"A*sin(pi*Z/L)*sin(omega*t + 4*pi/3)\"",
+        ),
+    ],
+];
 
 /// The suite, with a comment for each key; `path` is where it will be.
 pub(super) fn text(choices: &Choices, path: &Path) -> String {
-    let shape = match choices.dimension.as_str() {
-        "1" => BAR,
-        "2" => SQUARE,
-        _ => CUBE,
+    let Choices { name, dimension, law, basis, transfer, scheme } = choices;
+    let [bar, square, cube] = &SHAPES;
+    let shape = match dimension.as_str() {
+        "1" => bar,
+        "2" => square,
+        _ => cube,
     };
-    let wave = choices.law.truth() == TruthChoice::StandingWave;
-    let parts = [
-        head(choices, &shape, wave),
-        parameters(&shape, wave),
-        scene(choices, &shape, wave),
-        truth(&shape, wave),
-        numerics(&shape),
-        method(choices),
-        next(path),
+    let problem = match law.truth() {
+        TruthChoice::Manufactured => MANUFACTURED,
+        TruthChoice::StandingWave => STANDING_WAVE,
+    };
+    let name = serde_json::Value::from(name.as_str()).to_string();
+    let path = path.display().to_string();
+    let known = [basis, transfer, scheme].map(|setting| setting.known.join(", "));
+    let chosen = [
+        ("name", name.as_str()),
+        ("dimension", dimension),
+        ("law", law.name()),
+        ("bases", &known[0]),
+        ("basis", &basis.value),
+        ("transfers", &known[1]),
+        ("transfer", &transfer.value),
+        ("schemes", &known[2]),
+        ("scheme", &scheme.value),
+        ("path", &path),
     ];
-    parts.join("\n")
+    substitute(&[problem, METHOD].concat(), &[&chosen, shape.as_slice()].concat())
 }
 
-/// A line with a comment.
-fn line(words: &str, comment: &str) -> String {
-    format!("{words:<WIDTH$}  # {comment}\n")
-}
-
-fn head(choices: &Choices, shape: &Shape, wave: bool) -> String {
-    let (body, law) = (shape.body, choices.law.name());
-    let name = serde_json::Value::from(choices.name.as_str());
-    let mut text = line(&format!("suite: {name}"), "the name in reports and tests");
-    if wave {
-        text += &format!(
-            "title: Standing wave in a {body} ({law})\n\
-             source: \"Achenbach (1973), Wave Propagation in Elastic Solids: dilatational waves\"\n\
-             about: >\n  A {body} is stretched and compressed along x, in the lowest mode of waves \
-             of compression.\n  Strains are 3e-7: the truth is one of small strain, and no particle \
-             changes its cell.\n"
-        );
-    } else {
-        text += &format!(
-            "title: Manufactured motion of a {body} ({law})\n\
-             source: \"Wallstedt & Guilkey (2008), J. Comput. Phys. 227: manufactured solutions\"\n\
-             about: >\n  A {body} follows a stated motion, stretched and compressed along its axes. \
-             The body force that\n  drives it is derived from the motion. Strains are 3 %.\n"
-        );
+/// The template with the value of each `$variable` in its place. Values may contain `$`.
+fn substitute(template: &str, values: &[(&str, &str)]) -> String {
+    let mut parts = template.split('$');
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let end = part.find(|c: char| !c.is_ascii_lowercase()).unwrap_or(part.len());
+        let (variable, rest) = part.split_at(end);
+        let value = values.iter().find(|(name, _)| *name == variable).map(|(_, value)| *value);
+        text += value.unwrap_or_default();
+        text += rest;
     }
     text
-}
-
-fn parameters(shape: &Shape, wave: bool) -> String {
-    let amplitude = if wave { "1e-7*L" } else { "0.01*L" };
-    let speed = "sqrt(E*(1 - nu)/((1 + nu)*(1 - 2*nu)*rho))";
-    let mut text = line("parameters:", "numbers, or formulas of the parameters above them");
-    text += &line("  L: 1", &format!("edge of the {} (m)", shape.body));
-    text += &line("  E: 1e4", "Young's modulus (Pa)");
-    text += &line("  nu: 0.3", "Poisson's ratio");
-    text += &line("  rho: 1", "density (kg/m3)");
-    text += &line(&format!("  A: \"{amplitude}\""), "amplitude (m); strains are pi A/L");
-    text += &line(&format!("  c: \"{speed}\""), "speed of waves (m/s)");
-    text + &line("  omega: \"pi*c/L\"", "angular frequency (1/s)")
-}
-
-fn scene(choices: &Choices, shape: &Shape, wave: bool) -> String {
-    let Shape { zeros, lengths, boundary, held, .. } = shape;
-    let (dimension, law) = (&choices.dimension, choices.law.name());
-    let mut text = line("scene:", "only what is there: loads would stand here too");
-    text += &format!(
-        "  dimension: {dimension}\n  \
-           body: {{box: {{from: {zeros}, to: {lengths}}}}}\n  \
-           material: {{{law}: {{young: E, poisson: nu, density: rho}}}}\n  \
-           # {held}\n  \
-           boundary: {boundary}\n"
-    );
-    if wave {
-        let formulas = along_x(shape, "A*omega*sin(pi*X/L)");
-        text +=
-            &format!("  # at t = 0, as the truth below has it\n  initial_velocity: {formulas}\n");
-    }
-    text
-}
-
-/// A vector of which only the first component is not zero.
-fn along_x(shape: &Shape, formula: &str) -> String {
-    let zeros = ", 0".repeat(shape.axes.len() - 1);
-    format!("[\"{formula}\"{zeros}]")
-}
-
-fn truth(shape: &Shape, wave: bool) -> String {
-    if wave {
-        let formulas = along_x(shape, "A*sin(pi*X/L)*sin(omega*t)");
-        let mut text = line("exact:", "the truth; `check` holds it to its equation");
-        text += &line("  equation: small_strain", "rho u_tt = div sigma");
-        text += "  # u(X, t), a formula for each axis (m); X is the place before the motion\n";
-        return format!("{text}  displacement: {formulas}\n");
-    }
-    let formula =
-        |(x, phase): &(&str, &str)| format!("    - \"A*sin(pi*{x}/L)*sin(omega*t{phase})\"\n");
-    let formulas: String = shape.axes.iter().map(formula).collect();
-    let mut text = line("manufactured:", "the truth; velocity and body force follow from it");
-    text += "  # u(X, t), a formula for each axis (m); X is the place before the motion\n";
-    format!("{text}  displacement:\n{formulas}")
-}
-
-fn numerics(shape: &Shape) -> String {
-    let Shape { cells, ppc, instants, .. } = shape;
-    let mut text = "run:\n".to_owned();
-    text += &line("  until: \"pi/omega\"", "end (s): half a period");
-    text +=
-        &line("  dt: \"0.5*h/c\"", "time step (s): a share of what a wave takes to cross a cell h");
-    text += &line(&format!("  instants: {instants}"), "at which the error is taken");
-    text += "\n";
-    text += &line("refine:", "one level for each number of cells, from coarse to fine");
-    text += &line(&format!("  cells: {cells}"), "along each axis");
-    text += &line(&format!("  ppc: {ppc}"), "particles per cell");
-    text += "\n";
-    text + &line("judge: {norm: max_rms}", "largest error of all instants, RMS over the particles")
-}
-
-fn method(choices: &Choices) -> String {
-    let mut text = line("methods:", "lists multiply to cases: `basis: [linear, cpdi]`");
-    text += "  - mpm:\n";
-    let Choices { basis, transfer, scheme, .. } = choices;
-    for (key, setting) in [("basis", basis), ("transfer", transfer), ("scheme", scheme)] {
-        let NamedChoice { value, known } = setting;
-        text += &format!("      # {}\n      {key}: {value}\n", known.join(", "));
-    }
-    text += "      # velocities start half a step back; at t = 0 they would leave an error of order 1\n";
-    text + "      start: half_step_back\n"
-}
-
-fn next(path: &Path) -> String {
-    let path = path.display();
-    format!(
-        "# Nothing is expected yet: a run says what it sees, and is no gate. What comes next:\n\
-         #   mpm-verify check {path}        is the suite sound?\n\
-         #   mpm-verify run --watch {path}  what is seen; again whenever this file changes\n\
-         #   mpm-verify propose {path}      `expect` entries: put them below, for a gate\n"
-    )
 }

@@ -1,17 +1,25 @@
-//! Files of `run --out`.
+//! Files of a run: `--out`, `--html` and `--vtu`.
 
-use mpm_verify::report;
-use mpm_verify::verify::SuiteOutcome;
-use std::path::Path;
+use super::progress::RunProgress;
+use crate::cli::output;
+use crate::cli::status::CommandError;
+use mpm_verify::report::{self, page};
+use mpm_verify::study::describe::sketch::sketch_svg;
+use mpm_verify::study::{Runner, SeriesFile};
+use mpm_verify::suite::Suite;
+use mpm_verify::suite::yaml::Source;
+use mpm_verify::verify::{CaseOutcome, SuiteOutcome};
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// Makes the folder of `--out`, before hours are spent on what cannot be written.
-pub(super) fn prepare(folder: &Path) -> Result<(), String> {
-    fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))
+pub(super) fn prepare_out(folder: &Path) -> Result<(), CommandError> {
+    fs::create_dir_all(folder).map_err(|error| unwritable("--out", folder, &error))
 }
 
 /// Writes `NAME.txt` and the figures of each suite, and `report.json` for all.
-pub(super) fn write(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), String> {
+pub(super) fn write_out(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), CommandError> {
     let save = |file: &str, text: &str| -> io::Result<()> { fs::write(folder.join(file), text) };
     let every_file = || -> io::Result<()> {
         save("report.json", &report::json(outcomes))?;
@@ -23,9 +31,100 @@ pub(super) fn write(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), Stri
         }
         Ok(())
     };
-    every_file().map_err(|error| unwritable(folder, &error))
+    every_file().map_err(|error| unwritable("--out", folder, &error))
 }
 
-fn unwritable(folder: &Path, error: &io::Error) -> String {
-    format!("error: --out {}: {error}", folder.display())
+/// Makes the folder of the page, before hours are spent on what cannot be written.
+pub(super) fn prepare_page(file: &Path) -> Result<(), CommandError> {
+    if file.is_dir() {
+        return Err(unwritable("--html", file, &"this is a folder"));
+    }
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let made = folder.map_or(Ok(()), fs::create_dir_all);
+    made.map_err(|error| unwritable("--html", file, &error))
+}
+
+/// Writes the page; suites and outcomes are in the order of their sources, without those that were
+/// refused or left out.
+pub(super) fn write_page(
+    file: &Path,
+    sources: &[Source],
+    suites: &[Suite],
+    outcomes: &[SuiteOutcome],
+    refused: usize,
+) -> Result<(), CommandError> {
+    let named = |source: &Source| {
+        let name = Path::new(source.name()).file_name();
+        name.map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+    };
+    let names: Vec<String> = sources.iter().map(named).collect();
+    let sketches: Vec<Option<String>> = suites.iter().map(sketch_svg).collect();
+    let parts = sources.iter().zip(&names).zip(outcomes).zip(&sketches);
+    let parts: Vec<page::SuiteSource<'_>> = parts
+        .map(|(((source, file), outcome), sketch)| page::SuiteSource {
+            outcome,
+            file,
+            yaml: source.text(),
+            sketch: sketch.as_deref(),
+        })
+        .collect();
+    fs::write(file, page::page(&parts, refused)).map_err(|error| unwritable("--html", file, &error))
+}
+
+/// Cases that are shown, and where.
+pub(super) struct Series {
+    folder: PathBuf,
+    /// Whether all cases of the run are shown, and not only those that are not as expected.
+    all: bool,
+}
+
+impl Series {
+    /// Makes the folder, before hours are spent on what cannot be written.
+    pub(super) fn prepare(folder: &Path, all: bool) -> Result<Self, CommandError> {
+        let folder = folder.to_owned();
+        fs::create_dir_all(&folder).map_err(|error| unwritable("--vtu", &folder, &error))?;
+        Ok(Self { folder, all })
+    }
+
+    /// Writes the time series of the cases of a suite that are shown, and says where they are.
+    pub(super) fn write(
+        &self,
+        runner: &Runner<'_>,
+        outcome: &SuiteOutcome,
+        bar: &RunProgress,
+    ) -> Result<(), CommandError> {
+        let is_shown = |case: &&CaseOutcome| self.all || !case.passed();
+        for case in outcome.cases.iter().filter(is_shown) {
+            let mut failure = None;
+            let mut last = String::new();
+            let found = runner.time_series(case, &mut |file| {
+                let path = self.folder.join(&file.path);
+                last.clone_from(&file.path);
+                save(&path, &file).map_err(|error| {
+                    failure = Some(unwritable("--vtu", &path, &error));
+                    String::new()
+                })
+            });
+            if let Some(error) = failure {
+                return Err(error);
+            }
+            let name = format!("{}::{}", outcome.suite, case.case);
+            let note = match found {
+                Ok(()) => format!("note: {name}: {}", self.folder.join(&last).display()),
+                Err(why) => format!("note: {name}: nothing to show: {why}"),
+            };
+            bar.suspend(|| output::complain(&note));
+        }
+        Ok(())
+    }
+}
+
+fn save(path: &Path, file: &SeriesFile) -> io::Result<()> {
+    path.parent().map_or(Ok(()), fs::create_dir_all)?;
+    fs::write(path, &file.bytes)
+}
+
+/// The error of an `option` whose file or folder cannot be written.
+fn unwritable(option: &str, path: &Path, error: &impl Display) -> CommandError {
+    CommandError::option(option, path.display(), error)
 }

@@ -1,13 +1,15 @@
-//! `run --gate`: which suites the solver is held to, and whether it passes.
+//! `run --gate` and `--solver-config`: the terms that a solver must meet, and whether it passes.
 
-use super::config::SolverConfig;
-use crate::cli::args::JudgedSolverArgs;
-use crate::cli::{output, solver};
+use super::args::JudgedSolverArgs;
+use crate::cli::{output, select, solver};
 use mpm_verify::external::SolverProgram;
-use mpm_verify::suite::Suite;
-use mpm_verify::suite::yaml::Diagnostic;
+use mpm_verify::nearest;
+use mpm_verify::suite::yaml::{Diagnostic, Ordered, Source, Step, read};
+use mpm_verify::suite::{GateTerms, Suite, pattern};
 use mpm_verify::verify::{CaseOutcome, Exemption, SuiteOutcome};
+use serde::Deserialize;
 use std::collections::BTreeSet;
+use std::path::Path;
 
 /// The gate of a run.
 pub(super) struct SolverGate {
@@ -74,4 +76,163 @@ impl SolverGate {
 
 fn cases(outcomes: &[SuiteOutcome]) -> impl Iterator<Item = (&str, &CaseOutcome)> {
     outcomes.iter().flat_map(|suite| suite.cases.iter().map(|case| (suite.suite.as_str(), case)))
+}
+
+/// Largest order that a solver may have.
+const HIGHEST_ORDER: f64 = 20.0;
+
+/// The file as its author writes it.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ConfigSpec {
+    /// Formal order of the solver in h.
+    formal_order: Option<f64>,
+    /// Terms for suites, by their names, groups or patterns.
+    #[serde(default)]
+    suites: Ordered<TermsSpec>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TermsSpec {
+    /// Order that is required.
+    order: Option<f64>,
+    /// Bound on errors that are accepted without an order.
+    error_below: Option<f64>,
+    /// Reason for not running the suite.
+    skip: Option<String>,
+    /// Reason for `order` and `error_below`.
+    because: Option<String>,
+}
+
+/// A configuration file that has been checked.
+#[derive(Debug, Default)]
+struct SolverConfig {
+    formal_order: Option<f64>,
+    /// Names, groups or patterns of suites, with their terms.
+    suites: Vec<(String, GateTerms)>,
+}
+
+impl SolverConfig {
+    /// Reads the file, for a run of `suites`.
+    ///
+    /// # Errors
+    /// The first mistake in it, with its place.
+    fn read(file: &Path, suites: &[Suite]) -> Result<Self, Diagnostic> {
+        let source = Source::read(file)?;
+        let spec: ConfigSpec = read(&source)?;
+        if let Some(order) = spec.formal_order {
+            check_order(&source, &["formal_order".into()], order)?;
+        }
+        let known = known_names(suites);
+        let mut checked = Vec::new();
+        for (name, terms) in spec.suites.as_slice() {
+            if !known.iter().any(|known| pattern::fits(name, known)) {
+                return Err(unknown_suite(&source, name, &known));
+            }
+            checked.push((name.clone(), terms.checked(&source, name)?));
+        }
+        Ok(Self { formal_order: spec.formal_order, suites: checked })
+    }
+
+    /// The terms for a suite: those of the first entry that fits its name or its group.
+    fn terms(&self, suite: &Suite) -> GateTerms {
+        let in_group = format!("{}/{}", suite.group, suite.name);
+        let names = [&suite.name, &suite.group, &in_group];
+        let fits = |glob: &str| names.iter().any(|name| pattern::fits(glob, name));
+        let entry = self.suites.iter().find(|(glob, _)| fits(glob));
+        let terms = entry.map_or_else(GateTerms::default, |(_, terms)| terms.clone());
+        GateTerms { formal_order: self.formal_order, ..terms }
+    }
+}
+
+impl TermsSpec {
+    fn checked(&self, source: &Source, suite: &str) -> Result<GateTerms, Diagnostic> {
+        let entry = || -> Vec<Step> { vec!["suites".into(), suite.into()] };
+        let at = |key: &str| -> Vec<Step> {
+            let mut path = entry();
+            path.push(key.into());
+            path
+        };
+        let Self { order, error_below, skip, because } = self;
+        if let Some(order) = *order {
+            check_order(source, &at("order"), order)?;
+        }
+        if let Some(bound) = *error_below
+            && !(bound > 0.0 && bound.is_finite())
+        {
+            let message = format!("the bound on errors is {bound}");
+            let diagnostic = source.diagnostic_at(&at("error_below"), &message);
+            return Err(diagnostic.with_label("expected a positive number"));
+        }
+        let bounds = order.is_some() || error_below.is_some();
+        let about_entry = |message: &str, help: &str| {
+            let place = source.key_at(&entry());
+            let diagnostic = match place {
+                Some(place) => source.diagnostic(place, message),
+                None => source.diagnostic_at(&entry(), message),
+            };
+            Err(diagnostic.with_help(help))
+        };
+        match (bounds, skip, because) {
+            (true, Some(_), _) => {
+                about_entry("a suite that does not run has no order and no bound", "remove `skip`")
+            }
+            (false, None, _) => about_entry(
+                "this entry states neither an order nor a bound nor a reason to skip the suite",
+                "add `order: 1`, `error_below: 1e-6` or `skip: the reason`",
+            ),
+            (true, None, None) => about_entry(
+                "an order or a bound for a suite needs its reason",
+                "add `because: the reason`",
+            ),
+            (false, Some(_), Some(_)) => {
+                about_entry("`skip` is itself the reason", "remove `because`")
+            }
+            (_, Some(text), _) | (_, None, Some(text)) if text.trim().is_empty() => {
+                let key = if skip.is_some() { "skip" } else { "because" };
+                let diagnostic = source.diagnostic_at(&at(key), "the reason is empty");
+                Err(diagnostic.with_label("expected the reason in words"))
+            }
+            _ => Ok(GateTerms {
+                formal_order: None,
+                order: *order,
+                error_below: *error_below,
+                skip: skip.as_deref().map(|text| text.trim().to_owned()),
+                because: because.as_deref().unwrap_or_default().trim().to_owned(),
+            }),
+        }
+    }
+}
+
+fn check_order(source: &Source, path: &[Step], order: f64) -> Result<(), Diagnostic> {
+    if order > 0.0 && order <= HIGHEST_ORDER {
+        return Ok(());
+    }
+    let diagnostic = source.diagnostic_at(path, &format!("the order is {order}"));
+    Err(diagnostic.with_label(&format!("expected a number above 0 and up to {HIGHEST_ORDER}")))
+}
+
+/// Names of all suites and groups that an entry may be for.
+fn known_names(suites: &[Suite]) -> Vec<String> {
+    let mut known = select::suite_names();
+    for suite in suites {
+        let in_group = format!("{}/{}", suite.group, suite.name);
+        known.extend([suite.name.clone(), suite.group.clone(), in_group]);
+    }
+    known
+}
+
+fn unknown_suite(source: &Source, name: &str, known: &[String]) -> Diagnostic {
+    let message = format!("no suite has the name `{name}`");
+    let diagnostic = match source.key_at(&["suites".into(), name.into()]) {
+        Some(place) => source.diagnostic(place, &message),
+        None => Diagnostic::about(source.name(), &message),
+    };
+    let near = nearest(name, known.iter().map(String::as_str));
+    let help = near.map_or_else(
+        || "`mpm-verify list` shows the suites; `*` stands for any text".to_owned(),
+        |near| format!("did you mean `{near}`?"),
+    );
+    diagnostic.with_help(&help)
 }

@@ -1,17 +1,16 @@
-//! `mpm-verify run`.
+//! `mpm-verify run` and `mpm-verify merge`.
 
-mod config;
+mod args;
 mod files;
 mod gate;
-mod interrupt;
-mod page;
 mod printing;
-mod series;
+mod progress;
 
-use super::args::{ReportArgs, RunArgs};
-use super::status::{BAD_INPUT, FAILED, PASSED};
-use super::terminal::progress::RunProgress;
-use super::{output, select, solver, watch};
+use super::status::{CommandError, Status};
+use super::{output, select, solver};
+use args::ReportArgs;
+pub(super) use args::{MergeArgs, RunArgs};
+use files::Series;
 use gate::SolverGate;
 use mpm_verify::external::SolverProgram;
 use mpm_verify::study::{ResultCache, Runner, StepWarning};
@@ -19,24 +18,26 @@ use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::SuiteOutcome;
 use printing::Printing;
-use series::Series;
+use progress::RunProgress;
 use std::path::Path;
 use std::time::Duration;
 
-/// Runs suites, once or whenever their files change.
-pub(super) fn run(args: &RunArgs) -> u8 {
-    // The threads can be made only once.
-    if let Err(message) = threads(args.report.jobs) {
-        output::complain(&message);
-        return BAD_INPUT;
-    }
-    let targets = &args.report.targets.targets;
-    let once = || report(&args.report, |suites| chosen(args, suites));
-    if args.watch { watch::repeat(targets, once) } else { once() }
+/// Runs suites and judges them.
+pub(super) fn run(args: &RunArgs) -> Result<Status, CommandError> {
+    threads(args.report.jobs)?;
+    report(&args.report, |suites| chosen(args, suites))
+}
+
+/// Reports what the parts of a run have found, as one run of all would.
+pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
+    threads(args.report.jobs)?;
+    let parts = ResultCache::of_parts(&args.from)
+        .map_err(|(folder, error)| CommandError::option("--from", folder.display(), error))?;
+    report(&args.report, |suites| Ok((suites, Judging::of_kept(parts))))
 }
 
 /// The suites that `args` choose, with the cache and the solver of the run.
-fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging), String> {
+fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging), CommandError> {
     let kept = args.resume.as_deref().map(|folder| open(folder, args)).transpose()?;
     let all = args.case.is_some();
     let series = args.vtu.as_deref().map(|folder| Series::prepare(folder, all)).transpose()?;
@@ -44,13 +45,12 @@ fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging
     let mut gate = None;
     if let Some(solver) = &solver {
         let named = |suites: &[Suite]| select::named_singly(&args.report.targets.targets, suites);
-        let found = gate::prepare(suites, solver, &args.judged, named);
-        (suites, gate) = found.map_err(|diagnostic| diagnostic.to_string())?;
+        (suites, gate) = gate::prepare(suites, solver, &args.judged, named)?;
     }
     if let Some(text) = &args.case {
         suites = cases_with(text, &suites);
         if suites.is_empty() {
-            return Err(format!("error: --case {text}: no case has this in its name"));
+            return Err(CommandError::option("--case", text, "no case has this in its name"));
         }
     }
     if let Some(shard) = args.shard {
@@ -59,8 +59,7 @@ fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging
             output::complain("note: no case is left for this part");
         }
     }
-    // Ctrl-C is the usual end of watching.
-    let at_interrupt = (!args.watch).then(|| interrupt::note(args.resume.is_some()));
+    let at_interrupt = Some(progress::interrupt_note(args.resume.is_some()));
     Ok((suites, Judging { kept, solver, gate, series, at_interrupt }))
 }
 
@@ -76,30 +75,18 @@ fn cases_with(text: &str, suites: &[Suite]) -> Vec<Suite> {
 
 /// Runs suites one after the other, each in parallel; whatever has been finished is printed, also
 /// if something later cannot be used.
-pub(super) fn report(
+fn report(
     args: &ReportArgs,
-    choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<Suite>, Judging), String>,
-) -> u8 {
-    if let Err(message) = args.out.as_deref().map_or(Ok(()), files::prepare) {
-        output::complain(&message);
-        return BAD_INPUT;
-    }
-    if let Err(message) = args.html.as_deref().map_or(Ok(()), page::prepare) {
-        output::complain(&message);
-        return BAD_INPUT;
-    }
+    choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<Suite>, Judging), CommandError>,
+) -> Result<Status, CommandError> {
+    args.out.as_deref().map_or(Ok(()), files::prepare_out)?;
+    args.html.as_deref().map_or(Ok(()), files::prepare_page)?;
     let (suites, refused): (Vec<_>, Vec<_>) =
         select::with_sources(&args.targets.targets).into_iter().partition(Result::is_ok);
     let (sources, suites): (Vec<Source>, Vec<Suite>) =
         suites.into_iter().filter_map(Result::ok).unzip();
     let names: Vec<String> = suites.iter().map(|suite| suite.name.clone()).collect();
-    let (suites, judging) = match choose(suites) {
-        Ok(chosen) => chosen,
-        Err(message) => {
-            output::complain(&message);
-            return BAD_INPUT;
-        }
-    };
+    let (suites, judging) = choose(suites)?;
     // Suites of which no case is chosen are left out, and the others stay in their order.
     let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);
     let sources = names.into_iter().zip(sources).filter(is_chosen);
@@ -110,9 +97,8 @@ pub(super) fn report(
         ("--html", args.html.is_some(), "would be one section"),
     ] {
         if let Some(name) = twice.filter(|_| given) {
-            let message = format!("error: {option}: two suites are called `{name}`, and {clash}");
-            output::complain(&message);
-            return BAD_INPUT;
+            let reason = format!("two suites are called `{name}`, and {clash}");
+            return Err(CommandError::about(option, reason));
         }
     }
     let printing = Printing::of(args, suites.len());
@@ -129,14 +115,14 @@ pub(super) fn report(
     let outcomes: Vec<SuiteOutcome> = suites.iter().map(run).collect();
     bar.clear();
     printing.of_all(args, &sources, &outcomes);
-    let written = args.out.as_deref().map_or(Ok(()), |folder| files::write(folder, &outcomes));
-    let page = |file| page::write(file, &sources, &suites, &outcomes, refused.len());
+    let written = args.out.as_deref().map_or(Ok(()), |folder| files::write_out(folder, &outcomes));
+    let page = |file| files::write_page(file, &sources, &suites, &outcomes, refused.len());
     let written = written.and(args.html.as_deref().map_or(Ok(()), page)).and(shown);
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
         output::diagnose(diagnostic);
     }
-    if let Err(message) = &written {
-        output::complain(message);
+    if let Err(error) = &written {
+        output::complain(&error.to_string());
     }
     let Judging { kept, solver, gate, .. } = &judging;
     let unkept = kept.as_ref().and_then(ResultCache::diagnostic);
@@ -144,27 +130,27 @@ pub(super) fn report(
         output::complain(&format!("error: --resume {diagnostic}"));
     }
     if !refused.is_empty() || written.is_err() || unkept.is_some() {
-        BAD_INPUT
-    } else if solver.is_some() && !solver::is_applicable(&outcomes) {
-        output::complain("error: no case is applicable to the solver");
-        FAILED
-    } else if outcomes.iter().all(SuiteOutcome::passed)
-        & gate.as_ref().is_none_or(|gate| gate.passes(&outcomes))
-    {
-        PASSED
-    } else {
-        FAILED
+        return Ok(Status::BadInput);
     }
+    if solver.is_some() && !solver::is_applicable(&outcomes) {
+        output::complain("error: no case is applicable to the solver");
+        return Ok(Status::Failed);
+    }
+    // The gate prints its exceptions in any case.
+    let passes_gate = gate.as_ref().is_none_or(|gate| gate.passes(&outcomes));
+    let passed = passes_gate && outcomes.iter().all(SuiteOutcome::passed);
+    Ok(if passed { Status::Passed } else { Status::Failed })
 }
 
-pub(super) fn threads(jobs: Option<usize>) -> Result<(), String> {
+fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
     const MOST: usize = 1024;
     let Some(jobs) = jobs else { return Ok(()) };
     if !(1..=MOST).contains(&jobs) {
-        return Err(format!("error: --jobs {jobs}: expected a number from 1 to {MOST}"));
+        let reason = format!("expected a number from 1 to {MOST}");
+        return Err(CommandError::option("--jobs", jobs, reason));
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs);
-    pool.build_global().map_err(|error| format!("error: --jobs {jobs}: {error}"))
+    pool.build_global().map_err(|error| CommandError::option("--jobs", jobs, error))
 }
 
 fn extent(args: &ReportArgs) -> Extent {
@@ -172,7 +158,7 @@ fn extent(args: &ReportArgs) -> Extent {
 }
 
 /// The cache and the solver of a run.
-pub(super) struct Judging {
+struct Judging {
     kept: Option<ResultCache>,
     solver: Option<SolverProgram>,
     gate: Option<SolverGate>,
@@ -184,7 +170,7 @@ pub(super) struct Judging {
 
 impl Judging {
     /// Results that are there.
-    pub(super) fn of_kept(kept: ResultCache) -> Self {
+    fn of_kept(kept: ResultCache) -> Self {
         Self { kept: Some(kept), solver: None, gate: None, series: None, at_interrupt: None }
     }
 }
@@ -195,7 +181,7 @@ fn one(
     args: &ReportArgs,
     judging: &Judging,
     bar: &RunProgress,
-    shown: &mut Result<(), String>,
+    shown: &mut Result<(), CommandError>,
 ) -> SuiteOutcome {
     bar.start(suite, extent(args));
     let (kept, solver) = (judging.kept.as_ref(), judging.solver.as_ref());
@@ -232,12 +218,12 @@ fn one(
 }
 
 /// Opens the folder of `--resume`.
-fn open(folder: &Path, args: &RunArgs) -> Result<ResultCache, String> {
+fn open(folder: &Path, args: &RunArgs) -> Result<ResultCache, CommandError> {
     let kept = ResultCache::open(folder)
-        .map_err(|error| format!("error: --resume {}: {error}", folder.display()))?;
+        .map_err(|error| CommandError::option("--resume", folder.display(), error))?;
     let Some(every) = args.checkpoint_every else { return Ok(kept) };
     let every = Duration::try_from_secs_f64(every)
-        .map_err(|error| format!("error: --checkpoint-every: {error}"))?;
+        .map_err(|error| CommandError::about("--checkpoint-every", error))?;
     Ok(kept.with_checkpoints_every(every))
 }
 

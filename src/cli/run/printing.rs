@@ -1,6 +1,7 @@
 //! Printed text of a run, and when it is printed.
 
-use crate::cli::args::{Format, ReportArgs};
+use super::args::ReportArgs;
+use crate::cli::arguments::Format;
 use crate::cli::output;
 use mpm_verify::report;
 use mpm_verify::suite::yaml::Source;

@@ -1,12 +1,13 @@
-//! Answers of a solver.
+//! Answers of a solver, with its capabilities and columns of numbers.
 
-use super::column::ColumnText;
+use super::error::{ProgramError, plain, printable};
 use super::frame::MessageFrame;
-use super::hello::Hello;
-use super::printable::{plain, printable};
-use super::request::ValueRequest;
-use schemars::JsonSchema;
-use serde::Deserialize;
+use crate::external::capabilities::Capabilities;
+use crate::subject::Precision;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// An answer of a solver.
@@ -90,29 +91,133 @@ pub(super) struct State {
     pub(super) min_j: Option<f64>,
 }
 
-/// Size of the block of bytes that a message announces.
-#[derive(Deserialize)]
-struct Announced {
+/// A request for values.
+pub(super) struct ValueRequest {
+    /// The field that is requested; absent in a request `body_force`.
+    pub(super) of: Option<String>,
+    /// Time (s).
+    pub(super) t: Option<f64>,
+    pub(super) reference_position: Option<ColumnText>,
+    pub(super) displacement: Option<ColumnText>,
+    pub(super) body: Option<usize>,
+}
+
+/// Who a solver is, and what it can do.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+pub(super) struct Hello {
+    /// Version of the protocol.
+    pub(super) protocol: u64,
+    /// Name: letters, digits, `-`, `_` and `.`, no more than 64.
+    pub(super) name: String,
+    /// Version of the solver.
     #[serde(default)]
-    bytes: usize,
+    pub(super) version: String,
+    /// Order in h of its displacements on a smooth solution.
+    #[serde(default = "two")]
+    pub(super) formal_order: f64,
+    /// Precision of its numbers.
+    #[serde(default)]
+    #[schemars(schema_with = "precisions")]
+    pub(super) precision: Precision,
+    /// Abilities; what is not named is lacking.
+    #[serde(default)]
+    #[schemars(with = "Capabilities")]
+    pub(super) capabilities: StatedCapabilities,
+}
+
+/// Abilities as a solver states them.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct StatedCapabilities {
+    pub(super) known: Capabilities,
+    /// All keys, those that mean nothing included.
+    pub(super) keys: Vec<String>,
+}
+
+impl<'de> Deserialize<'de> for StatedCapabilities {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let all = Value::deserialize(from)?;
+        let keys = all.as_object().map_or(Vec::new(), |all| all.keys().cloned().collect());
+        let known = Capabilities::deserialize(all).map_err(D::Error::custom)?;
+        Ok(Self { known, keys })
+    }
+}
+
+fn precisions(_: &mut SchemaGenerator) -> Schema {
+    let names: Vec<&str> = Precision::ALL.iter().map(|precision| precision.name()).collect();
+    json_schema!({"enum": names})
+}
+
+fn two() -> f64 {
+    2.0
+}
+
+/// A column, as numbers or as a part of the bytes that follow: its offset, and how many doubles.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(super) enum ColumnText {
+    Numbers(Vec<f64>),
+    Bytes { f64: (usize, usize) },
+}
+
+impl ColumnText {
+    /// Number of entries that the column announces.
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::Numbers(numbers) => numbers.len(),
+            Self::Bytes { f64: (_, length) } => *length,
+        }
+    }
+
+    /// The numbers of the column `name`, of which there must be `count`, all finite.
+    pub(super) fn numbers(
+        self,
+        name: &str,
+        count: usize,
+        bytes: &[u8],
+    ) -> Result<Vec<f64>, ProgramError> {
+        let numbers = match self {
+            Self::Numbers(numbers) => numbers,
+            Self::Bytes { f64: (offset, length) } => {
+                let end = length.checked_mul(8).and_then(|length| offset.checked_add(length));
+                let part = end.and_then(|end| bytes.get(offset..end)).ok_or_else(|| {
+                    let name = name.to_owned();
+                    ProgramError::ColumnBytes { name, length, offset, bytes: bytes.len() }
+                })?;
+                let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_le_bytes);
+                part.chunks_exact(8).map(number).collect()
+            }
+        };
+        if numbers.len() != count {
+            let (name, found) = (name.to_owned(), numbers.len());
+            return Err(ProgramError::ColumnLength { name, found, expected: count });
+        }
+        match numbers.iter().position(|number| !number.is_finite()) {
+            Some(index) => {
+                let (name, value) = (name.to_owned(), numbers[index]);
+                Err(ProgramError::NotFinite { name, value, index })
+            }
+            None => Ok(numbers),
+        }
+    }
 }
 
 impl Answer {
     /// Reads the answer in a frame.
-    pub(super) fn read(frame: &MessageFrame) -> Result<Self, String> {
+    pub(super) fn read(frame: &MessageFrame) -> Result<Self, ProgramError> {
         serde_json::from_slice(&frame.line).map_err(|error| {
             let text = String::from_utf8_lossy(&frame.line);
             // What Python and others write for what JSON has no word for.
             for word in ["NaN", "Infinity"] {
                 if text.contains(word) {
-                    return format!("answered with {word}, which is no number");
+                    return ProgramError::NoNumber(word);
                 }
             }
-            if !text.trim_start().starts_with('{') {
-                let hint = "what else it prints belongs on its standard error";
-                return format!("answered with what is no message ({hint}): `{}`", excerpt(&text));
-            }
-            format!("answered with what is no message ({}): `{}`", plain(&error), excerpt(&text))
+            let reason = if text.trim_start().starts_with('{') {
+                plain(&error)
+            } else {
+                "what else it prints belongs on its standard error".to_owned()
+            };
+            ProgramError::NoMessage { reason, excerpt: excerpt(&text) }
         })
     }
 
@@ -165,16 +270,7 @@ impl Answer {
     }
 }
 
-/// How many bytes follow a line; none of a line that is no message, which [`Answer::read`] refuses.
-pub(super) fn announced(line: &[u8]) -> usize {
-    // Most lines announce none: they need not be read twice.
-    if !line.windows(7).any(|word| word == b"\"bytes\"") {
-        return 0;
-    }
-    serde_json::from_slice::<Announced>(line).map_or(0, |announced| announced.bytes)
-}
-
-/// The beginning of a stranger's text.
+/// The beginning of untrusted text.
 fn excerpt(text: &str) -> String {
     let start = printable(&text.chars().take(60).collect::<String>());
     if text.chars().nth(60).is_some() { format!("{start}...") } else { start }

@@ -4,10 +4,8 @@
 //! of this blocks nobody. Each ends when its pipe does, which a kill brings about.
 
 use super::answer::Answer;
-use super::frame::{MessageFrame, Outgoing};
-use super::limits::ProgramLimits;
-use super::printable::printable;
-use super::reader::read_all;
+use super::error::{ProgramError, printable};
+use super::frame::{MessageFrame, Outgoing, read_all};
 use std::io::{Read, Write};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -22,7 +20,7 @@ const SHORT: usize = 1 << 20;
 /// Bytes of standard error that are kept.
 const LAST_BYTES: usize = 2000;
 
-/// Lines of it that are told.
+/// Maximum number of lines of standard error in a message.
 const LAST_LINES: usize = 3;
 
 /// Longest time that a process has to end by itself; it has no more than it may be silent.
@@ -31,12 +29,27 @@ const GRACE: Duration = Duration::from_secs(1);
 /// Time between two looks at a process that says nothing.
 const GLANCE: Duration = Duration::from_millis(50);
 
+/// Limits of each process of a solver.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProgramLimits {
+    /// Longest time without an answer.
+    pub silence: Duration,
+    /// Address space (bytes), on Unix; none: what the system gives.
+    pub memory: Option<u64>,
+}
+
+impl Default for ProgramLimits {
+    fn default() -> Self {
+        Self { silence: Duration::from_secs(60), memory: None }
+    }
+}
+
 /// A process with its pipes. It is killed when this is dropped, with all that it has started in
 /// its group.
 pub(super) struct Connection {
     child: Child,
     requests: Option<Sender<Vec<u8>>>,
-    answers: Receiver<Result<MessageFrame, String>>,
+    answers: Receiver<Result<MessageFrame, ProgramError>>,
     longest: Arc<AtomicUsize>,
     last_words: Arc<Mutex<Vec<u8>>>,
     listener: JoinHandle<()>,
@@ -47,19 +60,19 @@ impl Connection {
     /// Starts `command`.
     ///
     /// # Errors
-    /// One line that says why it does not start.
-    pub(super) fn start(command: &[String], limits: ProgramLimits) -> Result<Self, String> {
+    /// The program does not start.
+    pub(super) fn start(command: &[String], limits: ProgramLimits) -> Result<Self, ProgramError> {
         let mut process = limited(command, limits.memory)?;
         process.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut process, 0);
         let name = &command[0];
-        let mut child =
-            process.spawn().map_err(|error| format!("`{}`: {error}", printable(name)))?;
-        let missing = || "has no pipe".to_owned();
-        let mut input = child.stdin.take().ok_or_else(missing)?;
-        let output = child.stdout.take().ok_or_else(missing)?;
-        let mut errors = child.stderr.take().ok_or_else(missing)?;
+        let mut child = process
+            .spawn()
+            .map_err(|error| ProgramError::Start { program: printable(name), error })?;
+        let mut input = child.stdin.take().ok_or(ProgramError::Pipe)?;
+        let output = child.stdout.take().ok_or(ProgramError::Pipe)?;
+        let mut errors = child.stderr.take().ok_or(ProgramError::Pipe)?;
         let (requests, to_write) = channel::<Vec<u8>>();
         thread::spawn(move || {
             // A process that reads no more has its answer judged, not its ears.
@@ -105,25 +118,23 @@ impl Connection {
     /// Waits for the next answer, with the block of bytes that came with it.
     ///
     /// # Errors
-    /// One line that says what came instead; the process is killed then.
-    pub(super) fn answer(&mut self) -> Result<(Answer, Vec<u8>), String> {
+    /// The failure; the process is killed then.
+    pub(super) fn answer(&mut self) -> Result<(Answer, Vec<u8>), ProgramError> {
         let found = match self.heard() {
             Ok(Ok(frame)) => Answer::read(&frame).map(|answer| (answer, frame.bytes)),
-            Ok(Err(reason)) => Err(reason),
-            Err(RecvTimeoutError::Timeout) => {
-                Err(format!("has been silent for {} s", self.silence.as_secs_f64()))
-            }
+            Ok(Err(error)) => Err(error),
+            Err(RecvTimeoutError::Timeout) => Err(ProgramError::Silent(self.silence.as_secs_f64())),
             Err(RecvTimeoutError::Disconnected) => Err(self.ended()),
         };
-        found.map_err(|reason| {
+        found.map_err(|error| {
             self.kill();
-            self.with_last_words(reason)
+            self.with_last_words(error)
         })
     }
 
     /// The next message, if one comes in time. A process may end and leave its pipe to another one
     /// that it has started, and then nothing else tells its end.
-    fn heard(&mut self) -> Result<Result<MessageFrame, String>, RecvTimeoutError> {
+    fn heard(&mut self) -> Result<Result<MessageFrame, ProgramError>, RecvTimeoutError> {
         let start = Instant::now();
         loop {
             let left = self.silence.saturating_sub(start.elapsed());
@@ -138,15 +149,15 @@ impl Connection {
         }
     }
 
-    /// How a process has ended that says nothing any more.
-    fn ended(&mut self) -> String {
+    /// The failure of a process that gives no more answers.
+    fn ended(&mut self) -> ProgramError {
         match self.status() {
-            Some(status) => format!("ended without an answer ({})", shown(status)),
-            None => "closed its output and went on".to_owned(),
+            Some(status) => ProgramError::Ended(shown(status)),
+            None => ProgramError::ClosedOutput,
         }
     }
 
-    fn with_last_words(&self, reason: String) -> String {
+    fn with_last_words(&self, error: ProgramError) -> ProgramError {
         // The process is dead, but what it said may still be on its way.
         patiently(GRACE, || self.listener.is_finished().then_some(()));
         let kept = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
@@ -163,9 +174,9 @@ impl Connection {
             .collect();
         last.reverse();
         if last.is_empty() {
-            reason
+            error
         } else {
-            format!("{reason}; its last words: {}", last.join(" | "))
+            ProgramError::WithStandardError { error: error.into(), lines: last.join(" | ") }
         }
     }
 
@@ -211,14 +222,14 @@ fn patiently<T>(most: Duration, mut look: impl FnMut() -> Option<T>) -> Option<T
 }
 
 /// The command, with a limit of its address space (bytes) that it hands on to all that it starts.
-fn limited(command: &[String], memory: Option<u64>) -> Result<Command, String> {
+fn limited(command: &[String], memory: Option<u64>) -> Result<Command, ProgramError> {
     let Some(memory) = memory else {
         let mut process = Command::new(&command[0]);
         process.args(&command[1..]);
         return Ok(process);
     };
     if cfg!(not(unix)) {
-        return Err("no limit of memory can be set on this system".to_owned());
+        return Err(ProgramError::MemoryLimit);
     }
     let mut process = Command::new("sh");
     process.args(["-c", "ulimit -v \"$0\" && exec \"$@\"", &(memory / 1024).to_string()]);

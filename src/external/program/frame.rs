@@ -1,6 +1,12 @@
-//! Messages as they cross the pipe.
+//! Messages as they cross the pipe: written, and read as they come.
 
+use super::error::ProgramError;
+use serde::Deserialize;
 use serde_json::{Map, Value, json};
+use std::io::{self, BufRead, BufReader};
+use std::process::ChildStdout;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::SyncSender;
 
 /// One message that was read: its line, without the newline, and the block of bytes after it.
 #[derive(Debug, Default)]
@@ -65,5 +71,85 @@ impl Outgoing {
         all.push(b'\n');
         all.append(&mut self.bytes);
         all
+    }
+}
+
+/// Size of the block of bytes that a message announces.
+#[derive(Deserialize)]
+struct Announced {
+    #[serde(default)]
+    bytes: usize,
+}
+
+/// Number of bytes that follow a line; zero for a line that is no message, which the reader of
+/// answers refuses.
+fn announced(line: &[u8]) -> usize {
+    // Most lines announce none: they need not be read twice.
+    if !line.windows(7).any(|word| word == b"\"bytes\"") {
+        return 0;
+    }
+    serde_json::from_slice::<Announced>(line).map_or(0, |announced| announced.bytes)
+}
+
+/// Reads messages until the output ends, or one breaks the protocol. `longest` is the most bytes
+/// that one may have.
+pub(super) fn read_all(
+    output: ChildStdout,
+    longest: &AtomicUsize,
+    to: &SyncSender<Result<MessageFrame, ProgramError>>,
+) {
+    let mut output = BufReader::new(output);
+    loop {
+        let frame = match read_one(&mut output, longest) {
+            Ok(Some(frame)) => Ok(frame),
+            Ok(None) => return,
+            Err(reason) => Err(reason),
+        };
+        let broken = frame.is_err();
+        if to.send(frame).is_err() || broken {
+            return;
+        }
+    }
+}
+
+/// The next message; `None` at the end of the output.
+pub(super) fn read_one(
+    output: &mut impl BufRead,
+    longest: &AtomicUsize,
+) -> Result<Option<MessageFrame>, ProgramError> {
+    // The limit is read again while a line grows: the first answer comes before the problem is known.
+    let check_size = |size: usize| {
+        let most = longest.load(Ordering::Relaxed);
+        if size > most { Err(ProgramError::TooLong(most)) } else { Ok(()) }
+    };
+    let mut frame = MessageFrame::default();
+    loop {
+        let part = output.fill_buf().map_err(ProgramError::Unreadable)?;
+        let (used, done) = match part.iter().position(|byte| *byte == b'\n') {
+            Some(end) => (end + 1, true),
+            None => (part.len(), part.is_empty()),
+        };
+        frame.line.extend_from_slice(&part[..used]);
+        output.consume(used);
+        check_size(frame.line.len())?;
+        if done {
+            break;
+        }
+    }
+    if frame.line.is_empty() {
+        return Ok(None);
+    }
+    if frame.line.pop_if(|last| *last == b'\n').is_none() {
+        return Err(ProgramError::Truncated("an answer"));
+    }
+    let following = announced(&frame.line);
+    check_size(following)?;
+    frame.bytes = vec![0; following];
+    match output.read_exact(&mut frame.bytes) {
+        Ok(()) => Ok(Some(frame)),
+        Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
+            Err(ProgramError::Truncated("a block of bytes"))
+        }
+        Err(error) => Err(ProgramError::Unreadable(error)),
     }
 }

@@ -1,14 +1,14 @@
 //! Values that a solver requests at places and times: body forces, the initial state, loads and
 //! conditions on faces.
 
-use super::column::ColumnText;
+use super::answer::{ColumnText, ValueRequest};
+use super::error::{ProgramError, printable};
 use super::frame::Outgoing;
-use super::printable::printable;
-use super::request::{RequestedPlaces, ValueRequest, field_named, time};
 use crate::external::fields::{
-    BodyForceField, FieldError, FieldName, FieldPlaces, PlacedBodyForce, ProblemFields,
+    BODY_FIELDS, BodyForceField, FieldError, FieldName, FieldPlaces, PlacedBodyForce, ProblemFields,
 };
 use crate::external::problem::{LevelProblem, ProblemFace, ProblemLoad};
+use crate::nearest::nearest;
 use serde_json::json;
 
 /// Answers requests for values of one problem.
@@ -56,8 +56,8 @@ impl Inquiry {
     ///
     /// # Errors
     /// A point that is outside the body; a solver of version 1 is not checked.
-    pub(super) fn set_points(&mut self, labels: &[f64]) -> Result<(), String> {
-        self.bodies = self.bodies_of(labels).map_err(|reason| format!("gave points: {reason}"))?;
+    pub(super) fn set_points(&mut self, labels: &[f64]) -> Result<(), ProgramError> {
+        self.bodies = self.bodies_of(labels).map_err(ProgramError::Points)?;
         self.labels = labels.to_vec();
         Ok(())
     }
@@ -81,17 +81,15 @@ impl Inquiry {
         &mut self,
         request: ValueRequest,
         bytes: &[u8],
-    ) -> Result<Outgoing, String> {
+    ) -> Result<Outgoing, ProgramError> {
         self.asked += 1;
         if self.asked > self.most {
-            return Err(format!("asked for values {} times", self.asked));
+            return Err(ProgramError::TooManyRequests(self.asked));
         }
         let ValueRequest { of, t, reference_position, displacement, body } = request;
         let name = of.as_deref().unwrap_or("body_force");
-        let what = format!("asked for values of `{}`", printable(name));
-        let field = field_named(name, &self.loads, &self.faces)
-            .map_err(|reason| format!("{what}: {reason}"))?;
-        let refused = |reason: String| format!("{what}: {reason}");
+        let refused = |reason: FieldError| ProgramError::Request { field: printable(name), reason };
+        let field = field_named(name, &self.loads, &self.faces).map_err(refused)?;
         let t = time(field, t).map_err(refused)?;
         let numbers = |name: &str, column: ColumnText| {
             let (count, d) = (column.count(), self.dimension);
@@ -115,7 +113,7 @@ impl Inquiry {
             Err(FieldError::Undefined(reason)) if of.is_some() => {
                 message.set("error", json!(reason));
             }
-            Err(error) => return Err(refused(error.to_string())),
+            Err(reason) => return Err(refused(reason)),
         }
         Ok(message)
     }
@@ -127,7 +125,7 @@ impl Inquiry {
         own: Option<Vec<f64>>,
         displacement: Option<Vec<f64>>,
         body: Option<usize>,
-    ) -> Result<RequestedPlaces, String> {
+    ) -> Result<RequestedPlaces, FieldError> {
         let are_own = own.is_none();
         let labels = match own {
             Some(labels) => labels,
@@ -146,7 +144,7 @@ impl Inquiry {
                 let bodies = vec![body; count];
                 if let Some(fields) = &self.fields {
                     let at = FieldPlaces::new(&labels, &bodies);
-                    fields.check_places(&at).map_err(|error| error.to_string())?;
+                    fields.check_places(&at)?;
                 }
                 bodies
             }
@@ -155,13 +153,14 @@ impl Inquiry {
             && displacement.len() != labels.len()
         {
             let (found, wanted) = (displacement.len(), labels.len());
-            return Err(format!("gave {found} numbers as `displacement`, expected {wanted}"));
+            let reason = format!("gave {found} numbers as `displacement`, expected {wanted}");
+            return Err(FieldError::Request(reason));
         }
         Ok(RequestedPlaces { labels, bodies, displacement, are_own })
     }
 
     /// The places of a request that gives none.
-    fn default_places(&self, field: FieldName) -> Result<Vec<f64>, String> {
+    fn default_places(&self, field: FieldName) -> Result<Vec<f64>, FieldError> {
         let (numbers, face) = match field {
             FieldName::Load(load) => {
                 let load = &self.loads[load];
@@ -176,8 +175,9 @@ impl Inquiry {
         if numbers.asked.iter().any(|(_, keys)| keys.contains(&"reference_position")) {
             return match face {
                 Some(_) => {
-                    Err("it depends on the place, and the request has no `reference_position`"
-                        .to_owned())
+                    let reason =
+                        "it depends on the place, and the request has no `reference_position`";
+                    Err(FieldError::Request(reason.to_owned()))
                 }
                 None => Ok(self.labels.clone()),
             };
@@ -190,12 +190,10 @@ impl Inquiry {
     }
 
     /// The body of each place.
-    fn bodies_of(&self, labels: &[f64]) -> Result<Vec<usize>, String> {
+    fn bodies_of(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
         let places = labels.chunks_exact(self.dimension);
         match &self.fields {
-            Some(fields) if self.version > 1 => {
-                fields.bodies(labels).map_err(|error| error.to_string())
-            }
+            Some(fields) if self.version > 1 => fields.bodies(labels),
             Some(fields) => Ok(places.map(|label| fields.nearest_body(label)).collect()),
             None => Ok(vec![0; places.len()]),
         }
@@ -254,5 +252,51 @@ impl Inquiry {
         let mut at = FieldPlaces::new(&places.labels, &places.bodies);
         at.displacement = places.displacement.as_deref();
         fields.values(of, t, &at)
+    }
+}
+
+/// Places of a request, in numbers.
+struct RequestedPlaces {
+    labels: Vec<f64>,
+    bodies: Vec<usize>,
+    displacement: Option<Vec<f64>>,
+    /// Whether they are the particles or the points.
+    are_own: bool,
+}
+
+/// The field that a request names.
+fn field_named(
+    name: &str,
+    loads: &[ProblemLoad],
+    faces: &[ProblemFace],
+) -> Result<FieldName, FieldError> {
+    if let Some((_, field)) = BODY_FIELDS.iter().find(|(known, _)| *known == name) {
+        return Ok(*field);
+    }
+    let loads = (0..loads.len()).map(|load| (format!("load:{load}"), FieldName::Load(load)));
+    let faces = faces.iter().enumerate();
+    let faces = faces.map(|(i, face)| (format!("face:{}", face.name), FieldName::Face(i)));
+    let known: Vec<(String, FieldName)> = loads.chain(faces).collect();
+    if let Some((_, field)) = known.iter().find(|(known, _)| known == name) {
+        return Ok(*field);
+    }
+    let names = BODY_FIELDS.iter().map(|(known, _)| *known);
+    let names: Vec<&str> = names.chain(known.iter().map(|(known, _)| known.as_str())).collect();
+    Err(FieldError::Request(match nearest(name, names.iter().copied()) {
+        Some(known) => format!("unknown field; did you mean `{known}`?"),
+        None => format!("unknown field; known: {}", names.join(", ")),
+    }))
+}
+
+/// The time (s) that a request means.
+fn time(field: FieldName, t: Option<f64>) -> Result<f64, FieldError> {
+    match t {
+        None if field.is_initial() => Ok(0.0),
+        None => Err(FieldError::Request("the request has no time `t`".to_owned())),
+        Some(t) if field.is_initial() && t != 0.0 => {
+            Err(FieldError::Request(format!("it is known at t = 0 only, not at t = {t}")))
+        }
+        Some(t) if !t.is_finite() => Err(FieldError::Request(format!("the time is {t}"))),
+        Some(t) => Ok(t),
     }
 }

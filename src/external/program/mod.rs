@@ -2,38 +2,47 @@
 //!
 //! ```text
 //! solver       greets the command, and starts it for each level
+//! subject      a level that runs in the process
+//! inquiry      answers to the solver's requests for values
 //! connection   the process: requests in, answers out, within limits of time and memory
-//! reader       answers, as they come
+//! answer       answers of a solver, and columns of numbers
 //! frame        one message: a line of JSON, and a block of bytes
-//! answer       what a solver may say
-//! hello        the first answer of a solver
-//! column       columns of numbers
-//! request      requests of a solver for values
-//! inquiry      the answers to these
-//! subject      a level on its way
+//! error        failures of the process and of the protocol
 //! schema       all messages as a JSON Schema
 //! ```
 
 mod answer;
-mod column;
 mod connection;
+mod error;
 mod frame;
-mod hello;
 mod inquiry;
-mod limits;
-mod printable;
-mod reader;
-mod request;
 mod schema;
 mod solver;
 mod subject;
 
-/// Number of sound answers in bytes, read as those of a solver: for the fuzzer.
-#[doc(hidden)]
-pub fn read_answers(bytes: &[u8]) -> usize {
-    reader::read_answers(bytes)
-}
-
-pub use limits::ProgramLimits;
+pub use connection::ProgramLimits;
+pub use error::ProgramError;
 pub use schema::protocol_schema;
 pub use solver::SolverProgram;
+
+use answer::Answer;
+use std::sync::atomic::AtomicUsize;
+
+#[doc(hidden)]
+/// Reads answers from `bytes` as from a process, with all their columns, up to the first that
+/// breaks the protocol; returns how many are sound. For the fuzzer.
+pub fn read_answers(mut bytes: &[u8]) -> usize {
+    let longest = AtomicUsize::new(bytes.len());
+    let mut count = 0;
+    while let Ok(Some(frame)) = frame::read_one(&mut bytes, &longest) {
+        let Ok(answer) = Answer::read(&frame) else { break };
+        if answer.columns().into_iter().any(|(name, column)| {
+            let entries = column.count();
+            column.numbers(&name, entries, &frame.bytes).is_err()
+        }) {
+            break;
+        }
+        count += 1;
+    }
+    count
+}

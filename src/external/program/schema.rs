@@ -1,10 +1,8 @@
 //! The protocol as a JSON Schema (draft 2020-12), made from the types that read and write it.
 
-use super::answer::Answer;
-use super::column::ColumnText;
+use super::answer::{Answer, ColumnText};
 use super::solver::{PROTOCOL, VERSIONS};
-use crate::external::particles::ProblemParticles;
-use crate::external::problem::LevelProblem;
+use crate::external::problem::{LevelProblem, ProblemParticles};
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};

@@ -1,18 +1,16 @@
 //! A solver behind a command, as a maker of subjects.
 
-use super::answer::Answer;
-use super::connection::Connection;
+use super::answer::{Answer, Hello};
+use super::connection::{Connection, ProgramLimits};
+use super::error::{ProgramError, printable};
 use super::frame::Outgoing;
-use super::hello::Hello;
 use super::inquiry::Inquiry;
-use super::limits::ProgramLimits;
-use super::printable::printable;
 use super::subject::{ProgramSubject, conclude, longest_answer};
 use crate::external::capabilities::ProblemNeeds;
 use crate::external::factory::SolverFactory;
 use crate::external::problem::LevelProblem;
 use crate::subject::{
-    Failure, HIGHEST_ORDER, LONGEST_NAME, Precision, RunCounters, Samples, Subject, is_solver_name,
+    Failure, HIGHEST_ORDER, Precision, RunCounters, Samples, Subject, is_solver_name,
 };
 use serde_json::json;
 use std::fs;
@@ -40,12 +38,11 @@ impl SolverProgram {
     /// Starts `command` (words as a shell splits them) and asks who it is.
     ///
     /// # Errors
-    /// One line that says what is wrong with the command or its answer.
-    pub fn greet(command: &str, limits: ProgramLimits) -> Result<Self, String> {
-        let command = shlex::split(command)
-            .ok_or("command has a quote that is not closed, or ends with a backslash")?;
+    /// The command cannot be used, or its answer breaks the protocol.
+    pub fn greet(command: &str, limits: ProgramLimits) -> Result<Self, ProgramError> {
+        let command = shlex::split(command).ok_or(ProgramError::Quotes)?;
         if command.is_empty() {
-            return Err("is empty: expected a command with its arguments".to_owned());
+            return Err(ProgramError::EmptyCommand);
         }
         let (connection, hello) = connected(&command, limits)?;
         connection.end();
@@ -58,10 +55,10 @@ impl SolverProgram {
         self.hello.capabilities.known.unknown_names(&self.hello.capabilities.keys)
     }
 
-    fn start(&self, problem: &LevelProblem) -> Result<Result<ProgramSubject, String>, String> {
+    fn start(&self, problem: &LevelProblem) -> Result<ProgramSubject, ProgramError> {
         let (mut connection, hello) = connected(&self.command, self.limits)?;
         if hello != self.hello {
-            return Err("said another hello than the first time".to_owned());
+            return Err(ProgramError::ChangedHello);
         }
         connection.expect_up_to(longest_answer(problem));
         let binary = hello.capabilities.known.binary;
@@ -78,14 +75,16 @@ impl SolverProgram {
         connection.send(message);
         let mut inquiry = Inquiry::new(problem, hello.protocol, binary);
         inquiry.allow(SETUP_QUESTIONS);
-        Ok(match conclude(&mut connection, &mut inquiry)? {
+        match conclude(&mut connection, &mut inquiry)? {
             (Answer::Ready { points }, bytes) => {
-                Ok(ProgramSubject::new(connection, inquiry, problem, points, &bytes, &hello)?)
+                ProgramSubject::new(connection, inquiry, problem, points, &bytes, &hello)
             }
-            (Answer::Cannot { reason }, _) => Err(printable(&reason)),
-            (Answer::Failed { reason }, _) => return Err(format!("says: {}", printable(&reason))),
-            (other, _) => return Err(format!("answered `problem` with `{}`", other.name())),
-        })
+            (Answer::Cannot { reason }, _) => Err(ProgramError::Refused(printable(&reason))),
+            (Answer::Failed { reason }, _) => Err(ProgramError::Failed(printable(&reason))),
+            (other, _) => {
+                Err(ProgramError::UnexpectedAnswer { request: "problem", answer: other.name() })
+            }
+        }
     }
 }
 
@@ -102,33 +101,26 @@ fn identity(command: &[String], hello: &Hello) -> u64 {
     all.finish()
 }
 
-fn connected(command: &[String], limits: ProgramLimits) -> Result<(Connection, Hello), String> {
+fn connected(
+    command: &[String],
+    limits: ProgramLimits,
+) -> Result<(Connection, Hello), ProgramError> {
     let mut connection = Connection::start(command, limits)?;
     let harness = concat!("mpm-verify ", env!("CARGO_PKG_VERSION"));
     let message = json!({"protocol": PROTOCOL, "versions": VERSIONS, "harness": harness});
     connection.send(Outgoing::new("hello", message, false));
     let (answer, _) = connection.answer()?;
     let Answer::Hello(hello) = answer else {
-        return Err(format!("answered `hello` with `{}`", answer.name()));
+        return Err(ProgramError::UnexpectedAnswer { request: "hello", answer: answer.name() });
     };
     if !VERSIONS.contains(&hello.protocol) {
-        let (theirs, [oldest, newest]) = (hello.protocol, VERSIONS);
-        return Err(format!(
-            "speaks version {theirs} of the protocol; expected version {oldest} or {newest}"
-        ));
+        return Err(ProgramError::Version { stated: hello.protocol, expected: VERSIONS });
     }
-    let name = &hello.name;
-    if !is_solver_name(name) {
-        return Err(format!(
-            "is called `{}`: expected up to {LONGEST_NAME} letters, digits, `-`, `_` or `.`",
-            printable(name)
-        ));
+    if !is_solver_name(&hello.name) {
+        return Err(ProgramError::Name(printable(&hello.name)));
     }
     if !(hello.formal_order > 0.0 && hello.formal_order <= HIGHEST_ORDER) {
-        return Err(format!(
-            "has the formal order {}: expected one up to {HIGHEST_ORDER}",
-            hello.formal_order
-        ));
+        return Err(ProgramError::FormalOrder(hello.formal_order));
     }
     Ok((connection, hello))
 }
@@ -177,9 +169,9 @@ impl SolverFactory for SolverProgram {
 
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
         match self.start(&problem) {
-            Ok(Ok(subject)) => Ok(Box::new(subject)),
-            Ok(Err(cannot)) => Err(cannot),
-            Err(broken) => Ok(Box::new(Broken(broken))),
+            Ok(subject) => Ok(Box::new(subject)),
+            Err(ProgramError::Refused(reason)) => Err(reason),
+            Err(error) => Ok(Box::new(Broken(error.to_string()))),
         }
     }
 }

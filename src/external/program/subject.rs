@@ -1,11 +1,10 @@
 //! A level on its way in another process.
 
-use super::answer::{Answer, Points, State};
+use super::answer::{Answer, Hello, Points, State};
 use super::connection::Connection;
+use super::error::{ProgramError, printable};
 use super::frame::Outgoing;
-use super::hello::Hello;
 use super::inquiry::Inquiry;
-use super::printable::printable;
 use crate::external::fields::FieldName;
 use crate::external::problem::LevelProblem;
 use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
@@ -25,7 +24,7 @@ pub(super) fn longest_answer(problem: &LevelProblem) -> usize {
 pub(super) fn conclude(
     connection: &mut Connection,
     inquiry: &mut Inquiry,
-) -> Result<(Answer, Vec<u8>), String> {
+) -> Result<(Answer, Vec<u8>), ProgramError> {
     loop {
         let (answer, bytes) = connection.answer()?;
         match answer.request() {
@@ -59,7 +58,7 @@ impl ProgramSubject {
     /// The subject in the initial state of `problem`; its places are `points`, if there are any.
     ///
     /// # Errors
-    /// One line that says what is wrong with the points.
+    /// The points are not usable.
     pub(super) fn new(
         connection: Connection,
         mut inquiry: Inquiry,
@@ -67,7 +66,7 @@ impl ProgramSubject {
         points: Option<Points>,
         bytes: &[u8],
         hello: &Hello,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, ProgramError> {
         let (d, particles) = (problem.dimension, &problem.particles);
         let mut samples = Samples { dimension: d, ..Samples::default() };
         let has_stress = hello.capabilities.known.columns.iter().any(|column| column == "stress");
@@ -79,7 +78,7 @@ impl ProgramSubject {
             let places = points.reference_position;
             samples.label = places.numbers("reference_position", count * d, bytes)?;
             if count == 0 {
-                return Err("has no points".to_owned());
+                return Err(ProgramError::NoPoints);
             }
             inquiry.set_points(&samples.label)?;
             let start = |of| inquiry.start(of).unwrap_or_else(|| vec![0.0; count * d]);
@@ -126,7 +125,7 @@ impl ProgramSubject {
     }
 
     /// Takes all steps that were called for, in the process.
-    fn advance(&mut self) -> Result<(), String> {
+    fn advance(&mut self) -> Result<(), ProgramError> {
         let steps = self.called - self.taken;
         let from = self.taken as f64 * self.dt;
         let content = json!({"steps": steps, "dt": self.dt, "from": from});
@@ -138,23 +137,24 @@ impl ProgramSubject {
                 self.taken = self.called;
                 self.look(*state, &bytes)
             }
-            Answer::Failed { reason } => Err(format!("says: {}", printable(&reason))),
-            other => Err(format!("answered `advance` with `{}`", other.name())),
+            Answer::Failed { reason } => Err(ProgramError::Failed(printable(&reason))),
+            other => {
+                Err(ProgramError::UnexpectedAnswer { request: "advance", answer: other.name() })
+            }
         }
     }
 
     /// Takes over a state.
-    fn look(&mut self, state: State, bytes: &[u8]) -> Result<(), String> {
+    fn look(&mut self, state: State, bytes: &[u8]) -> Result<(), ProgramError> {
         let (d, n) = (self.dimension, self.samples.len());
         let State { mut columns, crossings, left_domain, min_j } = state;
-        let mut column = |name: &str, count: usize| -> Result<Option<Vec<f64>>, String> {
+        let mut column = |name: &str, count: usize| -> Result<Option<Vec<f64>>, ProgramError> {
             columns.remove(name).map(|column| column.numbers(name, count, bytes)).transpose()
         };
-        let missing = |name: &str| format!("gave no column `{name}`");
         let samples = &mut self.samples;
         samples.displacement =
-            column("displacement", n * d)?.ok_or_else(|| missing("displacement"))?;
-        samples.velocity = column("velocity", n * d)?.ok_or_else(|| missing("velocity"))?;
+            column("displacement", n * d)?.ok_or(ProgramError::NoColumn("displacement"))?;
+        samples.velocity = column("velocity", n * d)?.ok_or(ProgramError::NoColumn("velocity"))?;
         samples.stress = column("stress", n * d * d)?.unwrap_or_default();
         samples.deformation_gradient =
             column("deformation_gradient", n * d * d)?.unwrap_or_default();
@@ -162,7 +162,7 @@ impl ProgramSubject {
         self.counters.crossings = crossings;
         self.counters.left_domain = left_domain;
         if let Some(j) = min_j.filter(|j| !(*j > 0.0 && j.is_finite())) {
-            return Err(format!("gave `min_j` {j}: a determinant of F is a positive number"));
+            return Err(ProgramError::Determinant(j));
         }
         self.counters.min_j = min_j.unwrap_or(f64::NAN);
         Ok(())
@@ -178,7 +178,7 @@ impl Subject for ProgramSubject {
         self.called += 1;
         if self.next == Some(self.called) {
             self.next = self.instants.next();
-            self.advance().map_err(Failure::External)?;
+            self.advance().map_err(|error| Failure::External(error.to_string()))?;
         }
         Ok(())
     }

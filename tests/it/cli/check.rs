@@ -1,6 +1,6 @@
 //! `mpm-verify check`: notes, and warnings that suites acknowledge.
 
-use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND};
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, assert_contains};
 use rstest::rstest;
 
 /// The bar with a time step beyond the stable one, followed by `more`.
@@ -21,13 +21,12 @@ const NOTE: &str = "note: the time step is the same on every level";
 
 #[test]
 fn notes_are_printed_for_suites_that_are_named() {
-    let folder = Folder::new();
-    folder.write("bars/a.yaml", with_note("bar-a"));
+    let folder = Folder::with("bars/a.yaml", with_note("bar-a"));
     folder.write("bars/b.yaml", with_note("bar-b"));
     let of_folder = folder.call(&["check", "bars"]);
     assert!(!of_folder.errors.contains(NOTE), "{}", of_folder.errors);
     let hint = " notes (printed with `--notes`, or for suites that are named)";
-    assert!(of_folder.errors.contains(hint), "{}", of_folder.errors);
+    assert_contains(&of_folder.errors, &[hint]);
     let printed = |arguments: &[&str]| folder.call(arguments).errors.matches(NOTE).count();
     assert_eq!(printed(&["check", "bars", "--notes"]), 2);
     assert_eq!(printed(&["check", "bars/a.yaml"]), 1);
@@ -40,13 +39,13 @@ const ACKNOWLEDGED: &str =
 
 #[test]
 fn an_acknowledged_warning_is_not_printed() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", long_step(""));
+    let folder = Folder::with("bar.yaml", long_step(""));
     let warned = folder.call(&["check", "bar.yaml", "--strict"]);
     assert_eq!(warned.code, FAILED);
-    for part in ["times what a wave takes to cross a cell", "`acknowledge` `time_step`"] {
-        assert!(warned.errors.contains(part), "no `{part}` in\n{}", warned.errors);
-    }
+    assert_contains(
+        &warned.errors,
+        &["times what a wave takes to cross a cell", "`acknowledge` `time_step`"],
+    );
     folder.write("bar.yaml", long_step(ACKNOWLEDGED));
     let found = folder.call(&["check", "bar.yaml", "--strict"]);
     assert_eq!(found.code, SOUND, "{}", found.errors);
@@ -55,16 +54,12 @@ fn an_acknowledged_warning_is_not_printed() {
 
 #[test]
 fn an_acknowledgement_without_its_warning_is_a_warning() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", long_step(&ACKNOWLEDGED.replace("time_step", "end_on_node")));
+    let folder =
+        Folder::with("bar.yaml", long_step(&ACKNOWLEDGED.replace("time_step", "end_on_node")));
     let found = folder.call(&["check", "bar.yaml", "--strict"]);
     assert_eq!(found.code, FAILED);
-    assert!(
-        found.errors.contains("there is no warning `end_on_node` to acknowledge"),
-        "{}",
-        found.errors
-    );
-    assert!(found.errors.contains("times what a wave takes to cross a cell"), "{}", found.errors);
+    let missing = "there is no warning `end_on_node` to acknowledge";
+    assert_contains(&found.errors, &[missing, "times what a wave takes to cross a cell"]);
 }
 
 #[rstest]
@@ -80,9 +75,8 @@ fn an_acknowledgement_without_its_warning_is_a_warning() {
 )]
 #[case::a_bare_name("[time_step]", "expected a map")]
 fn an_acknowledgement_is_refused_with(#[case] entries: &str, #[case] words: &str) {
-    let folder = Folder::new();
-    folder.write("bar.yaml", long_step(&format!("acknowledge: {entries}")));
+    let folder = Folder::with("bar.yaml", long_step(&format!("acknowledge: {entries}")));
     let found = folder.call(&["check", "bar.yaml"]);
     assert_eq!(found.code, BAD_INPUT);
-    assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
+    assert_contains(&found.errors, &[words]);
 }

@@ -1,6 +1,6 @@
 //! `compare`: what moved between two runs, where it is said, and the exit status.
 
-use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND};
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, assert_contains};
 use rstest::rstest;
 
 /// A folder with the JSON of two runs: of a bar, and of the same bar with twice the particles and
@@ -26,9 +26,12 @@ fn runs_of(other: &str) -> Folder {
 #[test]
 fn a_run_against_itself_says_that_nothing_moved() {
     let folder = two_runs();
-    let found = folder.call(&["compare", "old.json", "old.json"]);
-    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
-    assert!(found.out.starts_with("nothing worse: 2 unchanged\n"), "{}", found.out);
+    let out = folder.accepted(&["compare", "old.json", "old.json"]);
+    insta::assert_snapshot!(out, @"
+    nothing worse: 2 unchanged
+
+    Figures count as equal within a share of 0.001.
+    ");
 }
 
 #[test]
@@ -36,17 +39,18 @@ fn twice_the_particles_are_more_expensive() {
     let folder = two_runs();
     let found = folder.call(&["compare", "old.json", "new.json"]);
     assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
-    for words in [
-        "worse: 1 more expensive, 1 gone, 2 targets more expensive to reach\n",
-        "\nmore expensive\n",
-        "  short-bar::mpm-linear-flip-musl  converging ",
-        // Other levels are no reason to say nothing: both series meet.
-        "levels: 4 -> 4, 0 in common\n",
-        " x at 1e-7\n",
-        "\ngone\n",
-    ] {
-        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
-    }
+    assert_contains(
+        &found.out,
+        &[
+            "worse: 1 more expensive, 1 gone, 2 targets more expensive to reach\n",
+            "\nmore expensive\n",
+            "  short-bar::mpm-linear-flip-musl  converging ",
+            // Other levels are no reason to say nothing: both series meet.
+            "levels: 4 -> 4, 0 in common\n",
+            " x at 1e-7\n",
+            "\ngone\n",
+        ],
+    );
 }
 
 #[test]
@@ -55,7 +59,7 @@ fn markdown_is_a_comment() {
     let found = folder.call(&["compare", "old.json", "new.json", "--format", "markdown"]);
     assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
     assert!(found.out.starts_with("**mpm-verify: Worse**: "), "{}", found.out);
-    assert!(found.out.contains("\n<details><summary>1 gone</summary>\n"), "{}", found.out);
+    assert_contains(&found.out, &["\n<details><summary>1 gone</summary>\n"]);
 }
 
 /// The bar with an error of another size, as a solver that got worse has it.
@@ -120,15 +124,13 @@ fn the_workflow_comments_what_moved() {
 #[case::a_wrong_type("bad.json", Some("{\n  \"suites\": 3\n}"), "bad.json:2:13")]
 #[case::not_text("bad.json", Some("\u{feff}"), "expected the document that `mpm-verify run")]
 fn a_file_that_cannot_be_used(#[case] name: &str, #[case] text: Option<&str>, #[case] words: &str) {
-    let folder = Folder::new();
-    folder.write("good.json", "{\"suites\": []}");
+    let folder = Folder::with("good.json", "{\"suites\": []}");
     if let Some(text) = text {
         folder.write(name, text);
     }
     for files in [[name, "good.json"], ["good.json", name]] {
-        let found = folder.call(&["compare", files[0], files[1]]);
-        assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
-        assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
+        let errors = folder.refused(&["compare", files[0], files[1]]);
+        assert_contains(&errors, &[words]);
     }
     assert_eq!(folder.call(&["compare", "good.json", "good.json"]).code, SOUND);
 }
@@ -137,7 +139,7 @@ fn a_file_that_cannot_be_used(#[case] name: &str, #[case] text: Option<&str>, #[
 fn both_bad_files_are_named() {
     let found = Folder::new().call(&["compare", "a.json", "b.json"]);
     assert_eq!(found.code, BAD_INPUT);
-    assert!(found.errors.contains("a.json") && found.errors.contains("b.json"), "{}", found.errors);
+    assert_contains(&found.errors, &["a.json", "b.json"]);
 }
 
 #[test]
@@ -147,7 +149,7 @@ fn the_tolerance_is_a_share() {
         let found =
             folder.call(&["compare", "old.json", "new.json", &format!("--tolerance={bad}")]);
         assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
-        assert!(found.errors.contains("--tolerance"), "{}", found.errors);
+        assert_contains(&found.errors, &["--tolerance"]);
     }
     let folder = runs_of(&BAR.replace("ppc: 4", "ppc: 8"));
     assert_eq!(folder.call(&["compare", "old.json", "new.json"]).code, FAILED);
@@ -178,18 +180,35 @@ fn snapshots(overview: &str, report: &str) -> Folder {
 
 #[test]
 fn changes_of_snapshots_are_listed() {
-    let found = snapshots(OVERVIEW, REPORT).call(&["compare", "old", "new"]);
-    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
-    assert!(found.out.starts_with("nothing worse: 1 unchanged"), "{}", found.out);
+    let out = snapshots(OVERVIEW, REPORT).accepted(&["compare", "old", "new"]);
+    insta::assert_snapshot!(out, @"
+    nothing worse: 1 unchanged
+
+    Figures count as equal within a share of 0.001.
+    ");
     let worse = OVERVIEW.replace("1.000e-04", "2.000e-04");
     let found = snapshots(&worse, REPORT).call(&["compare", "old", "new"]);
     assert_eq!(found.code, FAILED);
-    for words in ["bar::mpm-flip-musl", "1.000e-4 -> 2.000e-4", "2.00 x", "the finest level"] {
-        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
-    }
+    insta::assert_snapshot!(found.out, @"
+    worse: 1 less accurate
+
+    less accurate
+      case                verdict     order                 error   times                at
+      bar::mpm-flip-musl  converging   1.99  1.000e-4 -> 2.000e-4  2.00 x  the finest level
+
+    Figures count as equal within a share of 0.001.
+    ");
     let failing = OVERVIEW.replace("  pass", "  NOT AS EXPECTED");
     let found = snapshots(&failing, REPORT).call(&["compare", "old", "new"]);
-    assert!(found.out.contains("1 no longer as expected"), "{}", found.out);
+    insta::assert_snapshot!(found.out, @"
+    worse: 1 no longer as expected
+
+    no longer as expected
+      case                verdict                          order
+      bar::mpm-flip-musl  converging -> converging (FAIL)   1.99
+
+    Figures count as equal within a share of 0.001.
+    ");
 }
 
 #[test]
@@ -198,9 +217,19 @@ fn another_problem_is_no_worse_solver() {
     let stiffer = REPORT.replace("E = 100", "E = 101").replace("left fixed", "left roller");
     let found = snapshots(&worse, &stiffer).call(&["compare", "old", "new"]);
     assert_eq!(found.code, SOUND);
-    for words in ["bar: parameters E = 100 -> E = 101", "bar: left fixed -> roller"] {
-        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
-    }
+    insta::assert_snapshot!(found.out, @"
+    nothing worse: 1 of another problem
+
+    another problem, so that figures are not compared
+      bar: parameters E = 100 -> E = 101
+      bar: left fixed -> roller
+
+    of another problem
+      case                verdict     order
+      bar::mpm-flip-musl  converging   1.99
+
+    Figures count as equal within a share of 0.001.
+    ");
     let finer = REPORT.replace("0.1*h/c", "0.05*h/c");
     let found = snapshots(&worse, &finer).call(&["compare", "old", "new"]);
     assert_eq!(found.code, FAILED, "steps are no problem of their own\n{}", found.out);
@@ -210,10 +239,9 @@ fn another_problem_is_no_worse_solver() {
 fn a_commit_that_is_not_there_is_an_error() {
     let found = snapshots(OVERVIEW, REPORT).call(&["compare", "older", "new"]);
     assert_eq!(found.code, BAD_INPUT);
-    assert!(
-        found.errors.contains("`older` is no file and no folder, and no commit with snapshots"),
-        "{}",
-        found.errors
+    assert_contains(
+        &found.errors,
+        &["`older` is no file and no folder, and no commit with snapshots"],
     );
 }
 
@@ -224,6 +252,9 @@ fn a_run_is_not_compared_with_snapshots() {
     folder.write("run/report.json", "{\"suites\": []}");
     let found = folder.call(&["compare", "old", "run"]);
     assert_eq!(found.code, BAD_INPUT, "{}", found.errors);
-    assert!(found.errors.contains("the results of a run and snapshots"), "{}", found.errors);
+    insta::assert_snapshot!(found.errors, @"
+    error: `old` and `run` are the results of a run and snapshots, which have other figures
+    help: compare two runs (JSON), or two sets of snapshots (folders or commits)
+    ");
     assert_eq!(folder.call(&["compare", "run", "run/report.json"]).code, SOUND);
 }

@@ -1,7 +1,7 @@
 //! `cost`: what accuracy costs on this machine. Seconds differ from run to run; what is asked here
 //! is what does not.
 
-use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious};
+use super::{BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
 use serde_json::Value;
 
 fn document(folder: &Folder, arguments: &[&str]) -> Value {
@@ -16,31 +16,29 @@ fn list(value: &Value) -> &[Value] {
 
 #[test]
 fn the_report_has_levels_a_model_and_both_rankings() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
-    let found = folder.call(&["cost", "bar.yaml"]);
-    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
-    for words in [
-        "short-bar: Short bar\n",
-        "  machine           ",
-        "ns/transfer",
-        "cost model, ns",
-        "work              seconds, interpolated between neighbouring levels",
-        "work              particle-node transfers, interpolated between",
-        "work ~ error^k",
-    ] {
-        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
-    }
-    let rows = |name: &str| found.out.lines().filter(|line| line.contains(name)).count();
+    let folder = Folder::with("bar.yaml", BAR);
+    let out = folder.accepted(&["cost", "bar.yaml"]);
+    assert_contains(
+        &out,
+        &[
+            "short-bar: Short bar\n",
+            "  machine           ",
+            "ns/transfer",
+            "cost model, ns",
+            "work              seconds, interpolated between neighbouring levels",
+            "work              particle-node transfers, interpolated between",
+            "work ~ error^k",
+        ],
+    );
+    let rows = |name: &str| out.lines().filter(|line| line.contains(name)).count();
     // Four levels, a model, and two rows in each of two rankings; beside other tests a finer level can
     // take less time than a coarser one, and then seconds have no exponent.
-    assert!((8..=9).contains(&rows("mpm-linear-flip-musl")), "{}", found.out);
+    assert!((8..=9).contains(&rows("mpm-linear-flip-musl")), "{out}");
 }
 
 #[test]
 fn every_level_has_its_seconds_and_its_work() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    let folder = Folder::with("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml"]);
     let [suite] = list(&document["suites"]) else { panic!("one suite") };
     assert!(suite["machine"]["cores"].as_u64() >= Some(1));
@@ -67,15 +65,13 @@ fn every_level_has_its_seconds_and_its_work() {
 /// With steps of twice its limit a method breaks; its levels are rows.
 #[test]
 fn what_breaks_is_a_row() {
-    let folder = Folder::new();
-    folder.write(
+    let folder = Folder::with(
         "bar.yaml",
         BAR.replace("until: 0.05, dt: 1e-3", "until: 4, dt: \"0.16*h\", instants: 1"),
     );
-    let found = folder.call(&["cost", "bar.yaml", "--figures", "figures"]);
-    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
-    let broken = found.out.lines().filter(|line| line.split_whitespace().any(|w| w == "failed"));
-    assert!(broken.count() > 0, "{}", found.out);
+    let out = folder.accepted(&["cost", "bar.yaml", "--figures", "figures"]);
+    let broken = out.lines().filter(|line| line.split_whitespace().any(|w| w == "failed"));
+    assert!(broken.count() > 0, "{out}");
     let figure = folder.read("figures/short-bar-work-transfers.svg");
     assert!(figure.contains("failed or not finite"));
     assert!(folder.files("figures").contains(&"short-bar-work-seconds.svg".to_owned()));
@@ -83,8 +79,7 @@ fn what_breaks_is_a_row() {
 
 #[test]
 fn a_budget_is_answered_with_a_setting_and_what_came_of_it() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    let folder = Folder::with("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml", "--budget", "30ms"]);
     let best = &document["suites"][0]["best_candidate"];
     let pair = |key: &str| {
@@ -100,38 +95,35 @@ fn a_budget_is_answered_with_a_setting_and_what_came_of_it() {
     assert!(best["cells"].as_u64() > Some(12) && best["beyond"] == true, "{best}");
     assert_eq!(best["failure"], Value::Null);
     let text = folder.call(&["cost", "bar.yaml", "--budget", "30ms"]).out;
-    for words in ["predicted within 0.03 s", "95 %", "measured", "share of budget", "model  "] {
-        assert!(text.contains(words), "no `{words}` in\n{text}");
-    }
+    assert_contains(
+        &text,
+        &["predicted within 0.03 s", "95 %", "measured", "share of budget", "model  "],
+    );
 }
 
 /// The order is not the expected one, so that no error is predicted beyond the levels that ran.
 #[test]
 fn no_budget_buys_an_error_that_is_not_predicted() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", ambitious());
-    let found = folder.call(&["cost", "bar.yaml", "--budget", "1s"]);
-    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    let folder = Folder::with("bar.yaml", ambitious());
+    let out = folder.accepted(&["cost", "bar.yaml", "--budget", "1s"]);
     let why = "nothing finer     no error is predicted: the levels are judged too low";
-    assert!(found.out.contains(why) && found.out.contains("12 cells"), "{}", found.out);
+    assert!(out.contains(why) && out.contains("12 cells"), "{out}");
 }
 
 #[test]
 fn what_cannot_be_bought_says_so() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    let folder = Folder::with("bar.yaml", BAR);
     let poor = folder.call(&["cost", "bar.yaml", "--budget", "1e-9s"]);
     assert_eq!(poor.code, FAILED);
-    assert!(poor.errors.contains("nothing is predicted to be done in"), "{}", poor.errors);
+    assert_contains(&poor.errors, &["nothing is predicted to be done in"]);
     let time = folder.call(&["cost", "heat-temporal-order", "--budget", "1s"]);
     assert_eq!(time.code, FAILED);
-    assert!(time.errors.contains("does not refine its cells"), "{}", time.errors);
+    assert_contains(&time.errors, &["does not refine its cells"]);
 }
 
 #[test]
 fn words_that_are_not_known_are_answered() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    let folder = Folder::with("bar.yaml", BAR);
     for (arguments, words) in [
         (&["--budget", "10"][..], "such as `10s`"),
         (&["--budget=-1s"], "such as `10s`"),
@@ -140,8 +132,7 @@ fn words_that_are_not_known_are_answered() {
         (&["--figures", "bar.yaml/x"], "--figures bar.yaml/x: "),
     ] {
         let arguments = [&["cost", "bar.yaml"], arguments].concat();
-        let found = folder.call(&arguments);
-        assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""), "{arguments:?}");
-        assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
+        let errors = folder.refused(&arguments);
+        assert_contains(&errors, &[words]);
     }
 }

@@ -1,6 +1,6 @@
 //! Suites that expect nothing: what a run says, and the expectations that it would support.
 
-use super::{BAD_INPUT, BAR, Folder, SOUND};
+use super::{BAD_INPUT, BAR, Folder, SOUND, assert_contains};
 use serde_json::Value;
 
 /// The part of a suite before `expect`.
@@ -10,18 +10,18 @@ fn open(text: &str) -> &str {
 
 #[test]
 fn a_suite_without_expectations_says_what_it_sees_and_is_no_gate() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", open(BAR));
+    let folder = Folder::with("bar.yaml", open(BAR));
     let found = folder.call(&["run", "bar.yaml"]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
-    for words in [
-        "explored  short-bar::mpm-linear-flip-musl",
-        "  a   nothing: the suite has no `expect`, and is no gate",
-        "result        2 cases of which nothing is expected",
-        "relative drift, the largest of all levels\n",
-    ] {
-        assert!(found.out.contains(words), "no `{words}` in\n{}", found.out);
-    }
+    assert_contains(
+        &found.out,
+        &[
+            "explored  short-bar::mpm-linear-flip-musl",
+            "  a   nothing: the suite has no `expect`, and is no gate",
+            "result        2 cases of which nothing is expected",
+            "relative drift, the largest of all levels\n",
+        ],
+    );
     let note = "note: short-bar expects nothing, and is no gate";
     assert!(found.errors.starts_with(note), "{}", found.errors);
     let checked = folder.call(&["check", "bar.yaml"]);
@@ -40,7 +40,7 @@ fn a_run_that_fails_is_no_failure_of_a_suite_that_explores() {
     folder.write("bar.yaml", long);
     let found = folder.call(&["run", "bar.yaml", "--brief"]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
-    assert!(found.out.contains("failed"), "{}", found.out);
+    assert_contains(&found.out, &["failed"]);
 }
 
 /// Two cases of different order: FEM starts as a leapfrog, MPM with `v(0)`.
@@ -66,18 +66,18 @@ methods:
 
 #[test]
 fn what_is_proposed_passes() {
-    let folder = Folder::new();
-    folder.write("open.yaml", STEPS);
+    let folder = Folder::with("open.yaml", STEPS);
     let proposed = folder.call(&["propose", "open.yaml"]);
     assert_eq!(proposed.code, SOUND, "{}", proposed.errors);
     folder.write("gated.yaml", format!("{STEPS}{}", proposed.out));
     let found = folder.call(&["run", "gated.yaml", "--brief"]);
     assert_eq!(found.code, SOUND, "{}\n{}{}", proposed.out, found.out, found.errors);
-    assert!(found.out.contains("pass  steps::"), "{}", found.out);
+    assert_contains(&found.out, &["pass  steps::"]);
     assert!(!found.errors.contains("no gate"), "{}", found.errors);
-    for words in ["order: [1.9, 2.1]  # from theory", "mass: 1e-14", "# from the run"] {
-        assert!(proposed.out.contains(words), "no `{words}` in\n{}", proposed.out);
-    }
+    assert_contains(
+        &proposed.out,
+        &["order: [1.9, 2.1]  # from theory", "mass: 1e-14", "# from the run"],
+    );
 }
 
 #[test]
@@ -93,8 +93,7 @@ fn expectations_that_a_suite_has_do_not_bend_what_is_proposed() {
 /// What a smaller motion would gain is said beside what a run gives.
 #[test]
 fn a_proposal_says_what_the_amplitude_leaves() {
-    let folder = Folder::new();
-    folder.write("large.yaml", STEPS.replace("1e-3*", "0.1*"));
+    let folder = Folder::with("large.yaml", STEPS.replace("1e-3*", "0.1*"));
     let found = folder.call(&["propose", "large.yaml"]);
     assert_eq!(found.code, SOUND, "{}", found.errors);
     let begin = found.out.split("expect:").next().expect("the part before");
@@ -108,5 +107,5 @@ fn only_convergence_studies_have_proposals() {
     let folder = Folder::new();
     let found = folder.call(&["propose", "courant-limit"]);
     assert_eq!(found.code, BAD_INPUT);
-    assert!(found.errors.contains("for convergence studies only"), "{}", found.errors);
+    insta::assert_snapshot!(found.errors, @"error: courant-limit: expectations are proposed for convergence studies only");
 }

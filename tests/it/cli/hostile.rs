@@ -1,6 +1,6 @@
 //! Files meant to do harm, or that would by accident: refused at once, in words.
 
-use super::{BAD_INPUT, Folder};
+use super::{BAD_INPUT, Folder, assert_contains};
 use rstest::rstest;
 use std::time::{Duration, Instant};
 
@@ -14,8 +14,7 @@ use std::time::{Duration, Instant};
 #[case::not_text(b"suite: \xff\xfe\n".to_vec(), "the file is not UTF-8 text: byte 7 does not fit")]
 #[case::nothing(Vec::new(), "the file is empty; a suite starts with `suite: NAME`")]
 fn a_file_of(#[case] bytes: Vec<u8>, #[case] message: &str) {
-    let folder = Folder::new();
-    folder.write("bad.yaml", bytes);
+    let folder = Folder::with("bad.yaml", bytes);
     for command in ["check", "run", "list", "explain"] {
         refused(&folder, &[command, "bad.yaml"], &[message, "bad.yaml"]);
     }
@@ -23,8 +22,7 @@ fn a_file_of(#[case] bytes: Vec<u8>, #[case] message: &str) {
 
 #[test]
 fn a_folder_in_the_place_of_a_file() {
-    let folder = Folder::new();
-    folder.write("suites/bad.yaml/notes.txt", "");
+    let folder = Folder::with("suites/bad.yaml/notes.txt", "");
     refused(&folder, &["check", "suites"], &["this is a folder, not a suite file", "bad.yaml"]);
 }
 
@@ -40,7 +38,5 @@ fn refused(folder: &Folder, arguments: &[&str], words: &[&str]) {
     let found = folder.call(arguments);
     assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
     assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
-    for words in words {
-        assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
-    }
+    assert_contains(&found.errors, words);
 }

@@ -1,6 +1,6 @@
 //! Ctrl-C during a run.
 
-use super::{BAR, Folder};
+use super::{BAR, Folder, assert_contains};
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
 
@@ -10,8 +10,7 @@ const INTERRUPTED: i32 = 130;
 #[cfg(unix)]
 #[test]
 fn a_run_that_is_interrupted_says_how_to_go_on() {
-    let folder = Folder::new();
-    folder.write("first.yaml", BAR.replace("short-bar", "first"));
+    let folder = Folder::with("first.yaml", BAR.replace("short-bar", "first"));
     let long = BAR.replace("until: 0.05, dt: 1e-3", "until: 0.05, dt: 1e-8");
     folder.write("long.yaml", long);
     for (more, words) in [
@@ -29,6 +28,6 @@ fn a_run_that_is_interrupted_says_how_to_go_on() {
         let mut errors = String::new();
         child.stderr.take().expect("a pipe").read_to_string(&mut errors).expect("UTF-8");
         assert_eq!(child.wait().expect("an end").code(), Some(INTERRUPTED), "{errors}");
-        assert!(errors.contains(words), "{errors}");
+        assert_contains(&errors, &[words]);
     }
 }

@@ -97,8 +97,7 @@ fn the_schema_in_the_documents_is_the_one_that_is_printed() {
 
 #[test]
 fn every_key_is_there_and_no_other() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    let folder = Folder::with("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml", "grid-crossing"], SOUND);
     has(&document, &["version", "commit", "suites"]);
     for suite in list(&document["suites"]) {
@@ -129,8 +128,7 @@ fn every_key_is_there_and_no_other() {
 
 #[test]
 fn a_case_that_converges_has_its_figures() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    let folder = Folder::with("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml"], SOUND);
     let suite = &document["suites"][0];
     assert_eq!((&suite["suite"], &suite["passed"]), (&"short-bar".into(), &true.into()));
@@ -155,8 +153,7 @@ fn a_case_that_converges_has_its_figures() {
 
 #[test]
 fn null_stands_for_what_finite_elements_do_not_have() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    let folder = Folder::with("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml"], SOUND);
     let case = &document["suites"][0]["cases"][1];
     assert_eq!(case["subject"], "fem");
@@ -191,8 +188,7 @@ fn what_is_not_finite_is_a_string() {
 
 #[test]
 fn what_was_not_met_is_listed() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", ambitious());
+    let folder = Folder::with("bar.yaml", ambitious());
     let document = document(&folder, &["bar.yaml"], FAILED);
     let suite = &document["suites"][0];
     assert_eq!(suite["passed"], false);
@@ -202,8 +198,7 @@ fn what_was_not_met_is_listed() {
 
 #[test]
 fn a_bad_file_leaves_one_document_of_the_good_ones() {
-    let folder = Folder::new();
-    folder.write("bad.yaml", mistaken());
+    let folder = Folder::with("bad.yaml", mistaken());
     let document = document(&folder, &["bad.yaml", "grid-crossing"], BAD_INPUT);
     let suites = list(&document["suites"]);
     assert_eq!((suites.len(), &suites[0]["suite"]), (1, &"grid-crossing".into()));
@@ -212,8 +207,7 @@ fn a_bad_file_leaves_one_document_of_the_good_ones() {
 /// The ranking by transfers, with the keys that the documentation promises.
 #[test]
 fn a_suite_ranks_its_methods_by_what_accuracy_costs() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    let folder = Folder::with("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml", "grid-crossing"], SOUND);
     let [bar, forces] = list(&document["suites"]) else { panic!("two suites") };
     assert!(list(&forces["cost"]).is_empty());
@@ -253,8 +247,7 @@ fn every_command_prints_one_document(
     #[case] place: &str,
     #[case] wanted: &Value,
 ) {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    let folder = Folder::with("bar.yaml", BAR);
     folder.write("empty.json", r#"{"suites": []}"#);
     let found = folder.call(&[arguments, &["--format", "json"]].concat());
     assert_eq!(found.code, SOUND, "{}", found.errors);
@@ -264,8 +257,7 @@ fn every_command_prints_one_document(
 
 #[test]
 fn what_is_wrong_with_a_file_is_in_the_document_of_check() {
-    let folder = Folder::new();
-    folder.write("bad.yaml", mistaken());
+    let folder = Folder::with("bad.yaml", mistaken());
     let found = folder.call(&["check", "bad.yaml", "--format", "json"]);
     assert_eq!((found.code, found.errors.as_str()), (BAD_INPUT, ""));
     let document: Value = serde_json::from_str(&found.out).expect("one document");

@@ -1,29 +1,28 @@
 //! `run --html`: one page with all of it.
 
-use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
+use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, assert_contains, mistaken};
 
 #[test]
 fn a_page_has_verdicts_figures_reports_and_the_suites() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    let folder = Folder::with("bar.yaml", BAR);
     let arguments = ["run", "bar.yaml", "grid-crossing", "--html", "new/page.html"];
-    let found = folder.call(&arguments);
-    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
+    let out = folder.accepted(&arguments);
     let page = folder.read("new/page.html");
-    for words in [
-        "<p class=\"ok finding\">2 suites, ",
-        "<section id=\"suite-short-bar\" class=\"suite\">",
-        "<a href=\"#case-short-bar.fem-linear-lumped\">",
-        "<tr id=\"case-short-bar.fem-linear-lumped\">",
-        "<figure id=\"figure-short-bar.1\">",
-        "<figure id=\"figure-grid-crossing.1\">",
-        "<details id=\"yaml-short-bar\"><summary>bar.yaml</summary>",
-        "initial_velocity: [&quot;1e-3*sin(pi*X/2)&quot;]",
-    ] {
-        assert!(page.contains(words), "no `{words}`");
-    }
+    assert_contains(
+        &page,
+        &[
+            "<p class=\"ok finding\">2 suites, ",
+            "<section id=\"suite-short-bar\" class=\"suite\">",
+            "<a href=\"#case-short-bar.fem-linear-lumped\">",
+            "<tr id=\"case-short-bar.fem-linear-lumped\">",
+            "<figure id=\"figure-short-bar.1\">",
+            "<figure id=\"figure-grid-crossing.1\">",
+            "<details id=\"yaml-short-bar\"><summary>bar.yaml</summary>",
+            "initial_velocity: [&quot;1e-3*sin(pi*X/2)&quot;]",
+        ],
+    );
     // The printed text is that without a page, and each run writes the same bytes.
-    assert_eq!(found.out, folder.call(&arguments[..3]).out);
+    assert_eq!(out, folder.call(&arguments[..3]).out);
     folder.call(&["run", "bar.yaml", "grid-crossing", "--html", "again.html", "--jobs", "1"]);
     assert!(page == folder.read("again.html"), "the page depends on more than the run");
     let here = folder.path().display().to_string();
@@ -32,8 +31,7 @@ fn a_page_has_verdicts_figures_reports_and_the_suites() {
 
 #[test]
 fn a_page_says_what_is_not_as_expected() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", ambitious());
+    let folder = Folder::with("bar.yaml", ambitious());
     folder.write("bad.yaml", mistaken());
     assert_eq!(folder.call(&["run", "bar.yaml", "--html", "page.html"]).code, FAILED);
     let page = folder.read("page.html");
@@ -47,8 +45,7 @@ fn a_page_says_what_is_not_as_expected() {
 /// Suites that are left out leave no file to another one.
 #[test]
 fn a_page_of_chosen_cases_has_the_files_of_their_suites() {
-    let folder = Folder::new();
-    folder.write(
+    let folder = Folder::with(
         "a.yaml",
         BAR.replace("  - mpm: {basis: linear, transfer: flip, scheme: musl}\n", ""),
     );
@@ -62,17 +59,14 @@ fn a_page_of_chosen_cases_has_the_files_of_their_suites() {
 
 #[test]
 fn a_page_that_cannot_be_written_is_refused_before_anything_runs() {
-    let folder = Folder::new();
-    folder.write("file", "in the way");
+    let folder = Folder::with("file", "in the way");
     for place in ["file/page.html", "."] {
-        let found = folder.call(&["run", "grid-crossing", "--html", place]);
-        assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+        let errors = folder.refused(&["run", "grid-crossing", "--html", place]);
         let words = format!("error: --html {place}: ");
-        assert!(found.errors.starts_with(&words), "{}", found.errors);
+        assert!(errors.starts_with(&words), "{errors}");
     }
     folder.write("a.yaml", BAR);
     folder.write("b.yaml", BAR);
-    let found = folder.call(&["run", "a.yaml", "b.yaml", "--html", "page.html"]);
-    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
-    assert!(found.errors.contains("two suites are called `short-bar`"), "{}", found.errors);
+    let errors = folder.refused(&["run", "a.yaml", "b.yaml", "--html", "page.html"]);
+    assert_contains(&errors, &["two suites are called `short-bar`"]);
 }

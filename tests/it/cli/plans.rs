@@ -1,6 +1,6 @@
 //! Refinement plans: which spacing is judged, where a floor comes from, and what `--full` adds.
 
-use super::{BAR, FAILED, Folder, SOUND};
+use super::{BAR, FAILED, Folder, SOUND, assert_contains};
 use serde_json::Value;
 
 /// The bar with another plan and another time step; nothing is expected of the orders here.
@@ -17,8 +17,7 @@ fn bar(run: &str, refine: &str, expect: &str) -> String {
 const TOO_FEW: &str = "  - verdict: too_few_levels\n";
 
 fn case(text: &str, arguments: &[&str], code: i32) -> Value {
-    let folder = Folder::new();
-    folder.write("bar.yaml", text);
+    let folder = Folder::with("bar.yaml", text);
     let found = folder.call(&[&["run", "bar.yaml", "--format", "json"], arguments].concat());
     assert_eq!(found.code, code, "{}{}", found.out, found.errors);
     let document: Value = serde_json::from_str(&found.out).expect("one document");
@@ -75,7 +74,7 @@ fn the_axis_that_was_not_refined_is_named() {
         case["floor"]["probes"].as_array().expect("a list").iter().map(|p| &p["axis"]).collect();
     assert_eq!(axes, ["particles", "space"]);
     let reason = case["reason"].as_str().expect("words");
-    assert!(reason.contains("the error is that of the cell size"), "{reason}");
+    assert_contains(&reason, &["the error is that of the cell size"]);
 }
 
 #[test]
@@ -113,15 +112,16 @@ fn reports_speak_of_the_axis_that_is_refined() {
     folder.write("bar.yaml", bar("run: {until: 0.05}", refine, TOO_FEW));
     let found = folder.call(&["run", "bar.yaml", "--out", "out"]);
     let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
-    for words in [
-        "cells 8 on every level;",
-        "dt 0.001, 0.0005, 0.00025 s, to a whole number of steps;",
-        "--full adds dt = 0.000125 s",
-        "levels dt = 1.000e-03, 5.000e-04, 2.500e-04 s; 8 cells;",
-        "dt 1.000e-03 5.000e-04 2.500e-04",
-    ] {
-        assert!(flat.contains(words), "no `{words}` in\n{}", found.out);
-    }
+    assert_contains(
+        &flat,
+        &[
+            "cells 8 on every level;",
+            "dt 0.001, 0.0005, 0.00025 s, to a whole number of steps;",
+            "--full adds dt = 0.000125 s",
+            "levels dt = 1.000e-03, 5.000e-04, 2.500e-04 s; 8 cells;",
+            "dt 1.000e-03 5.000e-04 2.500e-04",
+        ],
+    );
     assert!(folder.read("out/short-bar.svg").contains("time step dt (s)"));
     let velocity = folder.read("out/short-bar-mpm-linear-flip-musl-velocity.svg");
     assert!(velocity.contains("dt = 5e-4 s"));

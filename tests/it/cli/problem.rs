@@ -1,15 +1,12 @@
 //! `mpm-verify problem`: a level of a suite as a file.
 
-use super::{BAD_INPUT, BAR, Folder, SOUND};
-use rstest::rstest;
+use super::{BAR, Folder, refusals};
 use serde_json::Value;
 
 fn problem(arguments: &[&str]) -> String {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
-    let found = folder.call(&[&["problem", "bar.yaml"], arguments].concat());
-    assert_eq!((found.code, found.errors.as_str()), (SOUND, ""));
-    found.out
+    let folder = Folder::with("bar.yaml", BAR);
+    let out = folder.accepted(&[&["problem", "bar.yaml"], arguments].concat());
+    out
 }
 
 /// Numbers of one column of a table.
@@ -63,30 +60,35 @@ fn json_has_the_keys_of_the_protocol() {
 
 #[test]
 fn arrays_for_numpy_are_a_zip_file() {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
+    let folder = Folder::with("bar.yaml", BAR);
     let mut command = folder.command(&["problem", "bar.yaml", "--format", "npz"]);
     let bytes = command.output().expect("the program starts").stdout;
     assert!(bytes.starts_with(b"PK") && bytes.windows(8).any(|name| name == b"mass.npy"));
 }
 
-#[rstest]
-#[case::no_such_level(&["--level", "9"], "there is no level 9: expected 1 to 4")]
-#[case::level_zero(&["--level", "0"], "there is no level 0: expected 1 to 4")]
-#[case::no_such_format(&["--format", "xls"], "expected one of csv, json, npz, vtu")]
-fn bad_input_is_told(#[case] arguments: &[&str], #[case] words: &str) {
-    let folder = Folder::new();
-    folder.write("bar.yaml", BAR);
-    let found = folder.call(&[&["problem", "bar.yaml"], arguments].concat());
-    assert_eq!(found.code, BAD_INPUT);
-    assert!(found.errors.contains(words), "{}", found.errors);
-}
-
-#[rstest]
-#[case::another_study(&["problem", "courant-limit"], "it is no convergence study")]
-#[case::no_motion(&["problem", "heat-step", "--at", "0.1"], "the suite states no exact motion")]
-fn only_what_moves_has_a_problem(#[case] arguments: &[&str], #[case] words: &str) {
-    let found = Folder::new().call(arguments);
-    assert_eq!(found.code, BAD_INPUT);
-    assert!(found.errors.contains(words), "{}", found.errors);
+#[test]
+fn a_problem_that_cannot_be_written_is_refused() {
+    let folder = Folder::with("bar.yaml", BAR);
+    let text = refusals(
+        &folder,
+        &[
+            "problem bar.yaml --level 9",
+            "problem bar.yaml --level 0",
+            "problem bar.yaml --format xls",
+            "problem courant-limit",
+            "problem heat-step --at 0.1",
+        ],
+    );
+    insta::assert_snapshot!(text, @"
+    problem bar.yaml --level 9
+    error: short-bar: there is no level 9: expected 1 to 4
+    problem bar.yaml --level 0
+    error: short-bar: there is no level 0: expected 1 to 4
+    problem bar.yaml --format xls
+    error: invalid value 'xls' for '--format <FORMAT>': expected one of csv, json, npz, vtu
+    problem courant-limit
+    error: courant-limit: it is no convergence study
+    problem heat-step --at 0.1
+    error: heat-step: the suite states no exact motion
+    ");
 }

@@ -25,6 +25,13 @@ impl Folder {
         Self(path)
     }
 
+    /// A new folder with one file.
+    pub(crate) fn with(name: &str, bytes: impl AsRef<[u8]>) -> Self {
+        let folder = Self::new();
+        folder.write(name, bytes);
+        folder
+    }
+
     /// Writes a file, and the folders that it needs.
     pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
         let path = self.0.join(name);
@@ -64,8 +71,32 @@ impl Folder {
         }
     }
 
+    /// Standard output of a call that ends with status 0 and prints nothing to standard error.
+    #[track_caller]
+    pub(crate) fn accepted(&self, arguments: &[&str]) -> String {
+        let Answer { code, out, errors } = self.call(arguments);
+        assert_eq!((code, errors.as_str()), (0, ""), "{out}");
+        out
+    }
+
+    /// Standard error of a call that ends with status 2 and prints nothing to standard output.
+    #[track_caller]
+    pub(crate) fn refused(&self, arguments: &[&str]) -> String {
+        let Answer { code, out, errors } = self.call(arguments);
+        assert_eq!((code, out.as_str()), (2, ""), "{errors}");
+        errors
+    }
+
     pub(crate) fn path(&self) -> &Path {
         &self.0
+    }
+}
+
+/// Asserts that `text` has all of `parts`.
+#[track_caller]
+pub(crate) fn assert_contains(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "no `{part}` in\n{text}");
     }
 }
 

@@ -1,94 +1,107 @@
-//! Words that several commands have.
+//! Arguments that several commands have, and parsers of their values.
 
 use anstream::ColorChoice;
 use clap::{Args, ValueEnum};
+use std::borrow::Cow;
 use std::path::PathBuf;
+use thiserror::Error;
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct Targets {
+pub(super) struct Targets {
     /// Suites: a file, a folder of files, a name, a group (a folder of verification/, such as
     /// `heat`), a pattern (`mms-*`), or `-` for standard input; default: all of verification/, or
     /// the built-in suites where there is no such folder
     #[arg(value_name = "SUITE")]
-    pub(in crate::cli) targets: Vec<PathBuf>,
+    pub(super) targets: Vec<PathBuf>,
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct SolverArgs {
+pub(super) struct SolverArgs {
     /// Put this program to the suites instead of their methods: a command with its arguments that
     /// speaks the protocol of docs/protocol.md
     #[arg(long, value_name = "COMMAND")]
-    pub(in crate::cli) solver: Option<String>,
+    pub(super) solver: Option<String>,
     /// Longest time without an answer of the solver
     #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "60s")]
-    pub(in crate::cli) solver_timeout: f64,
+    pub(super) solver_timeout: f64,
     /// Most memory (address space) of each process of the solver, in MB [default: no limit]
     #[arg(long, value_name = "MB", requires = "solver", value_parser = megabytes, allow_negative_numbers = true)]
-    pub(in crate::cli) solver_memory: Option<u64>,
+    pub(super) solver_memory: Option<u64>,
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct FormatArgs {
+pub(super) struct FormatArgs {
     /// Format of the output
     #[arg(long, value_enum, default_value_t = Format::Text)]
-    pub(in crate::cli) format: Format,
+    pub(super) format: Format,
 }
 
 impl FormatArgs {
-    pub(in crate::cli) fn is_json(&self) -> bool {
+    pub(super) fn is_json(&self) -> bool {
         self.format == Format::Json
     }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum Format {
+pub(super) enum Format {
     /// Text for a reader
     Text,
     /// One JSON document
     Json,
 }
 
+/// The error of a parser of values: the values that it accepts.
+#[derive(Debug, Error)]
+#[error("expected {0}")]
+pub(super) struct Expected(pub(super) Cow<'static, str>);
+
+impl Expected {
+    fn one(what: &'static str) -> Self {
+        Self(what.into())
+    }
+}
+
 /// A time with its unit, in seconds.
-pub(in crate::cli) fn seconds(text: &str) -> Result<f64, String> {
+pub(super) fn seconds(text: &str) -> Result<f64, Expected> {
     let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
     let known = units.iter().find_map(|(unit, size)| {
         let number: f64 = text.strip_suffix(unit)?.trim().parse().ok()?;
         Some(number * size)
     });
     let usable = known.filter(|time| *time > 0.0 && time.is_finite());
-    usable.ok_or_else(|| "expected a time with its unit, such as `10s` or `500ms`".to_owned())
+    usable.ok_or_else(|| Expected::one("a time with its unit, such as `10s` or `500ms`"))
 }
 
 /// A whole number.
-pub(in crate::cli) fn whole(text: &str) -> Result<usize, String> {
-    text.parse().map_err(|_| "expected a whole number".to_owned())
+pub(super) fn whole(text: &str) -> Result<usize, Expected> {
+    text.parse().map_err(|_| Expected::one("a whole number"))
 }
 
 /// A whole number from 1 on.
-pub(in crate::cli) fn count(text: &str) -> Result<usize, String> {
+pub(super) fn count(text: &str) -> Result<usize, Expected> {
     let known = text.parse().ok().filter(|count| *count > 0);
-    known.ok_or_else(|| "expected a whole number, 1 or more".to_owned())
+    known.ok_or_else(|| Expected::one("a whole number, 1 or more"))
 }
 
 /// A number of megabytes.
-fn megabytes(text: &str) -> Result<u64, String> {
+fn megabytes(text: &str) -> Result<u64, Expected> {
     count(text).map(|count| count as u64)
 }
 
 /// A finite number.
-pub(in crate::cli) fn number(text: &str) -> Result<f64, String> {
+pub(super) fn number(text: &str) -> Result<f64, Expected> {
     let known = text.parse().ok().filter(|number: &f64| number.is_finite());
-    known.ok_or_else(|| "expected a finite number".to_owned())
+    known.ok_or_else(|| Expected::one("a finite number"))
 }
 
 /// A finite number that is not negative.
-pub(in crate::cli) fn share(text: &str) -> Result<f64, String> {
+pub(super) fn share(text: &str) -> Result<f64, Expected> {
     let known = number(text).ok().filter(|share| *share >= 0.0);
-    known.ok_or_else(|| "expected a finite number, zero or more".to_owned())
+    known.ok_or_else(|| Expected::one("a finite number, zero or more"))
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct ColorArgs {
+pub(super) struct ColorArgs {
     /// Colour of verdicts and complaints; `auto` is that of a terminal, unless NO_COLOR is set
     #[arg(long, value_enum, value_name = "WHEN", global = true, default_value_t = Color::Auto)]
     color: Color,
@@ -103,7 +116,7 @@ enum Color {
 
 impl ColorArgs {
     /// Tells both streams.
-    pub(in crate::cli) fn write_global(&self) {
+    pub(super) fn write_global(&self) {
         match self.color {
             Color::Auto => ColorChoice::Auto,
             Color::Always => ColorChoice::Always,

@@ -1,13 +1,104 @@
-//! Findings of `mpm-verify check`, as text or as JSON.
+//! `mpm-verify check`.
 
-use crate::cli::args::CheckArgs;
-use crate::cli::output;
+use super::arguments::{FormatArgs, SolverArgs, Targets};
+use super::status::{CommandError, Status};
+use super::{output, select, solver};
+use clap::Args;
 use mpm_verify::report::indented;
 use mpm_verify::study;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Place, Severity, Source};
+use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    #[command(flatten)]
+    targets: Targets,
+    /// Exit status 1 if there are warnings
+    #[arg(long)]
+    strict: bool,
+    #[command(flatten)]
+    print: CheckPrintArgs,
+    #[command(flatten)]
+    format: FormatArgs,
+    #[command(flatten)]
+    solver: SolverArgs,
+}
+
+/// Arguments for the extent of the findings that `check` prints.
+#[derive(Debug, Args)]
+pub(super) struct CheckPrintArgs {
+    /// Print nothing about sound suites, and no notes
+    #[arg(long, short)]
+    quiet: bool,
+    /// Print all notes. Without this: the notes about suites that are named, and a count of others
+    #[arg(long, conflicts_with = "quiet")]
+    notes: bool,
+}
+
+/// Prints for each suite that it is sound, or its errors, and warns of runs that cannot support what
+/// is expected.
+pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
+    let found = select::with_sources(&args.targets.targets);
+    let mut counts = Counts::default();
+    let mut findings = CheckFindings::new(args, found.len());
+    let mut names: BTreeMap<String, String> = BTreeMap::new();
+    let solver = solver::greeted(&args.solver)?;
+    let checked = found.into_par_iter().map(|found| {
+        let (source, mut suite) = found?;
+        let mut lacks = Vec::new();
+        if let Some(solver) = &solver {
+            match study::under(&suite, solver, false) {
+                Some(under_solver) if under_solver.case_names().is_empty() => {
+                    lacks
+                        .push("a case: each solution belongs to a method of this crate".to_owned());
+                }
+                Some(under_solver) => suite = under_solver,
+                None => lacks.push("what a study of this kind asks for".to_owned()),
+            }
+            lacks.extend(study::lacking(&suite, solver));
+        }
+        let diagnostics = study::preflight(&suite, &source);
+        Ok((source, suite, lacks, diagnostics))
+    });
+    for found in checked.collect::<Vec<Result<_, Diagnostic>>>() {
+        let (source, suite, lacks, mut diagnostics) = match found {
+            Ok(found) => found,
+            Err(diagnostic) => {
+                counts.add(Severity::Error);
+                findings.refused(&diagnostic);
+                continue;
+            }
+        };
+        if !lacks.is_empty() {
+            findings.lacking(&suite, &source, &lacks);
+            continue;
+        }
+        let earlier = names.insert(suite.name.clone(), source.name().to_owned());
+        diagnostics.extend(earlier.map(|earlier| named_twice(&suite, &source, &earlier)));
+        if findings.has_summary() {
+            diagnostics.retain(|diagnostic| diagnostic.severity() == Severity::Error);
+        }
+        for diagnostic in &diagnostics {
+            counts.add(diagnostic.severity());
+        }
+        findings.sound(&suite, &source, &diagnostics, solver.is_some());
+    }
+    findings.end(counts);
+    Ok(match counts {
+        Counts { errors: 1.., .. } => Status::BadInput,
+        Counts { warnings: 1.., .. } if args.strict => Status::Failed,
+        _ => Status::Passed,
+    })
+}
+
+fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
+    let message = format!("a second suite is called `{}`: {earlier} is the first", suite.name);
+    let diagnostic = source.diagnostic_at(&["suite".into()], &message);
+    diagnostic.with_severity(Severity::Warning).with_help("names tell reports and tests apart")
+}
 
 /// The findings so far: text is printed at once, JSON in the end.
 pub(super) struct CheckFindings {

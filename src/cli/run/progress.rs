@@ -1,10 +1,11 @@
 //! The progress of a run on standard error, where that is a terminal: levels, and the time left by
 //! the cost model.
 
-use crate::cli::terminal::output;
+use crate::cli::output;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::study::{Runner, unit_seconds};
 use mpm_verify::suite::{Extent, Suite};
+use std::borrow::Cow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -15,7 +16,7 @@ const INTERRUPTED: i32 = 130;
 const ENOUGH: f64 = 0.02;
 
 /// Progress of the suites of a run, one after the other.
-pub(in crate::cli) struct RunProgress {
+pub(super) struct RunProgress {
     bar: ProgressBar,
     state: Mutex<ProgressState>,
 }
@@ -32,7 +33,7 @@ struct ProgressState {
 
 impl RunProgress {
     /// A bar for all levels of `suites`, hidden if it is to be quiet.
-    pub(in crate::cli) fn over(suites: &[Suite], extent: Extent, quiet: bool) -> Self {
+    pub(super) fn over(suites: &[Suite], extent: Extent, quiet: bool) -> Self {
         let levels = suites.iter().map(|suite| Runner::over(suite, extent).units()).sum();
         let target =
             if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
@@ -47,7 +48,7 @@ impl RunProgress {
     }
 
     /// The levels of `suite` are next.
-    pub(in crate::cli) fn start(&self, suite: &Suite, extent: Extent) {
+    pub(super) fn start(&self, suite: &Suite, extent: Extent) {
         let mut state = self.state();
         state.done += state.units.iter().sum::<f64>();
         suite.name.clone_into(&mut state.suite);
@@ -58,7 +59,7 @@ impl RunProgress {
     }
 
     /// A level has ended.
-    pub(in crate::cli) fn inc(&self) {
+    pub(super) fn inc(&self) {
         let mut state = self.state();
         state.done += state.units.pop().unwrap_or_default();
         self.bar.set_message(state.message());
@@ -66,17 +67,17 @@ impl RunProgress {
     }
 
     /// Takes the bar away while something is printed.
-    pub(in crate::cli) fn suspend(&self, print: impl FnOnce()) {
+    pub(super) fn suspend(&self, print: impl FnOnce()) {
         self.bar.suspend(print);
     }
 
     /// Takes the bar away.
-    pub(in crate::cli) fn clear(&self) {
+    pub(super) fn clear(&self) {
         self.bar.finish_and_clear();
     }
 
     /// Ctrl-C ends the program with `note`. Without such a handler it ends all the same.
-    pub(in crate::cli) fn note_at_interrupt(&self, note: String) {
+    pub(super) fn note_at_interrupt(&self, note: String) {
         let bar = self.bar.clone();
         let _ = ctrlc::set_handler(move || {
             bar.suspend(|| output::complain(&note));
@@ -110,6 +111,33 @@ fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
     })
 }
 
+/// How to go on with the run of this command line, whose results are kept or not.
+pub(super) fn interrupt_note(kept: bool) -> String {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    note_of(&words, kept)
+}
+
+fn note_of(words: &[String], kept: bool) -> String {
+    let mut words: Vec<Cow<'_, str>> = words.iter().map(|word| quoted(word)).collect();
+    if words.first().is_none_or(|word| word != "run") {
+        words.insert(0, "run".into());
+    }
+    let line = words.join(" ");
+    if kept {
+        format!("interrupted: `mpm-verify {line}` goes on from here")
+    } else {
+        format!(
+            "interrupted, and nothing is kept: with a folder for results, `mpm-verify {line} \
+             --resume kept`, a run that is interrupted goes on"
+        )
+    }
+}
+
+/// The word as a shell reads it.
+fn quoted(word: &str) -> Cow<'_, str> {
+    shlex::try_quote(word).unwrap_or(word.into())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -130,5 +158,19 @@ mod tests {
         #[case] wanted: Option<&str>,
     ) {
         assert_eq!(time_left(seconds, done, all).as_deref(), wanted);
+    }
+
+    #[rstest]
+    #[case(&["run", "heat", "--resume", "a b"], true, "`mpm-verify run heat --resume 'a b'` goes on")]
+    #[case(&["run", "--full", "mms-*"], false, "`mpm-verify run --full 'mms-*' --resume kept`")]
+    #[case(&[], false, "`mpm-verify run --resume kept`")]
+    fn the_note_has_a_line_that_can_be_pasted(
+        #[case] words: &[&str],
+        #[case] kept: bool,
+        #[case] wanted: &str,
+    ) {
+        let words: Vec<String> = words.iter().map(ToString::to_string).collect();
+        let note = note_of(&words, kept);
+        assert!(note.contains(wanted), "{note}");
     }
 }

@@ -1,6 +1,54 @@
-//! Colours of verdicts and complaints. What is not a terminal gets none: the streams strip them.
+//! Standard output and standard error. All that is printed goes through here, so that a failure to
+//! write is reported in the end. Verdicts and errors have colours, which the streams strip unless
+//! they are terminals.
 
 use anstyle::{AnsiColor, Style};
+use mpm_verify::suite::yaml::Diagnostic;
+use std::io::{self, ErrorKind, Write};
+use std::sync::OnceLock;
+
+/// The first failure to write to standard output.
+static FAILURE: OnceLock<String> = OnceLock::new();
+
+/// Prints to standard output, with colours if that is a terminal.
+pub(super) fn print(text: &str) {
+    let painted = painted(text);
+    note(anstream::stdout().lock(), painted.as_bytes());
+}
+
+/// Prints what need not be text.
+pub(super) fn print_bytes(bytes: &[u8]) {
+    note(io::stdout().lock(), bytes);
+}
+
+/// Why something could not be printed, if so.
+pub(super) fn failure() -> Option<&'static str> {
+    FAILURE.get().map(String::as_str)
+}
+
+/// Prints to standard error.
+pub(super) fn complain(text: &str) {
+    let _ = writeln!(anstream::stderr().lock(), "{}", painted(text.trim_end()));
+}
+
+/// Prints a diagnostic to standard error.
+pub(super) fn diagnose(diagnostic: &Diagnostic) {
+    complain(&diagnostic.styled());
+}
+
+/// Keeps the outcome of what was written. A reader that has gone away (`mpm-verify | head`) is no
+/// failure.
+pub(super) fn keep(outcome: io::Result<()>) {
+    if let Err(error) = outcome
+        && error.kind() != ErrorKind::BrokenPipe
+    {
+        FAILURE.get_or_init(|| format!("error: standard output cannot be written: {error}"));
+    }
+}
+
+fn note(mut out: impl Write, bytes: &[u8]) {
+    keep(out.write_all(bytes).and_then(|()| out.flush()));
+}
 
 const BAD: Style = AnsiColor::Red.on_default().bold();
 const DOUBTFUL: Style = AnsiColor::Yellow.on_default().bold();
@@ -23,7 +71,7 @@ const FIRST: [(&str, Style); 8] = [
 const RESULTS: [(&str, Style); 2] = [("NOT AS EXPECTED", BAD), ("as expected", GOOD)];
 
 /// The text with its verdicts in colour.
-pub(super) fn painted(text: &str) -> String {
+fn painted(text: &str) -> String {
     text.split_inclusive('\n').map(line).collect()
 }
 

@@ -1,0 +1,84 @@
+//! Texts that this program generates from itself: JSON Schemas, shell completions and manual pages.
+
+use super::output;
+use super::status::{CommandError, Status};
+use clap::{Args, Command, ValueEnum};
+use clap_complete::Shell;
+use clap_mangen::Man;
+use mpm_verify::external::protocol_schema;
+use mpm_verify::report::report_schema;
+use mpm_verify::suite::suite_schema;
+
+#[derive(Debug, Args)]
+pub(super) struct SchemaArgs {
+    /// The texts that it describes
+    #[arg(value_enum)]
+    of: SchemaName,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum SchemaName {
+    /// A suite, for editors that complete and check it while it is written
+    Suite,
+    /// The document of `run --format json`
+    Json,
+    /// Messages between the harness and a solver of another program
+    Protocol,
+}
+
+/// Prints the schema that the command line names.
+pub(super) fn schema(args: &SchemaArgs) -> Status {
+    output::print(&match args.of {
+        SchemaName::Suite => suite_schema(),
+        SchemaName::Json => report_schema(),
+        SchemaName::Protocol => protocol_schema(),
+    });
+    Status::Passed
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CompletionsArgs {
+    /// The shell
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ManArgs {
+    /// A command, whose page is printed instead
+    #[arg(value_name = "COMMAND")]
+    command: Option<String>,
+}
+
+/// Prints what a shell completes.
+pub(super) fn completions(args: &CompletionsArgs, mut cli: Command) -> Status {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut cli, "mpm-verify", &mut script);
+    output::print_bytes(&script);
+    Status::Passed
+}
+
+/// Prints the page of the program, or that of one of its commands.
+pub(super) fn man(args: &ManArgs, cli: Command) -> Result<Status, CommandError> {
+    let mut cli = cli.disable_help_subcommand(true);
+    cli.build();
+    let page = match &args.command {
+        None => Some(Man::new(cli)),
+        Some(name) => cli.find_subcommand(name).map(|command| {
+            Man::new(titled(command, name))
+                .source(concat!("mpm-verify ", env!("CARGO_PKG_VERSION")))
+        }),
+    };
+    let mut text = Vec::new();
+    let Some(Ok(())) = page.map(|page| page.render(&mut text)) else {
+        let name = args.command.as_deref().unwrap_or_default();
+        return Err(CommandError::Message(format!("there is no command called `{name}`")));
+    };
+    output::print_bytes(&text);
+    Ok(Status::Passed)
+}
+
+/// The command under the name of its page, `mpm-verify-run`.
+fn titled(command: &Command, name: &str) -> Command {
+    command.clone().display_name(format!("mpm-verify-{name}"))
+}

@@ -1,0 +1,99 @@
+//! Arguments of `run` and `merge`.
+
+use crate::cli::arguments::{FormatArgs, SolverArgs, Targets, count, seconds};
+use clap::Args;
+use mpm_verify::study::Shard;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct RunArgs {
+    #[command(flatten)]
+    pub(super) report: ReportArgs,
+    /// Cases whose name contains this
+    #[arg(long, value_name = "TEXT")]
+    pub(super) case: Option<String>,
+    /// One of N parts of the cases, of about the same predicted cost; `merge` reports the folders
+    /// that the parts keep with `--resume`
+    #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
+    pub(super) shard: Option<Shard>,
+    /// Keep finished levels and the states of running ones in this folder, and take from it those
+    /// that are there: an interrupted run goes on where it was
+    #[arg(long, value_name = "DIR")]
+    pub(super) resume: Option<PathBuf>,
+    /// How often the state of a running level is kept in the folder of `--resume` [default: 10s]
+    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, requires = "resume")]
+    pub(super) checkpoint_every: Option<f64>,
+    /// Write particles and grid over time into this folder, as files for ParaView, of the cases
+    /// that did not come as expected, or of those that `--case` chooses: on the first level that
+    /// broke, or on the finest
+    #[arg(long, value_name = "DIR")]
+    pub(super) vtu: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) judged: JudgedSolverArgs,
+}
+
+/// Arguments of a run that is reported.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ReportArgs {
+    #[command(flatten)]
+    pub(super) targets: Targets,
+    #[command(flatten)]
+    pub(super) format: FormatArgs,
+    #[command(flatten)]
+    pub(super) print: PrintArgs,
+    /// Run the finer levels too that suites list under `full`: takes hours where the others take
+    /// seconds
+    #[arg(long)]
+    pub(super) full: bool,
+    /// Write reports, JSON and figures into this folder
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Write one HTML page with verdicts, figures, reports and suites into this file; it needs no
+    /// network
+    #[arg(long, value_name = "FILE")]
+    pub(super) html: Option<PathBuf>,
+    /// Threads to use; results do not depend on it [default: all cores]
+    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
+    pub(super) jobs: Option<usize>,
+}
+
+/// Arguments for the extent of the printed text.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct PrintArgs {
+    /// Print every report. Without this: the reports of up to five suites that are named; of more,
+    /// or of all, an overview and the cases that did not come as expected
+    #[arg(long, conflicts_with_all = ["brief", "quiet"])]
+    pub(super) reports: bool,
+    /// Print one line for each case only, not the reports
+    #[arg(long, conflicts_with = "quiet")]
+    pub(super) brief: bool,
+    /// Print only the cases that did not come as expected, and no progress
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct MergeArgs {
+    /// A folder that a part of the run kept with `--resume`; once for each
+    #[arg(long, value_name = "DIR", required = true)]
+    pub(super) from: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) report: ReportArgs,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct JudgedSolverArgs {
+    #[command(flatten)]
+    pub(super) program: SolverArgs,
+    /// Require of each case of the solver of `--solver` the order that theory gives it, or errors
+    /// within the bounds of the suite; exit status 1 unless every case passes or is excepted
+    #[arg(long, requires = "solver")]
+    pub(super) gate: bool,
+    /// Formal order of the solver, and orders, bounds and exceptions for single suites (YAML)
+    #[arg(long, value_name = "FILE", requires = "gate")]
+    pub(super) solver_config: Option<PathBuf>,
+    /// Let `--gate` pass although suites named one by one are not applicable to the solver, or are
+    /// not gated
+    #[arg(long, requires = "gate")]
+    pub(super) allow_not_applicable: bool,
+}
