@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! yaml      text -> located values, every diagnostic with file:line:column
+//! evaluator values -> numbers and formulas of the parameters of a suite
 //! grammar   the keys and values that a file may hold
 //! model     checked values: scenes, methods, plans
 //! compile   grammar -> model: numbers computed, names resolved, the truth checked
@@ -11,6 +12,7 @@
 
 pub(crate) mod compile;
 pub mod embedded;
+pub(crate) mod evaluator;
 pub(crate) mod grammar;
 pub(crate) mod model;
 pub mod pattern;

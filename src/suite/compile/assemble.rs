@@ -1,6 +1,6 @@
 //! A suite from its parts.
 
-use super::evaluator::DeclaredParameter;
+use crate::suite::evaluator::DeclaredParameter;
 use crate::suite::model::Suite;
 use crate::suite::model::study_plan::StudyPlan;
 use crate::suite::yaml::Ordered;

@@ -4,13 +4,12 @@
 //! One particle of the left cell is moved through the node, and the internal force on the node is
 //! taken from P2G of the solver itself.
 
-use super::evaluator::Evaluator;
 use super::expect::{because, cases};
-use super::path::Path;
 use crate::mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, Vector, kernel};
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
 use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::ForceRow;
 
 /// Cells on either side of the node, all of them full. The axis is periodic: no wall, and no end of

@@ -1,8 +1,7 @@
 //! Two ends, the lower one first.
 
-use super::evaluator::Evaluator;
-use super::path::Path;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::evaluator::Evaluator;
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// Two ends, the lower one first.
 pub(crate) fn interval(

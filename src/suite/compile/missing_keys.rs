@@ -1,13 +1,12 @@
 //! Every key that must not be missing is shown with a value that may stand there.
 
 use super::scene::scene_words::SceneWords;
-use crate::suite::embedded;
 use crate::suite::grammar::sample::SAMPLES;
 use crate::suite::grammar::{
     ConvergenceSpec, Head, InternalForceSpec, StabilitySpec, StudyName, read,
 };
-use crate::suite::yaml;
 use crate::suite::yaml::{Diagnostic, Source};
+use crate::suite::{embedded, yaml};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 

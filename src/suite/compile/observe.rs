@@ -1,11 +1,9 @@
 //! The place that `observe` watches.
 
-use super::evaluator::Evaluator;
-use super::path::Path;
-use super::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::ObserveSpec;
 use crate::suite::model::Scene;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// The place that is watched: one in the body.
 pub(super) fn observed(

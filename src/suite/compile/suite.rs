@@ -2,15 +2,14 @@
 //! checked.
 
 use super::check::{fem_support, load_support, size, subject_support, sums};
-use super::evaluator::Evaluator;
 use super::expect::any_method::any_method;
 use super::expect::because::because;
-use super::path::Path;
 use super::run::{cases, refine, same_method, scatter, steps};
 use super::scene::scene_words::SceneWords;
 use super::scene::{rest, whole};
 use super::truth::{conservation_only, exact, reference};
 use super::{assemble, internal_force, observe, stability, suite_name};
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{
     AcknowledgeSpec, ConvergenceSpec, Head, InternalForceSpec, StabilitySpec, StudyName,
     WarningName, read,
@@ -18,7 +17,7 @@ use crate::suite::grammar::{
 use crate::suite::model::external_method::AnyMethod;
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::model::{ConvergencePlan, Scene, Suite};
-use crate::suite::yaml::{Diagnostic, NumberText, Source};
+use crate::suite::yaml::{Diagnostic, NumberText, Path, Source};
 
 /// Instants at which the error is taken unless a suite says otherwise.
 const INSTANTS: u64 = 50;

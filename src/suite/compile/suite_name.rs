@@ -1,8 +1,7 @@
 //! Names of suites.
 
-use super::evaluator::Evaluator;
-use super::path::Path;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::evaluator::Evaluator;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// A name becomes part of test and file names.
 pub(super) fn refuse_unusable_name(

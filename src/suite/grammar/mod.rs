@@ -9,7 +9,6 @@ pub(crate) mod expect;
 pub(crate) mod head;
 pub(crate) mod internal_force;
 pub(crate) mod method;
-pub(crate) mod parameter;
 pub(crate) mod refine;
 pub(crate) mod sample;
 pub(crate) mod scene;
@@ -25,7 +24,6 @@ pub(crate) use expect::{AnyMethodSpec, CrossingsName, ExpectSpec};
 pub(crate) use head::{Head, StudyName};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
 pub(crate) use method::MethodSpec;
-pub(crate) use parameter::{ParameterSpec, TableSpec};
 pub(crate) use refine::{RefineSpec, RunSpec, ScatterSpec};
 pub(crate) use sample::read;
 pub(crate) use scene::{
@@ -37,6 +35,7 @@ pub(crate) use step::StepSpec;
 pub use truth::EquationName;
 pub(crate) use truth::{ExactSpec, LinearisedSpec, ManufacturedSpec};
 
+pub(crate) use super::evaluator::ParameterSpec;
 use super::yaml::{NumberText, Ordered};
 use crate::fem::{Element, Mass};
 use crate::named::named;

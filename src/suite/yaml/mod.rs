@@ -49,6 +49,7 @@ mod tests;
 
 pub use diagnostic::{Diagnostic, Severity};
 pub(crate) use exchange::{read_again, written};
+pub(crate) use locate::Path;
 pub use locate::Step;
 pub(crate) use number_or::{InPlaceOfNumber, NumberOr};
 pub use number_text::NumberText;

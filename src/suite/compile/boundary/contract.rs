@@ -1,11 +1,9 @@
 //! The words of a condition on a face, and what they are compiled with.
 
 use crate::exact::formula::Formula;
-use crate::suite::compile::coordinates::coordinates_and_time;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::{Evaluator, coordinates_and_time};
 use crate::suite::model::boundary::BoundaryCondition;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
 /// Words of the condition on a face, as suites write them.

@@ -3,7 +3,7 @@
 use super::contract::{BoundaryWords, FaceEntry};
 use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Friction};
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::shown;
 use crate::suite::model::boundary::{BoundaryCondition, BuildBoundary, FaceSite};
 use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};

@@ -1,9 +1,8 @@
 //! Whether a scene has an energy that can be bound.
 
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::model::ConvergencePlan;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// Refuses to bound the energy of a body whose law has none; `path` is that of the bound.
 pub(crate) fn refuse_law_without_energy(

@@ -1,12 +1,11 @@
 //! Conditions and laws outside the scope of the FEM bar, refused before anything runs.
 
 use crate::fem::BarLaw;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::run::bar_law;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
 use crate::suite::model::Scene;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// Refuses conditions that the bar does not know, if the suite asks for one.
 pub(crate) fn refuse_conditions_unknown_to_fem(

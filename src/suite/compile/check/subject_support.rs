@@ -1,11 +1,10 @@
 //! Whether what a suite judges is there to be compared: in every subject, and in every truth.
 
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::ConvergenceSpec;
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::Limits;
 
 /// Refuses to judge a quantity that the reference FEM does not give.

@@ -4,12 +4,11 @@ use super::energy;
 use crate::exact::Problem;
 use crate::mpm::MassName;
 use crate::subject::PlaneState;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::face;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::{ConvergencePlan, SceneFace};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{JudgedSum, SumNeed};
 use std::sync::Arc;
 

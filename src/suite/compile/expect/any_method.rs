@@ -3,13 +3,11 @@
 use super::because::because;
 use crate::exact::Problem;
 use crate::subject::HIGHEST_ORDER;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::AnyMethodSpec;
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::external_method::AnyMethod;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// Places along each axis, and instants, at which a motion is checked to be a translation.
 const PLACES: usize = 5;

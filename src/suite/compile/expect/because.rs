@@ -1,8 +1,7 @@
 //! The reason that a claim of a suite states.
 
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::evaluator::Evaluator;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// The reason that stands at `path` for what is `stated` there, which must say something.
 pub(crate) fn because(

@@ -3,15 +3,13 @@
 use super::because::because;
 use super::limits::limits;
 use crate::suite::compile::check::subject_support;
-use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::interval::interval;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::suggestion;
+use crate::suite::evaluator::{Evaluator, suggestion};
 use crate::suite::grammar::{CrossingsName, ExpectSpec};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
 use crate::suite::pattern;
-use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::{Expectation, OrderHypothesis, Verdict};
 use std::str::FromStr;
 

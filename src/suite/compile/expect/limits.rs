@@ -2,12 +2,11 @@
 
 use crate::subject::PlaneState;
 use crate::suite::compile::check::energy;
-use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::interval::interval;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{DriftSpec, ExpectSpec};
 use crate::suite::model::ConvergencePlan;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{Conserved, Limits};
 
 /// The limits of the expectation at `path`.

@@ -4,7 +4,7 @@ use super::contract::{LoadEntry, LoadWords};
 use crate::exact::Term;
 use crate::mpm::{ArtificialViscosity, Effect};
 use crate::subject::PlaneState;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::shown;
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
 use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};

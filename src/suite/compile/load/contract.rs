@@ -4,14 +4,12 @@ use crate::exact::Region;
 use crate::exact::formula::{Expr, Formula};
 use crate::mpm::{Particles, Placement, Side};
 use crate::subject::PlaneState;
-use crate::suite::compile::coordinates::{DISPLACEMENTS, coordinates_and_time};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::face::face;
 use crate::suite::compile::scene::sets;
+use crate::suite::evaluator::{DISPLACEMENTS, Evaluator, coordinates_and_time};
 use crate::suite::model::load::{EffectName, LoadTarget, SceneLoad};
 use crate::suite::model::scene::Scene;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
 /// Facts of a convergence study that a load is checked against.

@@ -4,7 +4,7 @@ use super::contract::{LoadEntry, LoadWords, StudyFacts};
 use crate::exact::Term;
 use crate::exact::formula::Formula;
 use crate::mpm::{Damping, Effect};
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::shown;
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
 use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};

@@ -8,13 +8,12 @@ use crate::exact::heat::{Conduction, HeatForcing, Temperature, TemperatureDeriva
 use crate::mpm::{Effect, Heat, HeatSource, Particles, Vector};
 use crate::subject::PlaneState;
 use crate::suite::compile::boundary::thermal::ThermalSpec;
-use crate::suite::compile::coordinates::coordinates_and_time;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::coordinates_and_time;
 #[cfg(feature = "schemas")]
 use crate::suite::model::face_schema::by_face;
 use crate::suite::model::heat::SceneHeat;
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
-use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use std::sync::Arc;
 
 /// Name of the temperature in a source.

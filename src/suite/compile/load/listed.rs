@@ -1,7 +1,7 @@
 //! The loads that a scene lists, together.
 
 use super::{LoadEntry, LoadSpec};
-use crate::suite::compile::evaluator::Evaluator;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::model::Scene;
 use crate::suite::model::load::{EffectName, ListedLoad};
 use crate::suite::yaml::Diagnostic;

@@ -3,11 +3,10 @@
 use super::contract::{LoadEntry, LoadWords, StudyFacts};
 use crate::exact::Term;
 use crate::mpm::{Effect, LocalDamping};
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::shown;
 use crate::suite::model::load::{BodySite, BuildEffect, SceneLoad};
 use crate::suite::model::numbers::LoadNumbers;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
 /// Share of the force out of balance that opposes the motion, node by node.

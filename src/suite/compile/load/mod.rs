@@ -9,9 +9,9 @@ mod thermal_face;
 
 pub(crate) use contract::{LoadEntry, LoadWords, StudyFacts};
 
-use super::path::Path;
 use crate::members::each_effect;
 use crate::suite::model::load::EffectName;
+use crate::suite::yaml::Path;
 use registry::loads;
 
 each_effect!(loads);

@@ -4,12 +4,11 @@ use super::contract::LoadEntry;
 use crate::mpm::{Side, ThermalBoundary};
 use crate::suite::compile::boundary::FaceEntry;
 use crate::suite::compile::boundary::thermal::{Insulated, PeriodicTemperature, ThermalSpec};
-use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::face::face;
 use crate::suite::model::heat::{HeatCondition, ThermalFace, build as build_condition};
 use crate::suite::model::load::BodySite;
 use crate::suite::model::scene::SceneFace;
-use crate::suite::yaml::{Diagnostic, Ordered};
+use crate::suite::yaml::{Diagnostic, Ordered, Path};
 use std::sync::Arc;
 
 /// Every face of the body, insulated where the words do not name it.

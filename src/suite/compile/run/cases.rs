@@ -3,15 +3,13 @@
 use super::bar_law;
 use super::methods::{NamedMethod, count, methods, named};
 use crate::mpm::{FrameName, MassName, combine, combine_across, combine_bodies};
-use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::expect::cases;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::truth::conservation_only;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case, ConvergencePlan, SceneFace};
-use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::{Axis, Expectation};
 
 /// Most cases that a suite may unfold into.

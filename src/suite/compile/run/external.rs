@@ -1,10 +1,8 @@
 //! An entry of `methods` for a solver that is not of this crate.
 
 use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, is_solver_name};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// The name of a solver.
 pub(super) fn solver_name(

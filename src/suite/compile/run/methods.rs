@@ -4,11 +4,10 @@ use super::external;
 use crate::fem::Sampling;
 use crate::mpm::{FrameName, MassName};
 use crate::subject::Start;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{EquationName, MethodSpec};
 use crate::suite::model::method::Method;
-use crate::suite::yaml::{Diagnostic, OneOrMany};
+use crate::suite::yaml::{Diagnostic, OneOrMany, Path};
 use std::collections::BTreeMap;
 
 /// A method on its way to a name.

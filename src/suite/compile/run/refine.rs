@@ -2,13 +2,12 @@
 
 use super::step_rule;
 use crate::exact::formula::Formula;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, RefineSpec};
 use crate::suite::model::Scene;
 use crate::suite::model::grid_size::{cell_size, per_axis};
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
-use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::Axis;
 
 /// Where a file states what makes a level: its size, and its time step.

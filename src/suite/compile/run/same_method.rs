@@ -3,15 +3,13 @@
 use super::refine::STEP_OF_EACH_H;
 use super::step_rule;
 use crate::suite::compile::check::size;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::ConvergenceSpec;
 use crate::suite::model::grid_size::cell_size;
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
 use crate::suite::model::same_method::FINE_GRID;
 use crate::suite::model::{SameMethod, Scene};
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{Axis, Clock};
 
 /// Ratio of the finest step to that of the same method that serves as truth. Its start is of second

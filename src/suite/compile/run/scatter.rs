@@ -1,13 +1,11 @@
 //! Particles beside their lattice.
 
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, ScatterSpec};
 use crate::suite::model::Scene;
 use crate::suite::model::lattice::LatticeOffsets;
 use crate::suite::model::load::{ListedLoad, LoadTarget};
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// Share of the spacing by which a particle may be moved: the middle between two of them.
 const MOST: f64 = 0.5;

@@ -1,10 +1,9 @@
 //! Time steps by rule: a share of the stable time step.
 
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{MethodSpec, StepSpec};
 use crate::suite::model::Scene;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// The share that `auto` takes.
 const AUTO: f64 = 0.5;

@@ -1,12 +1,10 @@
 //! Time steps that runs can take.
 
 use super::refine::{COARSE_TO_FINE, LevelPaths};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::model::grid_size::cell_size;
 use crate::suite::model::{Against, Case, ConvergencePlan};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 
 /// Whether every level, and the reference, has a usable time step, and a finer one where time is

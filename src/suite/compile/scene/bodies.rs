@@ -4,12 +4,10 @@
 //! loads are those of the scene: they act on every body.
 
 use crate::mpm::MaterialSpec;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::scene_words::SceneWords;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec, StressSpec};
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// Most bodies of a scene.
 const MOST: usize = 100;

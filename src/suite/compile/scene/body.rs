@@ -6,12 +6,10 @@ use super::outline::BodyShape;
 use super::outline::quadrilateral::faces_are_sides;
 use super::scene_words::SceneWords;
 use super::{boundary, boxes, initial, outline, plane, rest, revolution, sets};
-use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::load::listed;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::model::Scene;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// One body, and what acts on it.
 pub(crate) fn body(

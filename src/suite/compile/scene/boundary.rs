@@ -1,14 +1,13 @@
 //! Boundary conditions of the faces, from `boundary`.
 
 use crate::suite::compile::boundary::{FaceEntry, FreeFace};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::face::face;
 use crate::suite::compile::scene::scene_words::SceneWords;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::model::SceneFace;
 use crate::suite::model::boundary::BoundaryCondition;
 use crate::suite::model::scene::FACES;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
 /// The faces of a body that has a box or four sides, in their order.

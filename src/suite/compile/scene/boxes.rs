@@ -1,11 +1,9 @@
 //! Boxes, from words.
 
 use super::lengths::{LONGEST, SHORTEST};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::BoxSpec;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// Lowest and highest corner of a box.
 ///

@@ -1,10 +1,8 @@
 //! Faces of the body, by name.
 
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::suggestion;
+use crate::suite::evaluator::{Evaluator, suggestion};
 use crate::suite::model::scene::FACES;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// Number of the face that a suite calls `name`; the name is a key or a value of the file.
 pub(crate) fn face(

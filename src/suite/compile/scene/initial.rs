@@ -4,10 +4,8 @@ use super::bodies::Listed;
 use crate::exact::InitialStress;
 use crate::exact::formula::Formula;
 use crate::mpm::MaterialPlan;
-use crate::suite::compile::coordinates::{COORDINATES, coordinates_and_time};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time};
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// Components of a stress, each with its row and column.
 const COMPONENTS: [(&str, usize, usize); 6] =

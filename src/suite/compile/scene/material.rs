@@ -1,11 +1,8 @@
 //! The material of a body, from words.
 
 use crate::mpm::{MaterialPlan, MaterialSpec, Range};
-use crate::suite::compile::coordinates::COORDINATES;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::evaluator::{COORDINATES, Evaluator, shown};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// The material and its density (kg/m3).
 pub(crate) fn material(

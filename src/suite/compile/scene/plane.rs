@@ -2,10 +2,9 @@
 
 use crate::mpm::MaterialPlan;
 use crate::subject::PlaneState;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::scene_words::SceneWords;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::evaluator::Evaluator;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// The state that the scene states, plane strain unless it does.
 pub(crate) fn plane(

@@ -5,15 +5,14 @@
 
 use crate::exact::heat::Conduction;
 use crate::suite::compile::boundary::FaceAtRest;
-use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::load::LoadSpec;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::truth::conduction::{self, ConductionInputs};
 use crate::suite::compile::truth::tolerance::tolerance;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec};
 use crate::suite::model::{Scene, SceneFace};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
 /// Sets every face at rest that is not periodic, and refuses words that hold or move the body, and

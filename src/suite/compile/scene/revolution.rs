@@ -1,11 +1,9 @@
 //! Bodies of revolution.
 
 use crate::subject::PlaneState;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::model::{Scene, SceneFace};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// Refuses a body that cannot be turned about the axis, where the first coordinate is zero.
 pub(crate) fn revolves(

@@ -2,13 +2,11 @@
 
 use super::boxes;
 use crate::exact::{Outline, Region};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::{shown, suggestion};
+use crate::suite::evaluator::{Evaluator, shown, suggestion};
 use crate::suite::grammar::{SceneSpec, SetSpec};
 use crate::suite::model::load::LoadTarget;
 use crate::suite::model::scene::{FACES, Scene};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// Share of a box that is no more than rounding.
 const SLIVER: f64 = 1e-12;

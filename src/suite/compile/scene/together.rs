@@ -2,10 +2,9 @@
 
 use crate::exact::Polygon;
 use crate::suite::compile::boundary::FreeFace;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::model::Scene;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
 /// The scene of all `bodies`: the first one's, if they are not a list.

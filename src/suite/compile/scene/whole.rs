@@ -1,12 +1,10 @@
 //! The scene as a whole: its bodies, and how they lie to each other and on the grid.
 
 use super::{bodies, body, outline, sets, together};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::scene_words::SceneWords;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::model::{Scene, SceneFace};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// Checks the scene of a suite.
 pub(crate) fn scene(

@@ -4,17 +4,15 @@ use super::expect;
 use super::setup::setup;
 use crate::mpm::{MaterialPlan, combine, combine_across};
 use crate::subject::PlaneState;
-use crate::suite::compile::evaluator::Evaluator;
 use crate::suite::compile::expect::because::because;
 use crate::suite::compile::expect::cases::assign;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::run::bar_law::own;
 use crate::suite::compile::run::methods::{count, methods, named};
-use crate::suite::compile::wording::{shown, suggestion};
+use crate::suite::evaluator::{Evaluator, shown, suggestion};
 use crate::suite::grammar::{MethodSpec, StabilitySpec};
 use crate::suite::model::method::Method;
 use crate::suite::model::stability::{SetupTemplate, StabilityCase, StabilityPlan};
-use crate::suite::yaml::{Diagnostic, Source};
+use crate::suite::yaml::{Diagnostic, Path, Source};
 
 /// Most rows and most cases of a study.
 const MOST: usize = 500;

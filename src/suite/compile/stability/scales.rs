@@ -1,11 +1,9 @@
 //! Scales and bounds that a run is judged by.
 
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::StabilitySpec;
 use crate::suite::model::Scene;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{RunFigure, Scales};
 
 /// Energy, over that at the start, up to which a run is stable: above what the exchange between

@@ -5,18 +5,16 @@
 
 use super::scales::scales;
 use crate::suite::compile::check::size;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::run::step_rule;
 use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::scene::whole;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ParameterSpec, StabilitySpec};
 use crate::suite::model::Scene;
 use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::{LatticeEdits, SetupTemplate};
-use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use crate::verify::Scales;
 
 /// Size of the perturbations that a frozen run starts with: in it, nothing else moves.

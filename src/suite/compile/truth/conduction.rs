@@ -5,13 +5,11 @@ use crate::exact::Motion;
 
 use crate::exact::heat::{Conduction, Temperature};
 use crate::mpm::{FrameName, TransferKind};
-use crate::suite::compile::coordinates::coordinates_and_time;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::{Evaluator, coordinates_and_time};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::Scene;
 use crate::suite::model::heat::ThermalFace;
-use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 
 /// The heat problem of `scene` with the temperature that a suite states at `path`, not yet checked;
 /// none where neither is there.

@@ -3,12 +3,10 @@
 //! A body that comes to rest under a load is compared with its equilibrium once it is there: at the
 //! end of the run.
 
-use crate::suite::compile::coordinates::COORDINATES;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::{COORDINATES, Evaluator};
 use crate::suite::grammar::{ConvergenceSpec, ExactSpec, NormName};
 use crate::suite::model::Scene;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// Refuses a suite whose `equilibrium` makes no sense beside what else it says.
 pub(crate) fn refuse(

@@ -4,13 +4,11 @@ use super::conduction::{self, ConductionInputs};
 use super::tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
 use super::{equilibrium, interface, law};
 use crate::exact::{Equation, Face, Motion, Problem, Survey};
-use crate::suite::compile::coordinates::coordinates_and_time;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::{Evaluator, coordinates_and_time};
 use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec};
 use crate::suite::model::load::{EffectName, LoadTarget};
 use crate::suite::model::{Scene, SceneFace};
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// Maximum length of a formula of a solution, which is evaluated some 30000 times with all its
 /// derivatives before anything runs.

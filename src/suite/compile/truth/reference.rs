@@ -1,10 +1,9 @@
 //! A reference that is computed by finite elements, from `reference`.
 
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::ReferenceSpec;
 use crate::suite::model::ReferencePlan;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// The reference FEM, if that is what `spec` asks for.
 ///

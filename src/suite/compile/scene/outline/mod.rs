@@ -6,12 +6,10 @@ mod round;
 
 use crate::exact::Outline;
 use crate::mpm::Quadrilateral;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::scene_words::SceneWords;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{BodySpec, BoxSpec};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
 /// Shape of a body.

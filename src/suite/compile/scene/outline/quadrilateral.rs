@@ -3,12 +3,11 @@
 use super::polygon::corners;
 use crate::exact::{Outline, Polygon};
 use crate::mpm::{Quadrilateral, Vector};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::scene_words::SceneWords;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::QuadrilateralSpec;
 use crate::suite::model::scene::FACES;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
 /// The panel that `words` at `path` describe, and its outline.

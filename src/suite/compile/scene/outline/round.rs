@@ -1,12 +1,10 @@
 //! Round bodies, from words.
 
 use crate::exact::{Outline, Round};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
 use crate::suite::compile::scene::lengths::{LONGEST, SHORTEST};
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{AnnulusSpec, RoundSpec};
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
 /// The annulus at `path`.

@@ -1,11 +1,9 @@
 //! Parameters given as a table.
 
-use super::{Evaluator, with_help};
+use super::shown;
+use super::{Evaluator, TableSpec, with_help};
 use crate::exact::formula::Scope;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
-use crate::suite::grammar::TableSpec;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 impl Evaluator<'_> {
     /// Declares the table `name`. Returns its text and, where it is read by a parameter, its value.

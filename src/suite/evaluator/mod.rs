@@ -4,16 +4,46 @@ mod cause;
 mod names;
 mod table;
 
-use super::path::Path;
-use super::wording::shown;
 use crate::exact::formula::{Expr, Formula, FormulaError, Scope};
-use crate::suite::grammar::ParameterSpec;
-use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Source};
+use crate::nearest::nearest;
+use crate::suite::yaml::{
+    Diagnostic, InPlaceOfNumber, NumberOr, NumberText, Ordered, Path, Source,
+};
+use serde::Deserialize;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 /// Largest count that a suite may ask for (cells, particles per cell, instants).
 const MOST: f64 = 1e7;
+
+/// Names of the coordinates in formulas.
+pub(crate) const COORDINATES: [&str; 3] = ["X", "Y", "Z"];
+
+/// Names of the components of the displacement in loads.
+pub(crate) const DISPLACEMENTS: [&str; 3] = ["ux", "uy", "uz"];
+
+/// The coordinates of `dimension` dimensions, followed by t.
+pub(crate) fn coordinates_and_time(dimension: usize) -> Vec<&'static str> {
+    COORDINATES[..dimension].iter().copied().chain(["t"]).collect()
+}
+
+/// A number, a formula of the parameters above it, or a table.
+pub(crate) type ParameterSpec = NumberOr<TableSpec>;
+
+/// `{by: t, table: [[0, 0], [0.1, 1]]}`: values by another parameter or by a variable of formulas.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TableSpec {
+    /// A parameter, or a variable of formulas.
+    pub(crate) by: String,
+    /// Rows of a value of `by` and the parameter's value there.
+    pub(crate) table: Vec<Vec<NumberText>>,
+}
+
+impl InPlaceOfNumber for TableSpec {
+    const EXPECTED: &'static str = "a number, a formula, or `{by: t, table: [[0, 0], [0.1, 1]]}`";
+}
 
 /// A parameter: its name, what the file says, its value unless that is a table's.
 pub(crate) type DeclaredParameter = (String, String, Option<f64>);
@@ -217,5 +247,18 @@ fn with_help(diagnostic: Diagnostic, error: &FormulaError) -> Diagnostic {
     match &error.help {
         Some(help) => diagnostic.with_help(help),
         None => diagnostic,
+    }
+}
+
+/// A number as an author would write it: 1e300 rather than a one and 300 zeros.
+pub(crate) fn shown(value: f64) -> String {
+    NumberText::Number(value).to_string()
+}
+
+/// The name that was most likely meant, or all `known` ones.
+pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
+    match nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("known {kind}: {}", known.join(", ")),
     }
 }

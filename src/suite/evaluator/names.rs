@@ -1,9 +1,7 @@
 //! The names that a suite declares: taken, unused, or declared too late.
 
-use super::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::grammar::ParameterSpec;
-use crate::suite::yaml::{Diagnostic, Ordered};
+use super::{Evaluator, ParameterSpec};
+use crate::suite::yaml::{Diagnostic, Ordered, Path};
 
 impl Evaluator<'_> {
     /// Refuses a declared name that formulas need for one of their `variables`.

@@ -1,10 +1,9 @@
 //! Which parameter is to blame for a number that cannot be used.
 
 use super::Evaluator;
+use super::shown;
 use crate::exact::formula::{Expr, Formula};
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
-use crate::suite::yaml::{Diagnostic, NumberText, Place, Step};
+use crate::suite::yaml::{Diagnostic, NumberText, Path, Place, Step};
 
 /// Values that hardly any formula fails for. A parameter is suspected where one of them, or its
 /// own magnitude, in its place gives a finite number.
