@@ -39,7 +39,7 @@ pub(crate) use each_material;
 /// `effect thermal_expansion::ThermalExpansion, needs [Heat];`
 ///
 /// gives its member of `EffectName` and its name in suites; the file and the type of its words in
-/// `suite/compile/load`; the file and the type of the effect in `mpm/effect`, where it has one of
+/// `suite/scene/load`; the file and the type of the effect in `mpm/effect`, where it has one of
 /// its own; and the members without which it means nothing, where there are any.
 macro_rules! each_effect {
     ($declare:ident) => {

@@ -82,10 +82,26 @@ pub(crate) const WALLS: &[Wall] = &[
         why: "numbers and formulas do not depend on the keys that hold them",
     },
     Wall {
+        around: "suite::scene",
+        may: &[
+            "suite::yaml",
+            "suite::evaluator",
+            "mpm",
+            "fem",
+            "exact",
+            "subject",
+            "named",
+            "dimension",
+            "members",
+        ],
+        why: "a load or condition has its keys and its checked value in one file",
+    },
+    Wall {
         around: "suite::grammar",
         may: &[
             "suite::yaml",
             "suite::evaluator",
+            "suite::scene",
             "mpm",
             "fem",
             "exact",
@@ -99,6 +115,7 @@ pub(crate) const WALLS: &[Wall] = &[
         around: "suite::model",
         may: &[
             "suite::yaml",
+            "suite::scene",
             "suite::grammar",
             "mpm",
             "fem",
@@ -106,8 +123,6 @@ pub(crate) const WALLS: &[Wall] = &[
             "verify",
             "subject",
             "named",
-            "dimension",
-            "members",
         ],
         why: "a checked value does not depend on how it was checked",
     },

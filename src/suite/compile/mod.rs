@@ -1,12 +1,10 @@
 //! From the grammar to the model: every number computed, every name resolved, the truth checked.
 
 mod assemble;
-pub(crate) mod boundary;
 pub(crate) mod check;
 pub(crate) mod expect;
 pub(crate) mod internal_force;
 pub(crate) mod interval;
-pub(crate) mod load;
 mod observe;
 pub(crate) mod run;
 pub(crate) mod scene;

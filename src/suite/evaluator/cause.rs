@@ -1,7 +1,6 @@
 //! Which parameter is to blame for a number that cannot be used.
 
-use super::Evaluator;
-use super::shown;
+use super::{Evaluator, shown};
 use crate::exact::formula::{Expr, Formula};
 use crate::suite::yaml::{Diagnostic, NumberText, Path, Place, Step};
 

@@ -1,7 +1,6 @@
 //! Parameters given as a table.
 
-use super::shown;
-use super::{Evaluator, TableSpec, with_help};
+use super::{Evaluator, TableSpec, shown, with_help};
 use crate::exact::formula::Scope;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 

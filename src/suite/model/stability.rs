@@ -1,10 +1,10 @@
 //! A stability study whose every word has been checked.
 
 use super::external_method::{ExternalMethod, GateTerms};
-use super::lattice::LatticeOffsets;
 use super::method::Method;
 use super::study_plan::{StudyPlan, kept};
 use crate::suite::grammar::StabilitySpec;
+use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::yaml::Source;
 use crate::verify::{Gating, RunFigure, StabilityExpectation};
 use std::sync::Arc;

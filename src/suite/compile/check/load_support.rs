@@ -1,9 +1,9 @@
 //! Loads that a study or the reference FEM does not go with, refused before anything runs.
 
-use crate::suite::compile::load::{LoadEntry, LoadSpec, StudyFacts};
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::ConvergenceSpec;
 use crate::suite::model::Scene;
+use crate::suite::scene::load::{LoadEntry, LoadSpec, StudyFacts};
 use crate::suite::yaml::{Diagnostic, Path};
 
 /// Refuses what the loads of the scene do not go with, and the FEM where it lacks one.

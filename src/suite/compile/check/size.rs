@@ -3,10 +3,10 @@
 use crate::suite::compile::run::refine::LevelPaths;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
-use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
-use crate::suite::model::lattice::{any_particle, is_vacant};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Scene};
+use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
+use crate::suite::scene::lattice::{any_particle, is_vacant};
 use crate::suite::yaml::{Diagnostic, Path};
 
 /// Most particles, and most nodes, of one level.

@@ -4,10 +4,10 @@ use super::energy;
 use crate::exact::Problem;
 use crate::mpm::MassName;
 use crate::subject::PlaneState;
-use crate::suite::compile::scene::face;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::{ConvergencePlan, SceneFace};
+use crate::suite::scene::face::face;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{JudgedSum, SumNeed};
 use std::sync::Arc;
@@ -136,7 +136,7 @@ fn walls(
         };
     };
     let path = path.then("face");
-    let number = face::face(evaluator, &path, name, plan.scene.dimension(), false)?;
+    let number = face(evaluator, &path, name, plan.scene.dimension(), false)?;
     let wall = &faces[number];
     if !wall.hold.stays() {
         return Err(no_reaction(evaluator, &path, wall));

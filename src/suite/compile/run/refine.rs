@@ -5,8 +5,8 @@ use crate::exact::formula::Formula;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, RefineSpec};
 use crate::suite::model::Scene;
-use crate::suite::model::grid_size::{cell_size, per_axis};
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
+use crate::suite::scene::grid_size::{cell_size, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::Axis;
 

@@ -5,10 +5,10 @@ use super::step_rule;
 use crate::suite::compile::check::size;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::ConvergenceSpec;
-use crate::suite::model::grid_size::cell_size;
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
 use crate::suite::model::same_method::FINE_GRID;
 use crate::suite::model::{SameMethod, Scene};
+use crate::suite::scene::grid_size::cell_size;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{Axis, Clock};
 

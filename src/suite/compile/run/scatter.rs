@@ -3,8 +3,8 @@
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, ScatterSpec};
 use crate::suite::model::Scene;
-use crate::suite::model::lattice::LatticeOffsets;
-use crate::suite::model::load::{ListedLoad, LoadTarget};
+use crate::suite::scene::lattice::LatticeOffsets;
+use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// Share of the spacing by which a particle may be moved: the middle between two of them.

@@ -2,8 +2,8 @@
 
 use super::refine::{COARSE_TO_FINE, LevelPaths};
 use crate::suite::evaluator::{Evaluator, shown};
-use crate::suite::model::grid_size::cell_size;
 use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::suite::scene::grid_size::cell_size;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 

@@ -6,9 +6,9 @@ use super::outline::BodyShape;
 use super::outline::quadrilateral::faces_are_sides;
 use super::scene_words::SceneWords;
 use super::{boundary, boxes, initial, outline, plane, rest, revolution, sets};
-use crate::suite::compile::load::listed;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::model::Scene;
+use crate::suite::scene::load;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// One body, and what acts on it.
@@ -72,7 +72,7 @@ pub(crate) fn body(
     if scene.is_at_rest() {
         rest::settle(evaluator, &own.at, words, &mut scene.faces)?;
     }
-    listed::add(evaluator, &words.loads, &mut scene)?;
+    load::add(evaluator, &words.loads, &mut scene)?;
     Ok(scene)
 }
 

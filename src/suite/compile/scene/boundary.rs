@@ -1,12 +1,10 @@
 //! Boundary conditions of the faces, from `boundary`.
 
-use crate::suite::compile::boundary::{FaceEntry, FreeFace};
-use crate::suite::compile::scene::face::face;
 use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::model::SceneFace;
-use crate::suite::model::boundary::BoundaryCondition;
-use crate::suite::model::scene::FACES;
+use crate::suite::scene::boundary::{BoundaryCondition, FaceEntry, FreeFace};
+use crate::suite::scene::face::{FACES, face};
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 

@@ -4,7 +4,6 @@ pub(crate) mod bodies;
 pub(crate) mod body;
 pub(crate) mod boundary;
 pub(crate) mod boxes;
-pub(crate) mod face;
 pub(crate) mod initial;
 pub(crate) mod lengths;
 pub(crate) mod material;

@@ -4,14 +4,14 @@
 //! refused.
 
 use crate::exact::heat::Conduction;
-use crate::suite::compile::boundary::FaceAtRest;
-use crate::suite::compile::load::LoadSpec;
 use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::truth::conduction::{self, ConductionInputs};
 use crate::suite::compile::truth::tolerance::tolerance;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec};
 use crate::suite::model::{Scene, SceneFace};
+use crate::suite::scene::boundary::FaceAtRest;
+use crate::suite::scene::load::LoadSpec;
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 

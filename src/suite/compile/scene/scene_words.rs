@@ -1,11 +1,11 @@
 //! The words of a scene. Those of its loads and boundary conditions stand in the files of the loads
 //! and conditions: the grammar leaves them out, and they are read here, from the same text.
 
-use crate::suite::compile::boundary::BoundarySpec;
-use crate::suite::compile::load::LoadSpec;
 use crate::suite::grammar::{SceneSpec, read};
+use crate::suite::scene::boundary::BoundarySpec;
 #[cfg(feature = "schemas")]
-use crate::suite::model::face_schema::by_face;
+use crate::suite::scene::face::by_face;
+use crate::suite::scene::load::LoadSpec;
 use crate::suite::yaml::{Diagnostic, Ordered, Source};
 use serde::Deserialize;
 use std::ops::Deref;

@@ -2,10 +2,10 @@
 
 use super::boxes;
 use crate::exact::{Outline, Region};
-use crate::suite::evaluator::{Evaluator, shown, suggestion};
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{SceneSpec, SetSpec};
-use crate::suite::model::load::LoadTarget;
-use crate::suite::model::scene::{FACES, Scene};
+use crate::suite::scene::load::LoadTarget;
+use crate::suite::scene::{Scene, face::FACES};
 use crate::suite::yaml::{Diagnostic, Path};
 
 /// Share of a box that is no more than rounding.
@@ -80,39 +80,6 @@ fn refuse_beside(
     let message = format!("the set `{}` has no part of the {}", set.name, outline.kind());
     let label = format!("the body is a {}", outline.row());
     Err(evaluator.diagnostic(&path.then("from"), &message).with_label(&label))
-}
-
-/// Tractions and pressures are forces per area, which a set does not have.
-pub(crate) fn refuse_surface_load(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    load: &str,
-    name: &str,
-    sets: &[Region],
-) -> Result<(), Diagnostic> {
-    if sets.iter().all(|set| set.name != name) {
-        return Ok(());
-    }
-    let message = format!("`{name}` is a set, and a {load} acts on a face");
-    let help = format!("give the total force: `force: {{on: {name}, value: [...]}}`");
-    Err(evaluator.diagnostic(path, &message).with_help(&help))
-}
-
-/// Number of the set that a suite calls `name`.
-pub(crate) fn number(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    name: &str,
-    sets: &[Region],
-) -> Result<usize, Diagnostic> {
-    sets.iter().position(|set| set.name == name).ok_or_else(|| {
-        let diagnostic = evaluator.diagnostic(path, &format!("there is no set `{name}`"));
-        let known: Vec<&str> = sets.iter().map(|set| set.name.as_str()).collect();
-        diagnostic.with_help(&match known[..] {
-            [] => format!("declare it: `sets: {{{name}: {{box: {{from: [...], to: [...]}}}}}}`"),
-            _ => suggestion("sets", name, &known),
-        })
-    })
 }
 
 /// A set that nothing acts on is a slip of the pen.

@@ -1,9 +1,9 @@
 //! One scene of several bodies.
 
 use crate::exact::Polygon;
-use crate::suite::compile::boundary::FreeFace;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::model::Scene;
+use crate::suite::scene::boundary::FreeFace;
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 

@@ -11,9 +11,9 @@ use crate::suite::compile::scene::whole;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ParameterSpec, StabilitySpec};
 use crate::suite::model::Scene;
-use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::{LatticeEdits, SetupTemplate};
+use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use crate::verify::Scales;
 

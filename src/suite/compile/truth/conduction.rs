@@ -8,7 +8,7 @@ use crate::mpm::{FrameName, TransferKind};
 use crate::suite::evaluator::{Evaluator, coordinates_and_time};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::Scene;
-use crate::suite::model::heat::ThermalFace;
+use crate::suite::scene::boundary::thermal::ThermalFace;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 
 /// The heat problem of `scene` with the temperature that a suite states at `path`, not yet checked;

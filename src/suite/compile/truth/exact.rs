@@ -6,8 +6,8 @@ use super::{equilibrium, interface, law};
 use crate::exact::{Equation, Face, Motion, Problem, Survey};
 use crate::suite::evaluator::{Evaluator, coordinates_and_time};
 use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec};
-use crate::suite::model::load::{EffectName, LoadTarget};
 use crate::suite::model::{Scene, SceneFace};
+use crate::suite::scene::load::{EffectName, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// Maximum length of a formula of a solution, which is evaluated some 30000 times with all its

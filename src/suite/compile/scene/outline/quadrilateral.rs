@@ -6,7 +6,7 @@ use crate::mpm::{Quadrilateral, Vector};
 use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::QuadrilateralSpec;
-use crate::suite::model::scene::FACES;
+use crate::suite::scene::face::FACES;
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 

@@ -1,0 +1,29 @@
+//! Thermal conditions on the faces of a body in which heat flows: the family. A member is one file
+//! and one line below (and the `mod` that Rust wants).
+
+mod contract;
+mod convection;
+mod flux;
+mod insulated;
+mod periodic;
+mod temperature;
+
+pub use contract::SceneHeat;
+pub(crate) use contract::{HeatCondition, ThermalFace, ThermalWords, build};
+pub(crate) use insulated::Insulated;
+pub(crate) use periodic::PeriodicTemperature;
+
+use super::registry::conditions;
+
+conditions! {
+    /// Thermal condition on a face; a face that is not named is insulated.
+    ThermalSpec: ThermalWords;
+    /// No heat flows.
+    Insulated = "insulated" is insulated::Insulated;
+    /// The temperature (K).
+    Temperature = "temperature" of temperature::TemperatureSpec;
+    /// Heat that enters (W/m^(D-1)).
+    Flux = "flux" of flux::FluxSpec;
+    /// Heat that enters in proportion to a difference of temperatures.
+    Convection = "convection" of convection::ConvectionSpec;
+}

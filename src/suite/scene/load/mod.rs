@@ -1,0 +1,51 @@
+//! Loads and effects of a scene: the family. A member is one file and one line of `members`, and an
+//! effect with physics of its own is a file of the solver's family besides.
+
+mod contract;
+mod entry;
+mod registry;
+
+pub use contract::EffectName;
+pub(crate) use contract::{BodySite, ListedLoad, LoadTarget, build};
+pub(crate) use entry::{LoadEntry, LoadWords, StudyFacts};
+
+use crate::members::each_effect;
+use crate::suite::evaluator::Evaluator;
+use crate::suite::scene::Scene;
+use crate::suite::yaml::{Diagnostic, Path};
+use registry::loads;
+
+each_effect!(loads);
+
+impl LoadSpec {
+    /// Path of the value of the entry with this `number` in the list of loads.
+    pub(crate) fn path(&self, number: usize) -> Path {
+        Path::top("scene").then("loads").then(number).then(self.effect().name())
+    }
+}
+
+/// Refuses effects without those that they need.
+fn refuse_incomplete(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<(), Diagnostic> {
+    let listed: Vec<EffectName> = loads.iter().map(LoadSpec::effect).collect();
+    EffectName::combine(&listed).map_err(|(effect, message)| {
+        let at = listed.iter().position(|listed| *listed == effect).unwrap_or(0);
+        evaluator.diagnostic_at_key(&loads[at].path(at), &message)
+    })
+}
+
+/// Adds the loads to a scene that has none, in the order in which solvers apply them.
+pub(crate) fn add(
+    evaluator: &Evaluator<'_>,
+    words: &[LoadSpec],
+    scene: &mut Scene,
+) -> Result<(), Diagnostic> {
+    refuse_incomplete(evaluator, words)?;
+    for (i, load) in words.iter().enumerate() {
+        let effect = load.effect();
+        let entry = LoadEntry { evaluator, effect, path: load.path(i), scene };
+        let load = load.words().compile(&entry)?;
+        scene.loads.push(ListedLoad { effect, load });
+    }
+    scene.loads.sort_by_key(|load| (load.target(), load.effect));
+    Ok(())
+}
