@@ -5,7 +5,6 @@ use super::check::{fem_support, load_support, size, subject_support, sums};
 use super::expect::any_method::any_method;
 use super::expect::because::because;
 use super::run::{cases, refine, same_method, scatter, steps};
-use super::scene::scene_words::SceneWords;
 use super::scene::{rest, whole};
 use super::truth::{conservation_only, exact, reference};
 use super::{assemble, internal_force, observe, stability, suite_name};
@@ -45,7 +44,7 @@ impl Suite {
     pub fn scene(source: &Source) -> Result<Scene, Diagnostic> {
         let spec: ConvergenceSpec = read(source, "convergence")?;
         let (evaluator, _) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-        whole::scene(&evaluator, &SceneWords::read(source, &spec.scene)?)
+        whole::scene(&evaluator, &spec.scene)
     }
 }
 
@@ -93,10 +92,9 @@ fn scale_amplitude(spec: &mut ConvergenceSpec, factor: f64) {
 }
 
 fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {
-    let words = SceneWords::read(source, &spec.scene)?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     suite_name::refuse_unusable_name(&evaluator, &spec.suite)?;
-    let scene = whole::scene(&evaluator, &words)?;
+    let scene = whole::scene(&evaluator, &spec.scene)?;
     fem_support::refuse_conditions_unknown_to_fem(&evaluator, &spec, &scene)?;
     let (refine, places) = refine::plan(&evaluator, &spec, &scene)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
@@ -116,7 +114,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     let same_method =
         same_method::same_method(&evaluator, &spec, (&scene, &refine), &until, instants)?;
     fem_support::refuse_law_unknown_to_fem(&evaluator, &spec, &scene)?;
-    load_support::refuse_foreign(&evaluator, &spec, &words.loads, &scene, latest)?;
+    load_support::refuse_foreign(&evaluator, &spec, &scene, latest)?;
     let computed = reference.is_some() || conservation_only::is_truth(same_method);
     if exact.is_none() && conduction.is_none() && !computed {
         conservation_only::refuse_need_of_truth(&evaluator, &spec)?;

@@ -5,9 +5,9 @@ use crate::subject::PlaneState;
 use crate::suite::scene::boundary::BoundarySpec;
 #[cfg(feature = "schemas")]
 use crate::suite::scene::face::by_face;
+use crate::suite::scene::load::LoadSpec;
 use crate::suite::yaml::{NumberText, Ordered};
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
@@ -40,10 +40,9 @@ pub(crate) struct SceneSpec {
     /// Names for the particles in a part of the reference body.
     #[serde(default)]
     pub(crate) sets: Ordered<SetSpec>,
-    /// As those of loads.
-    #[serde(rename = "loads")]
-    #[cfg_attr(feature = "schemas", schemars(skip))]
-    pub(crate) _loads: Option<IgnoredAny>,
+    /// Loads and effects.
+    #[serde(default)]
+    pub(crate) loads: Vec<LoadSpec>,
 }
 
 /// One of several bodies.

@@ -3,19 +3,18 @@
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::ConvergenceSpec;
 use crate::suite::model::Scene;
-use crate::suite::scene::load::{LoadEntry, LoadSpec, StudyFacts};
+use crate::suite::scene::load::{LoadEntry, StudyFacts};
 use crate::suite::yaml::{Diagnostic, Path};
 
 /// Refuses what the loads of the scene do not go with, and the FEM where it lacks one.
 pub(crate) fn refuse_foreign(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
-    loads: &[LoadSpec],
     scene: &Scene,
     until: f64,
 ) -> Result<(), Diagnostic> {
     let study = StudyFacts { manufactured: spec.manufactured.is_some(), until };
-    for (i, load) in loads.iter().enumerate() {
+    for (i, load) in spec.scene.loads.iter().enumerate() {
         let entry = LoadEntry { evaluator, effect: load.effect(), path: load.path(i), scene };
         load.words().check(&entry, &study)?;
         if let Some(lacked) = load.words().lacked_by_fem() {

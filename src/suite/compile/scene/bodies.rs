@@ -4,7 +4,6 @@
 //! loads are those of the scene: they act on every body.
 
 use crate::mpm::MaterialSpec;
-use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec, StressSpec};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
@@ -27,7 +26,7 @@ pub(crate) struct Listed<'w> {
 pub(crate) fn listed<'w>(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &'w SceneWords<'_>,
+    words: &'w SceneSpec,
 ) -> Result<Vec<Listed<'w>>, Diagnostic> {
     if let Some(bodies) = &words.bodies {
         refuse_beside(evaluator, path, words)?;
@@ -68,7 +67,7 @@ pub(crate) fn listed<'w>(
 fn refuse_beside(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords<'_>,
+    words: &SceneSpec,
 ) -> Result<(), Diagnostic> {
     let alone = [
         ("body", words.body.is_some()),

@@ -4,9 +4,9 @@ use super::bodies::Listed;
 use super::material::material;
 use super::outline::BodyShape;
 use super::outline::quadrilateral::faces_are_sides;
-use super::scene_words::SceneWords;
 use super::{boundary, boxes, initial, outline, plane, rest, revolution, sets};
 use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::grammar::SceneSpec;
 use crate::suite::model::Scene;
 use crate::suite::scene::load;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
@@ -15,7 +15,7 @@ use crate::suite::yaml::{Diagnostic, NumberText, Path};
 pub(crate) fn body(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
-    words: &SceneWords<'_>,
+    words: &SceneSpec,
 ) -> Result<Scene, Diagnostic> {
     let path = Path::top("scene");
     let dimension = dimension(evaluator, &path, &words.dimension)?;

@@ -1,7 +1,7 @@
 //! Boundary conditions of the faces, from `boundary`.
 
-use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::evaluator::Evaluator;
+use crate::suite::grammar::SceneSpec;
 use crate::suite::model::SceneFace;
 use crate::suite::scene::boundary::{BoundaryCondition, FaceEntry, FreeFace};
 use crate::suite::scene::face::{FACES, face};
@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub(crate) fn faces(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords<'_>,
+    words: &SceneSpec,
     dimension: usize,
 ) -> Result<Vec<SceneFace>, Diagnostic> {
     let holds = holds(evaluator, path, words, dimension)?;
@@ -24,7 +24,7 @@ pub(crate) fn faces(
 fn holds(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords<'_>,
+    words: &SceneSpec,
     dimension: usize,
 ) -> Result<Vec<Arc<dyn BoundaryCondition>>, Diagnostic> {
     let path = path.then("boundary");

@@ -11,7 +11,6 @@ pub(crate) mod outline;
 mod plane;
 pub(crate) mod rest;
 mod revolution;
-pub(crate) mod scene_words;
 pub(crate) mod sets;
 mod together;
 pub(crate) mod whole;

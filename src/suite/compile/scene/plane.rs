@@ -2,15 +2,15 @@
 
 use crate::mpm::MaterialPlan;
 use crate::subject::PlaneState;
-use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::evaluator::Evaluator;
+use crate::suite::grammar::SceneSpec;
 use crate::suite::yaml::{Diagnostic, Path};
 
 /// The state that the scene states, plane strain unless it does.
 pub(crate) fn plane(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords<'_>,
+    words: &SceneSpec,
     dimension: usize,
 ) -> Result<PlaneState, Diagnostic> {
     let Some(plane) = words.plane else { return Ok(PlaneState::Strain) };

@@ -4,11 +4,10 @@
 //! refused.
 
 use crate::exact::heat::Conduction;
-use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::truth::conduction::{self, ConductionInputs};
 use crate::suite::compile::truth::tolerance::tolerance;
 use crate::suite::evaluator::Evaluator;
-use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec};
+use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec, SceneSpec};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::boundary::FaceAtRest;
 use crate::suite::scene::load::LoadSpec;
@@ -20,7 +19,7 @@ use std::sync::Arc;
 pub(crate) fn settle(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords<'_>,
+    words: &SceneSpec,
     faces: &mut [SceneFace],
 ) -> Result<(), Diagnostic> {
     let idle = |at: &Path, message: &str| {

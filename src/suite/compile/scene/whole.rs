@@ -1,16 +1,13 @@
 //! The scene as a whole: its bodies, and how they lie to each other and on the grid.
 
 use super::{bodies, body, outline, sets, together};
-use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::grammar::SceneSpec;
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::yaml::{Diagnostic, Path};
 
 /// Checks the scene of a suite.
-pub(crate) fn scene(
-    evaluator: &Evaluator<'_>,
-    words: &SceneWords<'_>,
-) -> Result<Scene, Diagnostic> {
+pub(crate) fn scene(evaluator: &Evaluator<'_>, words: &SceneSpec) -> Result<Scene, Diagnostic> {
     let path = Path::top("scene");
     let listed = bodies::listed(evaluator, &path, words)?;
     let contact = bodies::contact(evaluator, &path, words)?;

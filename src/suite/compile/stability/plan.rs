@@ -25,9 +25,8 @@ pub(crate) fn plan(
 ) -> Result<StabilityPlan, Diagnostic> {
     few(evaluator, spec)?;
     let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
-    let words = template.words()?;
     // The values of the suite itself come first: they mark parameters as used.
-    let base = setup(evaluator, &words, spec)?;
+    let base = setup(evaluator, spec)?;
     let (swept, values) = sweep(evaluator, spec)?;
     let sought = sought(evaluator, spec, &swept)?;
     let mut material = base.scene.material;
@@ -38,7 +37,7 @@ pub(crate) fn plan(
         for end in ends {
             let mut with = vec![(swept.as_str(), *value)];
             with.extend(end);
-            material = template.setup_of(&words, &with)?.scene.material;
+            material = template.setup(&with)?.scene.material;
         }
     }
     let drafts = drafts(evaluator, spec, &material, base.scene.plane)?;

@@ -6,7 +6,6 @@
 use super::scales::scales;
 use crate::suite::compile::check::size;
 use crate::suite::compile::run::step_rule;
-use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::scene::whole;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ParameterSpec, StabilitySpec};
@@ -55,33 +54,18 @@ impl SetupTemplate {
         Ok(Evaluator::new(&self.source, &parameters, &self.spec.functions)?.0)
     }
 
-    /// The words of the scene, which no value of a parameter changes.
-    pub(crate) fn words(&self) -> Result<SceneWords<'_>, Diagnostic> {
-        SceneWords::read(&self.source, &self.spec.scene)
-    }
-
     /// The run with these values.
     pub(crate) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, Diagnostic> {
-        self.setup_of(&self.words()?, values)
-    }
-
-    /// The same, of words that have been read: for many values.
-    pub(crate) fn setup_of(
-        &self,
-        words: &SceneWords<'_>,
-        values: &ParameterValues<'_>,
-    ) -> Result<RunSetup, Diagnostic> {
-        setup(&self.evaluator(values)?, words, &self.spec)
+        setup(&self.evaluator(values)?, &self.spec)
     }
 }
 
 /// The set-up that `spec` describes.
 pub(crate) fn setup(
     evaluator: &Evaluator<'_>,
-    words: &SceneWords<'_>,
     spec: &StabilitySpec,
 ) -> Result<RunSetup, Diagnostic> {
-    let scene = whole::scene(evaluator, words)?;
+    let scene = whole::scene(evaluator, &spec.scene)?;
     let d = scene.dimension();
     let particles = Path::top("particles");
     let at = particles.then("cells");

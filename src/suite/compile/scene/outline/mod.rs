@@ -6,9 +6,8 @@ mod round;
 
 use crate::exact::Outline;
 use crate::mpm::Quadrilateral;
-use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::evaluator::{Evaluator, shown};
-use crate::suite::grammar::{BodySpec, BoxSpec};
+use crate::suite::grammar::{BodySpec, BoxSpec, SceneSpec};
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
@@ -74,7 +73,7 @@ pub(crate) fn shape<'a>(
 pub(crate) fn rims_are_free(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords<'_>,
+    words: &SceneSpec,
     outline: &dyn Outline,
 ) -> Result<(), Diagnostic> {
     let kind = outline.kind();

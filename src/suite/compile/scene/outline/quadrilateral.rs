@@ -3,9 +3,8 @@
 use super::polygon::corners;
 use crate::exact::{Outline, Polygon};
 use crate::mpm::{Quadrilateral, Vector};
-use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::evaluator::Evaluator;
-use crate::suite::grammar::QuadrilateralSpec;
+use crate::suite::grammar::{QuadrilateralSpec, SceneSpec};
 use crate::suite::scene::face::FACES;
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
@@ -44,7 +43,7 @@ pub(super) fn quadrilateral(
 pub(crate) fn faces_are_sides(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords<'_>,
+    words: &SceneSpec,
     panel: &Quadrilateral,
 ) -> Result<(), Diagnostic> {
     let is_side = |name: &str| {
