@@ -1,9 +1,7 @@
 //! Every key that must not be missing is shown with a value that may stand there.
 
+use crate::suite::grammar::SuiteSpec;
 use crate::suite::grammar::sample::SAMPLES;
-use crate::suite::grammar::{
-    ConvergenceSpec, Head, InternalForceSpec, StabilitySpec, StudyName, read,
-};
 use crate::suite::yaml::{Diagnostic, Source};
 use crate::suite::{embedded, yaml};
 use serde_json::{Map, Value};
@@ -24,11 +22,7 @@ expect: [{verdict: failed, because: none}]
 /// Whether a text has the keys that the grammar wants, and no others.
 fn grammatical(text: &Value) -> Result<(), Diagnostic> {
     let source = Source::from_text("suite.yaml", text.to_string())?;
-    match read::<Head>(&source, "")?.study {
-        StudyName::Convergence => read::<ConvergenceSpec>(&source, "convergence").map(drop),
-        StudyName::Stability => read::<StabilitySpec>(&source, "stability").map(drop),
-        StudyName::InternalForce => read::<InternalForceSpec>(&source, "internal_force").map(drop),
-    }
+    SuiteSpec::read(&source).map(drop)
 }
 
 /// Pointers to all maps, with their keys.

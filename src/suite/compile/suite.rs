@@ -10,8 +10,7 @@ use super::truth::{conservation_only, exact, reference};
 use super::{assemble, internal_force, observe, stability, suite_name};
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{
-    AcknowledgeSpec, ConvergenceSpec, Head, InternalForceSpec, StabilitySpec, StudyName,
-    WarningName, read,
+    AcknowledgeSpec, ConvergenceSpec, InternalForceSpec, StabilitySpec, SuiteSpec, WarningName,
 };
 use crate::suite::model::external_method::AnyMethod;
 use crate::suite::model::fingerprint::fingerprint;
@@ -27,10 +26,10 @@ impl Suite {
     /// # Errors
     /// A [`Diagnostic`] with the place of the first thing that is wrong.
     pub fn load(source: &Source) -> Result<Self, Diagnostic> {
-        let suite = match study_of(source)? {
-            StudyName::Convergence => convergence(source, read(source, "convergence")?),
-            StudyName::InternalForce => internal_force(source),
-            StudyName::Stability => stability(source),
+        let suite = match SuiteSpec::read(source)? {
+            SuiteSpec::Convergence(spec) => convergence(source, spec),
+            SuiteSpec::InternalForce(spec) => internal_force(source, spec),
+            SuiteSpec::Stability(spec) => stability(source, spec),
         };
         let fingerprint = fingerprint(source.text().as_bytes());
         Ok(Self { group: source.group(), fingerprint, ..suite? })
@@ -42,15 +41,10 @@ impl Suite {
     /// # Errors
     /// A [`Diagnostic`] with the place of the first thing that is wrong.
     pub fn scene(source: &Source) -> Result<Scene, Diagnostic> {
-        let spec: ConvergenceSpec = read(source, "convergence")?;
+        let spec = ConvergenceSpec::read(source)?;
         let (evaluator, _) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
         whole::scene(&evaluator, &spec.scene)
     }
-}
-
-/// The kind of study, which decides what other keys are known.
-fn study_of(source: &Source) -> Result<StudyName, Diagnostic> {
-    read::<Head>(source, "").map(|head| head.study)
 }
 
 /// The convergence study that `source` holds, with `factor` times its amplitude: of the exact
@@ -70,7 +64,7 @@ pub(crate) fn with_changes(
     source: &Source,
     change: impl FnOnce(&mut ConvergenceSpec),
 ) -> Result<Suite, Diagnostic> {
-    let mut spec: ConvergenceSpec = read(source, "convergence")?;
+    let mut spec = ConvergenceSpec::read(source)?;
     spec.expect.clear();
     change(&mut spec);
     convergence(source, spec)
@@ -175,8 +169,7 @@ fn acknowledged(
     Ok(names)
 }
 
-fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {
-    let spec: InternalForceSpec = read(source, "internal_force")?;
+fn internal_force(source: &Source, spec: InternalForceSpec) -> Result<Suite, Diagnostic> {
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     suite_name::refuse_unusable_name(&evaluator, &spec.suite)?;
     let plan = internal_force::plan(&evaluator, &spec)?;
@@ -185,8 +178,7 @@ fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {
     Ok(assemble::assemble(head, parameters, &spec.functions, plan))
 }
 
-fn stability(source: &Source) -> Result<Suite, Diagnostic> {
-    let spec: StabilitySpec = read(source, "stability")?;
+fn stability(source: &Source, spec: StabilitySpec) -> Result<Suite, Diagnostic> {
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     suite_name::refuse_unusable_name(&evaluator, &spec.suite)?;
     let plan = stability::plan(&evaluator, source, &spec)?;

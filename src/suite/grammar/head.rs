@@ -24,7 +24,7 @@ pub(crate) enum StudyName {
 }
 
 impl StudyName {
-    fn default_study() -> Self {
+    pub(super) fn default_study() -> Self {
         Self::Convergence
     }
 }

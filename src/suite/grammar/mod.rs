@@ -25,7 +25,6 @@ pub(crate) use head::{Head, StudyName};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
 pub(crate) use method::MethodSpec;
 pub(crate) use refine::{RefineSpec, RunSpec, ScatterSpec};
-pub(crate) use sample::read;
 pub(crate) use scene::{
     AnnulusSpec, BodySpec, BoxSpec, OneBodySpec, QuadrilateralSpec, RoundSpec, SceneSpec, SetSpec,
     StressSpec,
@@ -41,6 +40,17 @@ use crate::fem::{Element, Mass};
 use crate::named::named;
 use crate::verify::Quantity;
 use serde::Deserialize;
+
+/// A suite, by its kind of study.
+#[derive(Debug, Clone)]
+pub(crate) enum SuiteSpec {
+    /// Errors over a refinement plan.
+    Convergence(ConvergenceSpec),
+    /// Internal force on a node while a particle moves through it.
+    InternalForce(InternalForceSpec),
+    /// Whether runs stay bounded, and up to which value of a parameter.
+    Stability(StabilitySpec),
+}
 
 /// A convergence study.
 #[derive(Debug, Clone, Deserialize)]

@@ -56,9 +56,10 @@ pub use number_text::NumberText;
 pub use one_or_many::OneOrMany;
 pub use ordered::Ordered;
 pub use place::Place;
+pub(crate) use read::CheckedShape;
 pub use read::read;
-pub(crate) use read::read_with;
 pub use refusal::refuse;
+pub(crate) use shape::TopValue;
 pub use source::{MAX_BYTES, Source};
 
 /// The most entries that one list or one map may have.

@@ -1,5 +1,6 @@
 //! From a checked text to a typed value.
 
+use super::shape::TopValue;
 use super::translate::SampleOf;
 use super::{Diagnostic, Source, shape, translate};
 use serde::de::DeserializeOwned;
@@ -14,16 +15,39 @@ use serde::de::DeserializeOwned;
 /// # Errors
 /// The first mistake in the file, with its place.
 pub fn read<T: DeserializeOwned>(source: &Source) -> Result<T, Diagnostic> {
-    read_with(source, &|_, _| None)
+    CheckedShape::new(source, "")?.read(&|_, _| None)
 }
 
-/// The same, with a sample value for a missing key where one is known.
-pub(crate) fn read_with<T: DeserializeOwned>(
-    source: &Source,
-    sample: &SampleOf<'_>,
-) -> Result<T, Diagnostic> {
-    let parser = serde_yaml::Deserializer::from_str(source.text());
-    shape::check(source)
-        .and_then(|()| serde_yaml::with::singleton_map_recursive::deserialize(parser))
-        .map_err(|error| translate::diagnostic(source, &error, sample))
+/// A file whose shape has been checked, ready to be read into a type.
+pub(crate) struct CheckedShape<'s> {
+    source: &'s Source,
+    top: TopValue,
+}
+
+impl<'s> CheckedShape<'s> {
+    /// Checks the shape of `source`, and keeps the value of its key `key`, by which the type may be
+    /// chosen.
+    ///
+    /// # Errors
+    /// The first mistake of shape, with its place.
+    pub(crate) fn new(source: &'s Source, key: &str) -> Result<Self, Diagnostic> {
+        let top = shape::check(source, key);
+        let top = top.map_err(|error| translate::diagnostic(source, &error, &|_, _| None))?;
+        Ok(Self { source, top })
+    }
+
+    /// The value of the key that is kept.
+    pub(crate) fn top(&self) -> &TopValue {
+        &self.top
+    }
+
+    /// Reads the file into a type, with a sample value for a missing key where one is known.
+    ///
+    /// # Errors
+    /// The first mistake in the file, with its place.
+    pub(crate) fn read<T: DeserializeOwned>(&self, sample: &SampleOf<'_>) -> Result<T, Diagnostic> {
+        let parser = serde_yaml::Deserializer::from_str(self.source.text());
+        serde_yaml::with::singleton_map_recursive::deserialize(parser)
+            .map_err(|error| translate::diagnostic(self.source, &error, sample))
+    }
 }

@@ -9,18 +9,36 @@ use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visit
 use std::collections::HashSet;
 use std::fmt;
 
-/// Walks the whole file.
-pub(crate) fn check(source: &Source) -> Result<(), serde_yaml::Error> {
-    ShapeCheck { root: true }.deserialize(serde_yaml::Deserializer::from_str(source.text()))
+/// What a key of the whole file holds.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum TopValue {
+    /// The file has no such key.
+    Absent,
+    /// Text.
+    Text(String),
+    /// Anything else.
+    Other,
 }
 
-struct ShapeCheck {
-    root: bool,
+/// Walks the whole file. Returns the value of its key `key`.
+pub(crate) fn check(source: &Source, key: &str) -> Result<TopValue, serde_yaml::Error> {
+    let parser = serde_yaml::Deserializer::from_str(source.text());
+    let mut found = TopValue::Absent;
+    ShapeCheck::Root { key, found: &mut found }.deserialize(parser)?;
+    Ok(found)
 }
 
-const INSIDE: ShapeCheck = ShapeCheck { root: false };
+/// The check of a value.
+enum ShapeCheck<'k> {
+    /// The whole file, with the key whose value is kept.
+    Root { key: &'k str, found: &'k mut TopValue },
+    /// The value that is kept.
+    Kept(&'k mut TopValue),
+    /// Any other value.
+    Inside,
+}
 
-impl<'de> DeserializeSeed<'de> for ShapeCheck {
+impl<'de> DeserializeSeed<'de> for ShapeCheck<'_> {
     type Value = ();
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
@@ -28,7 +46,7 @@ impl<'de> DeserializeSeed<'de> for ShapeCheck {
     }
 }
 
-impl<'de> Visitor<'de> for ShapeCheck {
+impl<'de> Visitor<'de> for ShapeCheck<'_> {
     type Value = ();
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -37,15 +55,25 @@ impl<'de> Visitor<'de> for ShapeCheck {
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
         let mut seen = HashSet::new();
-        while map.next_key_seed(NewKey { seen: &mut seen })?.is_some() {
-            map.next_value_seed(INSIDE)?;
+        let mut root = match self {
+            Self::Root { key, found } => Some((key, found)),
+            Self::Kept(_) | Self::Inside => None,
+        };
+        while let Some(name) = map.next_key_seed(NewKey { seen: &mut seen })? {
+            map.next_value_seed(match &mut root {
+                Some((key, found)) if *key == name => {
+                    **found = TopValue::Other;
+                    ShapeCheck::Kept(found)
+                }
+                _ => ShapeCheck::Inside,
+            })?;
         }
         Ok(())
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<(), A::Error> {
         let mut length = 0;
-        while list.next_element_seed(INSIDE)?.is_some() {
+        while list.next_element_seed(Self::Inside)?.is_some() {
             length += 1;
             within_cap(length, "list")?;
         }
@@ -61,7 +89,7 @@ impl<'de> Visitor<'de> for ShapeCheck {
     }
 
     fn visit_unit<E: de::Error>(self) -> Result<(), E> {
-        if !self.root {
+        if !matches!(self, Self::Root { .. }) {
             return Ok(());
         }
         Err(refuse("the file is empty; a suite starts with `suite: NAME`", "", ""))
@@ -87,7 +115,10 @@ impl<'de> Visitor<'de> for ShapeCheck {
         Ok(())
     }
 
-    fn visit_str<E: de::Error>(self, _: &str) -> Result<(), E> {
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<(), E> {
+        if let Self::Kept(found) = self {
+            *found = TopValue::Text(text.to_owned());
+        }
         Ok(())
     }
 }
