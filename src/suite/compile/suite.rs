@@ -1,21 +1,21 @@
 //! From the specification to a suite: every number computed, every name resolved, the truth
 //! checked.
 
-use super::check::{fem_support, load_support, size, subject_support, sums};
-use super::expect::any_method::any_method;
-use super::expect::because::because;
-use super::run::{cases, refine, same_method, scatter, steps};
-use super::scene::{rest, whole};
-use super::truth::{conservation_only, exact, reference};
-use super::{assemble, internal_force, observe, stability, suite_name};
-use crate::suite::evaluator::Evaluator;
+use super::check::{size, steps, sums, support};
+use super::expect::any_method;
+use super::run::{self, places, reference, refine};
+use super::truth::{self, conduction, conservation_only};
+use super::{internal_force, scene, stability};
+use crate::suite::evaluator::{DeclaredParameter, Evaluator};
 use crate::suite::grammar::{
     AcknowledgeSpec, ConvergenceSpec, InternalForceSpec, StabilitySpec, SuiteSpec, WarningName,
 };
 use crate::suite::model::external_method::AnyMethod;
 use crate::suite::model::fingerprint::fingerprint;
+use crate::suite::model::study_plan::StudyPlan;
 use crate::suite::model::{ConvergencePlan, Scene, Suite};
-use crate::suite::yaml::{Diagnostic, NumberText, Path, Source};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path, Source};
+use std::sync::Arc;
 
 /// Instants at which the error is taken unless a suite says otherwise.
 const INSTANTS: u64 = 50;
@@ -43,7 +43,7 @@ impl Suite {
     pub fn scene(source: &Source) -> Result<Scene, Diagnostic> {
         let spec = ConvergenceSpec::read(source)?;
         let (evaluator, _) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-        whole::scene(&evaluator, &spec.scene)
+        scene::scene(&evaluator, &spec.scene)
     }
 }
 
@@ -87,37 +87,37 @@ fn scale_amplitude(spec: &mut ConvergenceSpec, factor: f64) {
 
 fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    suite_name::refuse_unusable_name(&evaluator, &spec.suite)?;
-    let scene = whole::scene(&evaluator, &spec.scene)?;
-    fem_support::refuse_conditions_unknown_to_fem(&evaluator, &spec, &scene)?;
+    refuse_unusable_name(&evaluator, &spec.suite)?;
+    let scene = scene::scene(&evaluator, &spec.scene)?;
+    support::refuse_conditions_unknown_to_fem(&evaluator, &spec, &scene)?;
     let (refine, places) = refine::plan(&evaluator, &spec, &scene)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
         evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
     })?;
-    let until = cases::until(&evaluator, &spec.run.until)?;
+    let until = run::until(&evaluator, &spec.run.until)?;
     let latest = until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
-    let conduction = rest::conduction(&evaluator, &spec, &scene, latest)?;
+    let conduction = conduction::conduction(&evaluator, &spec, &scene, latest)?;
     let exact = match &conduction {
         Some(_) => None,
-        None => exact::exact(&evaluator, &spec, &scene, latest)?,
+        None => truth::exact(&evaluator, &spec, &scene, latest)?,
     };
     let dimension = scene.dimension();
     let reference =
         spec.reference.as_ref().map(|spec| reference::reference(&evaluator, spec, dimension));
     let reference = reference.transpose()?.flatten();
     let same_method =
-        same_method::same_method(&evaluator, &spec, (&scene, &refine), &until, instants)?;
-    fem_support::refuse_law_unknown_to_fem(&evaluator, &spec, &scene)?;
-    load_support::refuse_foreign(&evaluator, &spec, &scene, latest)?;
+        reference::same_method(&evaluator, &spec, (&scene, &refine), &until, instants)?;
+    support::refuse_law_unknown_to_fem(&evaluator, &spec, &scene)?;
+    support::refuse_foreign(&evaluator, &spec, &scene, latest)?;
     let computed = reference.is_some() || conservation_only::is_truth(same_method);
     if exact.is_none() && conduction.is_none() && !computed {
         conservation_only::refuse_need_of_truth(&evaluator, &spec)?;
     }
-    let observe = spec.observe.as_ref().map(|spec| observe::observed(&evaluator, spec, &scene));
+    let observe = spec.observe.as_ref().map(|spec| places::observed(&evaluator, spec, &scene));
     let scale = spec.judge.scale.as_ref().map(|text| {
         evaluator.positive(&Path::top("judge").then("scale"), text, "the scale of the error")
     });
-    let scatter = scatter::scatter(&evaluator, &spec, &scene)?;
+    let scatter = places::scatter(&evaluator, &spec, &scene)?;
     let mut plan = ConvergencePlan {
         observe: observe.transpose()?,
         scene,
@@ -137,18 +137,18 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
         cases: Vec::new(),
         acknowledged: acknowledged(&evaluator, &spec.acknowledge)?,
     };
-    subject_support::refuse_quantity_unknown_to_fem(&evaluator, &spec, &plan)?;
+    support::refuse_quantity_unknown_to_fem(&evaluator, &spec, &plan)?;
     plan.sum = sums::judged(&evaluator, &spec, &plan)?;
     plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
     size::refuse_unfit_levels(&evaluator, &spec, &plan, &places)?;
     if let Some(spec) = &spec.any_method {
         plan.any_method = any_method(&evaluator, spec, &plan)?;
     }
-    plan.cases = cases::cases(&evaluator, &spec, &plan, &until)?;
+    plan.cases = run::cases(&evaluator, &spec, &plan, &until)?;
     steps::refuse_unusable(&evaluator, &plan, &places)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble::assemble(head, parameters, &spec.functions, plan))
+    Ok(assemble(head, parameters, &spec.functions, plan))
 }
 
 /// The warnings that a suite acknowledges. Each needs its reason, and appears once.
@@ -159,7 +159,7 @@ fn acknowledged(
     let mut names = Vec::new();
     for (i, spec) in specs.iter().enumerate() {
         let path = Path::top("acknowledge").then(i);
-        because(evaluator, &path, "an acknowledged warning", &spec.because)?;
+        evaluator.because(&path, "an acknowledged warning", &spec.because)?;
         if names.contains(&spec.warning) {
             let message = format!("`{}` is acknowledged twice", spec.warning.name());
             return Err(evaluator.diagnostic(&path.then("warning"), &message));
@@ -171,18 +171,40 @@ fn acknowledged(
 
 fn internal_force(source: &Source, spec: InternalForceSpec) -> Result<Suite, Diagnostic> {
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    suite_name::refuse_unusable_name(&evaluator, &spec.suite)?;
+    refuse_unusable_name(&evaluator, &spec.suite)?;
     let plan = internal_force::plan(&evaluator, &spec)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble::assemble(head, parameters, &spec.functions, plan))
+    Ok(assemble(head, parameters, &spec.functions, plan))
 }
 
 fn stability(source: &Source, spec: StabilitySpec) -> Result<Suite, Diagnostic> {
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    suite_name::refuse_unusable_name(&evaluator, &spec.suite)?;
+    refuse_unusable_name(&evaluator, &spec.suite)?;
     let plan = stability::plan(&evaluator, source, &spec)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble::assemble(head, parameters, &spec.functions, plan))
+    Ok(assemble(head, parameters, &spec.functions, plan))
+}
+
+/// A suite with this name, title, source and text about it.
+fn assemble(
+    [name, title, source, about]: [String; 4],
+    parameters: Vec<DeclaredParameter>,
+    functions: &Ordered<String>,
+    plan: impl StudyPlan,
+) -> Suite {
+    let (functions, study) = (functions.as_slice().to_vec(), Arc::new(plan));
+    let group = String::new();
+    Suite { name, group, title, source, about, parameters, functions, study, fingerprint: 0 }
+}
+
+/// A name becomes part of test and file names.
+fn refuse_unusable_name(evaluator: &Evaluator<'_>, name: &str) -> Result<(), Diagnostic> {
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    if !name.is_empty() && name.len() <= 64 && name.chars().all(plain) {
+        return Ok(());
+    }
+    let diagnostic = evaluator.diagnostic(&Path::top("suite"), "this is not a name for a suite");
+    Err(diagnostic.with_label("expected lower-case letters, digits and hyphens, at most 64"))
 }

@@ -206,6 +206,41 @@ impl<'a> Evaluator<'a> {
         texts.iter().enumerate().map(|(i, text)| self.number(&path.then(i), text)).collect()
     }
 
+    /// Two ends, the lower one first.
+    pub(crate) fn interval(
+        &self,
+        path: &Path,
+        pair: &[NumberText],
+    ) -> Result<(f64, f64), Diagnostic> {
+        let [low, high] = pair else {
+            let diagnostic = self.diagnostic(path, "an interval has two ends");
+            return Err(diagnostic.with_label("expected [low, high]"));
+        };
+        let low = self.number(&path.then(0), low)?;
+        let high = self.number(&path.then(1), high)?;
+        if low <= high {
+            return Ok((low, high));
+        }
+        let message = format!("the interval ends at {high} and starts at {low}");
+        Err(self.diagnostic(path, &message).with_label("expected [low, high]"))
+    }
+
+    /// The reason that stands at `path` for what is `stated` there; it must not be empty.
+    pub(crate) fn because(
+        &self,
+        path: &Path,
+        stated: &str,
+        text: &str,
+    ) -> Result<String, Diagnostic> {
+        let text = text.trim();
+        if !text.is_empty() {
+            return Ok(text.to_owned());
+        }
+        let message = format!("{stated} needs its reason");
+        let diagnostic = self.diagnostic(&path.then("because"), &message);
+        Err(diagnostic.with_label("expected words"))
+    }
+
     /// A complaint about the value at `path`.
     pub(crate) fn diagnostic(&self, path: &Path, message: &str) -> Diagnostic {
         self.source.diagnostic_at(path.steps(), message)

@@ -10,8 +10,7 @@ pub(crate) mod same_method;
 pub(crate) mod stability;
 pub(crate) mod study_plan;
 
-pub(crate) use super::scene::{Scene, SceneFace};
-pub(crate) use super::scene::{boundary, grid_size, lattice, load, numbers};
+pub(crate) use super::scene::{Scene, SceneFace, boundary, grid_size, lattice, load, numbers};
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 pub use same_method::SameMethod;
 

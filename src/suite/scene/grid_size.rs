@@ -2,6 +2,12 @@
 
 use super::{Scene, SceneFace};
 
+/// Shortest length (m) of a body. Powers of shorter ones underflow.
+pub(crate) const SHORTEST: f64 = 1e-30;
+
+/// Longest length (m) of a body. Powers of longer ones overflow.
+pub(crate) const LONGEST: f64 = 1e30;
+
 /// Cells that a grid extends beyond a free face of the body, besides a tenth of the body: room for
 /// a body that grows.
 const SPARE_CELLS: f64 = 2.0;

@@ -1,8 +1,6 @@
-//! Checks of a whole suite: what subjects and truths support, and whether levels fit.
+//! Checks of several keys of a suite together.
 
-pub(crate) mod energy;
-pub(crate) mod fem_support;
-pub(crate) mod load_support;
 pub(crate) mod size;
-pub(crate) mod subject_support;
+pub(crate) mod steps;
 pub(crate) mod sums;
+pub(crate) mod support;

@@ -1,6 +1,5 @@
 //! Whether every level fits into a machine, and has nodes where a face is held.
 
-use crate::suite::compile::run::refine::LevelPaths;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::refine_plan::LevelPlan;
@@ -14,6 +13,12 @@ const MOST: f64 = 5e7;
 
 /// Distance of a held face from the grid's face that is no more than rounding, in cells.
 const ROUNDING: f64 = 1e-6;
+
+/// Where a file states what makes a level: its size, and its time step.
+pub(crate) struct LevelPaths {
+    pub(crate) size: Path,
+    pub(crate) dt: Path,
+}
 
 /// Refuses a level that is too large, or on which a held face has no nodes.
 pub(crate) fn refuse_unfit_levels(

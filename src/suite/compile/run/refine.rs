@@ -2,6 +2,8 @@
 
 use super::step_rule;
 use crate::exact::formula::Formula;
+use crate::suite::compile::check::size::LevelPaths;
+use crate::suite::compile::check::steps::COARSE_TO_FINE;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, RefineSpec};
 use crate::suite::model::Scene;
@@ -9,12 +11,6 @@ use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
 use crate::suite::scene::grid_size::{cell_size, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::Axis;
-
-/// Where a file states what makes a level: its size, and its time step.
-pub(crate) struct LevelPaths {
-    pub(crate) size: Path,
-    pub(crate) dt: Path,
-}
 
 /// One entry of a list, and where it stands.
 struct Located<T> {
@@ -157,8 +153,6 @@ fn counts(
     }
     Ok(counts)
 }
-
-pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
 
 fn equally_spaced(
     evaluator: &Evaluator<'_>,

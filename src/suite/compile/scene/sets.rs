@@ -1,6 +1,6 @@
 //! Sets of particles, and what acts on them.
 
-use super::boxes;
+use super::outline;
 use crate::exact::{Outline, Region};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{SceneSpec, SetSpec};
@@ -23,7 +23,7 @@ pub(crate) fn declared(
         let at = path.then("sets").then(name.as_str());
         refuse_face_name(evaluator, &at, name)?;
         let at = at.then("box");
-        let (from, to) = boxes::corners(evaluator, &at, words, corners.0.len())?;
+        let (from, to) = outline::corners(evaluator, &at, words, corners.0.len())?;
         let set = Region { name: name.clone(), from, to };
         refuse_outside(evaluator, &at, &set, corners)?;
         if let Some(outline) = outline {

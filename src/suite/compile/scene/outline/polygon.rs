@@ -1,8 +1,8 @@
 //! Polygons, from words.
 
 use crate::exact::{Outline, Polygon};
-use crate::suite::compile::scene::lengths::{LONGEST, SHORTEST};
 use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 

@@ -1,9 +1,9 @@
 //! Round bodies, from words.
 
 use crate::exact::{Outline, Round};
-use crate::suite::compile::scene::lengths::{LONGEST, SHORTEST};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{AnnulusSpec, RoundSpec};
+use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 

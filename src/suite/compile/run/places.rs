@@ -1,7 +1,7 @@
-//! Particles beside their lattice.
+//! Places that a suite states: of particles off their lattice, and the one that is observed.
 
 use crate::suite::evaluator::{Evaluator, shown};
-use crate::suite::grammar::{ConvergenceSpec, ScatterSpec};
+use crate::suite::grammar::{ConvergenceSpec, ObserveSpec, ScatterSpec};
 use crate::suite::model::Scene;
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
@@ -62,4 +62,28 @@ pub(crate) fn scatter(
         return Err(diagnostic.with_help("add `shift: [0.25]` or `perturb: 0.2`, or remove it"));
     }
     Ok(scatter)
+}
+
+/// The place that is watched: one in the body.
+pub(crate) fn observed(
+    evaluator: &Evaluator<'_>,
+    spec: &ObserveSpec,
+    scene: &Scene,
+) -> Result<Vec<f64>, Diagnostic> {
+    let path = Path::top("observe").then("at");
+    let place = evaluator.point(&path, &spec.at, scene.dimension())?;
+    for (axis, x) in place.iter().enumerate() {
+        let (from, to) = (scene.from[axis], scene.to[axis]);
+        if !(from..=to).contains(x) {
+            let message = format!("{} is outside the body", shown(*x));
+            let label = format!("expected a number from {} to {}", shown(from), shown(to));
+            return Err(evaluator.diagnostic(&path.then(axis), &message).with_label(&label));
+        }
+    }
+    let outside = scene.outline.as_ref().filter(|outline| !outline.holds(&place));
+    if let Some(kind) = outside.map(|outline| outline.kind()) {
+        let diagnostic = evaluator.diagnostic(&path, "this place is outside the body");
+        return Err(diagnostic.with_label(&format!("expected a place in the {kind}")));
+    }
+    Ok(place)
 }

@@ -1,11 +1,14 @@
 //! Time steps that runs can take.
 
-use super::refine::{COARSE_TO_FINE, LevelPaths};
+use super::size::LevelPaths;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::model::{Against, Case, ConvergencePlan};
 use crate::suite::scene::grid_size::cell_size;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{Axis, Clock, STEP_TOLERANCE};
+
+/// Label of a level that is not finer than the one before.
+pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
 
 /// Whether every level, and the reference, has a usable time step, and a finer one where time is
 /// refined. Instants that are shared with a computed truth must not change it.

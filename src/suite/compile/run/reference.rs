@@ -1,16 +1,51 @@
-//! The same method with a much shorter spacing, where a suite compares with it.
+//! Computations that serve as truth, from `reference`: by finite elements, or by the same method
+//! with a much shorter spacing.
 
 use super::refine::STEP_OF_EACH_H;
 use super::step_rule;
 use crate::suite::compile::check::size;
 use crate::suite::evaluator::{Evaluator, shown};
-use crate::suite::grammar::ConvergenceSpec;
+use crate::suite::grammar::{ConvergenceSpec, ReferenceSpec};
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
 use crate::suite::model::same_method::FINE_GRID;
-use crate::suite::model::{SameMethod, Scene};
+use crate::suite::model::{ReferencePlan, SameMethod, Scene};
 use crate::suite::scene::grid_size::cell_size;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{Axis, Clock};
+
+/// The reference FEM, if that is what `spec` asks for.
+///
+/// # Errors
+/// A diagnostic of what is missing, or of a scene that is not one-dimensional.
+pub(crate) fn reference(
+    evaluator: &Evaluator<'_>,
+    spec: &ReferenceSpec,
+    dimension: usize,
+) -> Result<Option<ReferencePlan>, Diagnostic> {
+    let path = Path::top("reference");
+    let (equation, fem) = match (spec.equation, &spec.fem) {
+        (Some(equation), Some(fem)) => (equation, fem),
+        (None, None) if spec.same_method.is_some() => return Ok(None),
+        _ => {
+            let message =
+                "a reference is a `fem` computation of an `equation`, or the `same_method`";
+            return Err(evaluator.diagnostic_at_key(&path, message));
+        }
+    };
+    if dimension != 1 {
+        let message = format!("the reference FEM is 1-D, the scene {dimension}-D");
+        let diagnostic = evaluator.diagnostic_at_key(&path, &message);
+        return Err(diagnostic.with_help("give this scene an `exact` solution"));
+    }
+    let path = path.then("fem");
+    Ok(Some(ReferencePlan {
+        equation,
+        element: fem.element,
+        mass: fem.mass,
+        cells: evaluator.count(&path.then("cells"), &fem.cells, "the number of elements")?,
+        dt: evaluator.formula(&path.then("dt"), &fem.dt, &["h"])?,
+    }))
+}
 
 /// Ratio of the finest step to that of the same method that serves as truth. Its start is of second
 /// order, so that an error of second order on the finest level is known to 1/64.
