@@ -10,8 +10,8 @@ use crate::suite::evaluator::{DeclaredParameter, Evaluator};
 use crate::suite::grammar::{
     AcknowledgeSpec, ConvergenceSpec, InternalForceSpec, StabilitySpec, SuiteSpec, WarningName,
 };
-use crate::suite::model::external_method::AnyMethod;
 use crate::suite::model::fingerprint::fingerprint;
+use crate::suite::model::method::AnyMethod;
 use crate::suite::model::study_plan::StudyPlan;
 use crate::suite::model::{ConvergencePlan, Scene, Suite};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path, Source};

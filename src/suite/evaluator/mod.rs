@@ -2,7 +2,6 @@
 
 mod cause;
 mod names;
-mod table;
 
 use crate::exact::formula::{Expr, Formula, FormulaError, Scope};
 use crate::nearest::nearest;

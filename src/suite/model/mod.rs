@@ -1,21 +1,19 @@
 //! A suite whose every word has been checked and every number computed.
 
 pub(crate) mod external;
-pub(crate) mod external_method;
 pub(crate) mod fingerprint;
 pub(crate) mod internal_force;
 pub(crate) mod method;
 pub(crate) mod refine_plan;
-pub(crate) mod same_method;
 pub(crate) mod stability;
 pub(crate) mod study_plan;
 
 pub(crate) use super::scene::{Scene, SceneFace, boundary, grid_size, lattice, load, numbers};
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
-pub use same_method::SameMethod;
+pub(crate) use method as external_method;
+pub use refine_plan::SameMethod;
 
-use self::external_method::{AnyMethod, ExternalMethod, GateTerms};
-use self::method::Method;
+use self::method::{AnyMethod, ExternalMethod, GateTerms, Method};
 use self::refine_plan::{LevelPlan, RefinePlan};
 use self::study_plan::{StudyPlan, kept};
 use super::grammar::{CrossingLevels, EquationName, NormName, WarningName};

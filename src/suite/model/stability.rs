@@ -1,7 +1,6 @@
 //! A stability study whose every word has been checked.
 
-use super::external_method::{ExternalMethod, GateTerms};
-use super::method::Method;
+use super::method::{ExternalMethod, GateTerms, Method};
 use super::study_plan::{StudyPlan, kept};
 use crate::suite::grammar::StabilitySpec;
 use crate::suite::scene::lattice::LatticeOffsets;

@@ -1,8 +1,9 @@
-//! From a checked text to a typed value.
+//! From a checked text to a typed value, and back for text that the program writes for itself.
 
 use super::shape::TopValue;
 use super::translate::SampleOf;
 use super::{Diagnostic, Source, shape, translate};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 /// Reads a file into a type.
@@ -50,4 +51,17 @@ impl<'s> CheckedShape<'s> {
         serde_yaml::with::singleton_map_recursive::deserialize(parser)
             .map_err(|error| translate::diagnostic(self.source, &error, sample))
     }
+}
+
+/// The text of a value.
+///
+/// # Errors
+/// The message of the library on a value that it cannot write.
+pub(crate) fn written<T: Serialize>(value: &T) -> Result<String, String> {
+    serde_yaml::to_string(value).map_err(|error| error.to_string())
+}
+
+/// The value of a text, if it is one.
+pub(crate) fn read_again<T: DeserializeOwned>(text: &str) -> Option<T> {
+    serde_yaml::from_str(text).ok()
 }
