@@ -3,8 +3,8 @@
 
 use crate::exact::Problem;
 use crate::subject::{HIGHEST_ORDER, PlaneState};
+use crate::suite::compile::check::check_drift;
 use crate::suite::compile::check::sums::refuse_law_without_energy;
-use crate::suite::compile::check::support::check_drift;
 use crate::suite::evaluator::{Evaluator, shown, suggestion};
 use crate::suite::grammar::{AnyMethodSpec, CrossingsName, DriftSpec, ExpectSpec};
 use crate::suite::model::ConvergencePlan;

@@ -1,7 +1,7 @@
 //! From the specification to a suite: every number computed, every name resolved, the truth
 //! checked.
 
-use super::check::{size, steps, sums, support};
+use super::check::{self, size, steps, sums};
 use super::expect::any_method;
 use super::run::{self, places, reference, refine};
 use super::truth::{self, conduction, conservation_only};
@@ -89,7 +89,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     refuse_unusable_name(&evaluator, &spec.suite)?;
     let scene = scene::scene(&evaluator, &spec.scene)?;
-    support::refuse_conditions_unknown_to_fem(&evaluator, &spec, &scene)?;
+    check::refuse_conditions_unknown_to_fem(&evaluator, &spec, &scene)?;
     let (refine, places) = refine::plan(&evaluator, &spec, &scene)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
         evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
@@ -107,8 +107,8 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     let reference = reference.transpose()?.flatten();
     let same_method =
         reference::same_method(&evaluator, &spec, (&scene, &refine), &until, instants)?;
-    support::refuse_law_unknown_to_fem(&evaluator, &spec, &scene)?;
-    support::refuse_foreign(&evaluator, &spec, &scene, latest)?;
+    check::refuse_law_unknown_to_fem(&evaluator, &spec, &scene)?;
+    check::refuse_foreign(&evaluator, &spec, &scene, latest)?;
     let computed = reference.is_some() || conservation_only::is_truth(same_method);
     if exact.is_none() && conduction.is_none() && !computed {
         conservation_only::refuse_need_of_truth(&evaluator, &spec)?;
@@ -137,7 +137,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
         cases: Vec::new(),
         acknowledged: acknowledged(&evaluator, &spec.acknowledge)?,
     };
-    support::refuse_quantity_unknown_to_fem(&evaluator, &spec, &plan)?;
+    check::refuse_quantity_unknown_to_fem(&evaluator, &spec, &plan)?;
     plan.sum = sums::judged(&evaluator, &spec, &plan)?;
     plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
     size::refuse_unfit_levels(&evaluator, &spec, &plan, &places)?;

@@ -33,12 +33,10 @@ pub(crate) mod ordered;
 pub(crate) mod phrase;
 pub(crate) mod place;
 pub(crate) mod read;
-pub(crate) mod refusal;
 pub(crate) mod scalars;
 pub(crate) mod scan;
 pub(crate) mod shape;
 pub(crate) mod source;
-pub(crate) mod translate;
 
 #[cfg(test)]
 mod tests;
@@ -53,8 +51,8 @@ pub use ordered::Ordered;
 pub use place::Place;
 pub use read::read;
 pub(crate) use read::{CheckedShape, read_again, written};
-pub use refusal::refuse;
 pub(crate) use shape::TopValue;
+pub use shape::refuse;
 pub use source::{MAX_BYTES, Source};
 
 /// The most entries that one list or one map may have.

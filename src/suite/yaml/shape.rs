@@ -4,7 +4,13 @@
 //! Checked in a walk of its own, because a typed reader notices a second key only after its
 //! value, and a field of type `f64` accepts `.nan`.
 
-use super::{MAX_ENTRIES, Source, refuse};
+//!
+//! Refusals are messages of our own, sent through the error type of a deserializer. Its error is one
+//! string, and the YAML library writes a path in front of it and a position behind. Fences around the
+//! parts let them be found again; no file can forge them, because a source with control characters is
+//! refused.
+
+use super::{MAX_ENTRIES, Source};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::collections::HashSet;
 use std::fmt;
@@ -183,4 +189,21 @@ pub(crate) fn finite<E: de::Error>(value: f64, expected: &str) -> Result<f64, E>
         &format!("{expected} is expected here"),
         "",
     ))
+}
+
+const FENCE: char = '\u{1f}';
+
+/// A refusal to raise while deserializing: what is wrong, what was expected, what to do.
+///
+/// `label` and `help` may be empty. [`read`](super::read()) shows the three as they are, at the
+/// place of the innermost value that was being read.
+pub fn refuse<E: de::Error>(message: &str, label: &str, help: &str) -> E {
+    let [message, label, help] = [message, label, help].map(|part| part.replace(FENCE, " "));
+    E::custom(format!("{FENCE}{message}{FENCE}{label}{FENCE}{help}{FENCE}"))
+}
+
+/// Message, label and help of a refusal, if `error` is the text of one.
+pub(crate) fn refused(error: &str) -> Option<[&str; 3]> {
+    let mut parts = error.split(FENCE).skip(1);
+    Some([parts.next()?, parts.next()?, parts.next()?])
 }

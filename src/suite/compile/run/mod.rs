@@ -5,7 +5,6 @@ pub(crate) mod methods;
 pub(crate) mod places;
 pub(crate) mod reference;
 pub(crate) mod refine;
-pub(crate) mod step_rule;
 
 use crate::mpm::{FrameName, MassName, combine, combine_across, combine_bodies};
 use crate::suite::compile::expect::expectations;

@@ -1,8 +1,7 @@
 //! Computations that serve as truth, from `reference`: by finite elements, or by the same method
 //! with a much shorter spacing.
 
-use super::refine::STEP_OF_EACH_H;
-use super::step_rule;
+use super::refine::{STEP_OF_EACH_H, step_formula};
 use crate::suite::compile::check::size;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, ReferenceSpec};
@@ -148,7 +147,7 @@ fn with_step(
         return Err(evaluator.diagnostic(path, message).with_help(STEP_OF_EACH_H));
     };
     let at_run = Path::top("run").then("dt");
-    let text = step_rule::formula_text(evaluator, &at_run, stated, scene)?;
+    let text = step_formula(evaluator, &at_run, stated, scene)?;
     let h = cell_size(scene, level.cells);
     let dt = evaluator.formula(&at_run, &text, &["h"])?.eval(&[h]);
     Ok(LevelPlan { h, dt, ..level })

@@ -4,7 +4,7 @@
 //! specification is evaluated once more for every value.
 
 use crate::suite::compile::check::size;
-use crate::suite::compile::run::step_rule;
+use crate::suite::compile::run::refine::{stable_share, step_formula};
 use crate::suite::compile::scene;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ParameterSpec, StabilitySpec};
@@ -87,8 +87,8 @@ pub(crate) fn setup(
         Err(evaluator.diagnostic(&at, &message).with_label("expected a positive number"))
     };
     let at_dt = run.then("dt");
-    let rule = step_rule::share(evaluator, &at_dt, &spec.run.dt)?;
-    let dt = length("dt", &step_rule::formula_text(evaluator, &at_dt, &spec.run.dt, &scene)?)?;
+    let rule = stable_share(evaluator, &at_dt, &spec.run.dt)?;
+    let dt = length("dt", &step_formula(evaluator, &at_dt, &spec.run.dt, &scene)?)?;
     let every = turns(evaluator, spec)?;
     if let (Some(_), Some(_)) = (rule, &spec.run.alternate) {
         let message = "steps of a length chosen by a rule take no turns with others";

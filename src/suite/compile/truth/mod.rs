@@ -1,16 +1,16 @@
-//! The truth of a suite: the exact solution, checked before it is used.
+//! The truth of a suite: the exact solution, or the state in which the body comes to rest, checked
+//! before it is used. An equilibrium is compared with the body once it is there: at the end of the run.
 
 pub(crate) mod conduction;
 pub(crate) mod conservation_only;
-mod equilibrium;
 mod interface;
 pub(crate) mod tolerance;
 
 use crate::exact::{Equation, Face, Motion, Problem, Survey};
 use crate::fem::BarLaw;
 use crate::mpm::MaterialPlan;
-use crate::suite::evaluator::{Evaluator, coordinates_and_time};
-use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec};
+use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time};
+use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec, NormName};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::load::{EffectName, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
@@ -38,7 +38,7 @@ pub(crate) fn exact(
         interface::refuse(evaluator, spec)?;
     }
     if let Some(state) = &spec.equilibrium {
-        equilibrium::refuse(evaluator, spec, state, scene)?;
+        refuse_equilibrium_with(evaluator, spec, state, scene)?;
         let path = Path::top("equilibrium");
         let problem = Problem {
             at_rest: true,
@@ -274,4 +274,68 @@ fn manufactured_law(material: &MaterialPlan) -> Result<Equation, &'static str> {
 pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
     let name = equation_of(material)?.name();
     BarLaw::find(name).and(EquationName::find(name))
+}
+
+/// Refuses a suite whose `equilibrium` makes no sense beside what else it says.
+fn refuse_equilibrium_with(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    state: &ExactSpec,
+    scene: &Scene,
+) -> Result<(), Diagnostic> {
+    let path = Path::top("equilibrium");
+    let others = [
+        ("exact", spec.exact.is_some()),
+        ("manufactured", spec.manufactured.is_some()),
+        ("reference", spec.reference.is_some()),
+    ];
+    if let Some((other, _)) = others.iter().find(|(_, stated)| *stated) {
+        let message = format!("`{other}` is a motion, and the suite states an equilibrium besides");
+        return Err(evaluator.diagnostic_at_key(&Path::top(other), &message));
+    }
+    // Bound without t, for the complaint that there is no t.
+    let d = scene.dimension();
+    if let Some(texts) = &state.displacement {
+        evaluator.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;
+    }
+    if scene.heat().is_some() {
+        let message = "a body in which heat flows is not at rest: state a motion under `exact`";
+        return Err(evaluator.diagnostic_at_key(&path, message));
+    }
+    if spec.run.until.as_slice().len() > 1 {
+        let at = Path::top("run").then("until").alternative(&spec.run.until, 1);
+        let message = "a body comes to rest once, under the loads at the end of its run";
+        return Err(evaluator.diagnostic(&at, message).with_label("expected one end"));
+    }
+    let over_time = [NormName::MaxRms, NormName::MaxL1, NormName::MaxL2, NormName::MaxLinf];
+    if over_time.contains(&spec.judge.norm) {
+        let message = "on its way a body is not in equilibrium";
+        let diagnostic = evaluator.diagnostic(&Path::top("judge").then("norm"), message);
+        return Err(diagnostic.with_label("expected a norm at the end: rms, l1, l2 or linf"));
+    }
+    refuse_driven(evaluator, scene)?;
+    match spec.fem_method() {
+        Some(i) => {
+            let message = "the reference FEM has no damping and does not come to rest";
+            Err(evaluator.diagnostic(&Path::top("methods").then(i), message))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Where a wall or a set has got to is not known from its velocity at the end.
+fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
+    let scene_path = Path::top("scene");
+    if let Some(face) = scene.faces.iter().find(|face| face.hold.is_driven()) {
+        let message = format!("the face `{}` is driven, and the body comes to rest", face.name);
+        return Err(
+            evaluator.diagnostic_at_key(&scene_path.then("boundary").then(face.name), &message)
+        );
+    }
+    if let Some(set) = scene.driven_set() {
+        let message = format!("the set `{set}` is driven, and the body comes to rest");
+        let at = scene_path.then("sets").then(set);
+        return Err(evaluator.diagnostic_at_key(&at, &message));
+    }
+    Ok(())
 }

@@ -3,22 +3,57 @@
 //! No suite writes two of them: a face of which it says nothing is a [`FreeFace`], or a
 //! [`FaceAtRest`] of a body that does not move.
 
-mod at_rest;
 mod contract;
 mod fixed;
-mod free;
 mod friction;
 mod periodic;
-mod registry;
 mod roller;
 pub(crate) mod thermal;
+mod unstated;
 mod velocity;
 
-pub(crate) use at_rest::FaceAtRest;
 pub(crate) use contract::{BoundaryCondition, BoundaryWords, FaceEntry, FaceSite, build};
-pub(crate) use free::FreeFace;
+pub(crate) use unstated::{FaceAtRest, FreeFace};
 
-use registry::conditions;
+/// Declares a family of conditions. The lines
+///
+/// `/// No displacement.`
+/// `Fixed = "fixed" is fixed::FixedFace;`
+///
+/// `/// A wall that presses and does not pull, with a coefficient of friction.`
+/// `Friction = "friction" of friction::FrictionSpec;`
+///
+/// give a condition the name that suites write: one that its name says all of, and one with a value
+/// under its name. Both types implement the contract of the family's words.
+macro_rules! conditions {
+    ($(#[$family:meta])* $spec:ident: $contract:ident;
+     $($(#[$meta:meta])* $member:ident = $text:literal
+        $(is $file:ident::$condition:ident)? $(of $from:ident::$words:ident)?;)+
+    ) => {
+        $(#[$family])*
+        #[derive(Debug, Clone, serde::Deserialize)]
+        #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+        pub(crate) enum $spec {
+            $($(#[$meta])* #[serde(rename = $text)] $member $(($from::$words))?,)+
+        }
+
+        impl $spec {
+            /// The name, and the words under it.
+            pub(crate) fn named(&self) -> (&'static str, &dyn $contract) {
+                match self {
+                    $(
+                        $(Self::$member => ($text, &$file::$condition),)?
+                        $(Self::$member(words) => {
+                            let words: &$from::$words = words;
+                            ($text, words)
+                        })?
+                    )+
+                }
+            }
+        }
+    };
+}
+use conditions;
 
 conditions! {
     /// Boundary condition on a face; a face that is not named is free.

@@ -1,4 +1,5 @@
-//! A face through which no heat flows.
+//! Faces that no heat enters from outside: insulated, or one with the opposite face of a body that is
+//! periodic.
 
 use super::contract::{BuildThermal, HeatCondition, ThermalWords};
 use crate::exact::Violation;
@@ -34,3 +35,21 @@ impl HeatCondition for Insulated {
 }
 
 impl<const D: usize> BuildThermal<D> for Insulated {}
+
+/// The temperature, and the flow of heat, of the opposite face.
+#[derive(Debug)]
+pub(crate) struct PeriodicTemperature;
+
+impl ThermalCondition for PeriodicTemperature {
+    fn check(&self, point: &dyn HeatFacePoint) -> Result<(), Violation> {
+        point.continues_on_opposite_face()
+    }
+}
+
+impl HeatCondition for PeriodicTemperature {
+    fn row(&self) -> Option<String> {
+        None
+    }
+}
+
+impl<const D: usize> BuildThermal<D> for PeriodicTemperature {}

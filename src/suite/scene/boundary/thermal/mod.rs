@@ -5,15 +5,13 @@ mod contract;
 mod convection;
 mod flux;
 mod insulated;
-mod periodic;
 mod temperature;
 
 pub use contract::SceneHeat;
 pub(crate) use contract::{HeatCondition, ThermalFace, ThermalWords, build};
-pub(crate) use insulated::Insulated;
-pub(crate) use periodic::PeriodicTemperature;
+pub(crate) use insulated::{Insulated, PeriodicTemperature};
 
-use super::registry::conditions;
+use super::conditions;
 
 conditions! {
     /// Thermal condition on a face; a face that is not named is insulated.
