@@ -7,7 +7,7 @@ use crate::suite::{embedded, yaml};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 
-/// Words that no suite of the repository has.
+/// A suite with keys that no suite of the repository has.
 const MORE: &str = "
 suite: more
 title: More

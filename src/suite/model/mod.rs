@@ -1,4 +1,4 @@
-//! A suite whose every word has been checked and every number computed.
+//! A suite whose keys have all been checked and whose numbers have all been computed.
 
 pub(crate) mod external;
 pub(crate) mod fingerprint;

@@ -1,4 +1,4 @@
-//! A stability study whose every word has been checked.
+//! A stability study whose keys have all been checked.
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::study_plan::{StudyPlan, kept};

@@ -99,8 +99,8 @@ pub(crate) fn refuse_foreign(
     let study = StudyFacts { manufactured: spec.manufactured.is_some(), until };
     for (i, load) in spec.scene.loads.iter().enumerate() {
         let entry = LoadEntry { evaluator, effect: load.effect(), path: load.path(i), scene };
-        load.words().check(&entry, &study)?;
-        if let Some(lacked) = load.words().lacked_by_fem() {
+        load.keys().check(&entry, &study)?;
+        if let Some(lacked) = load.keys().lacked_by_fem() {
             refuse_fem_without(evaluator, spec, lacked)?;
         }
     }

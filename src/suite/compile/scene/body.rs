@@ -21,36 +21,36 @@ use std::sync::Arc;
 pub(crate) fn body(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
-    words: &SceneSpec,
+    spec: &SceneSpec,
 ) -> Result<Scene, Diagnostic> {
     let path = Path::top("scene");
-    let dimension = dimension(evaluator, &path, &words.dimension)?;
+    let dimension = dimension(evaluator, &path, &spec.dimension)?;
     let at = own.at.then("body");
     let (mut outline, mut mapped) = (None, None);
     let (from, to) = match outline::shape(evaluator, &at, own.body, dimension)? {
-        BodyShape::Box(words) => outline::corners(evaluator, &at.then("box"), words, dimension)?,
+        BodyShape::Box(spec) => outline::corners(evaluator, &at.then("box"), spec, dimension)?,
         BodyShape::Free(found) => {
-            if words.bodies.is_none() {
-                outline::rims_are_free(evaluator, &path, words, found.as_ref())?;
+            if spec.bodies.is_none() {
+                outline::rims_are_free(evaluator, &path, spec, found.as_ref())?;
             }
             outline.insert(found).ends()
         }
         BodyShape::Mapped(found, panel) => {
-            faces_are_sides(evaluator, &path, words, &panel)?;
+            faces_are_sides(evaluator, &path, spec, &panel)?;
             mapped = Some(panel);
             outline.insert(found).ends()
         }
     };
     let is_free = outline.is_some() && mapped.is_none();
-    let grid = words
+    let grid = spec
         .grid
         .as_ref()
         .map(|grid| outline::corners(evaluator, &path.then("grid"), grid, dimension))
         .transpose()?;
-    let sets = sets::declared(evaluator, &path, words, (&from, &to), outline.as_deref())?;
+    let sets = sets::declared(evaluator, &path, spec, (&from, &to), outline.as_deref())?;
     let at = own.at.then("material");
     let (material, density) = material::material(evaluator, &at, own.material)?;
-    let plane = plane(evaluator, &path, words, dimension)?;
+    let plane = plane(evaluator, &path, spec, dimension)?;
     knows(evaluator, &at, &material, plane)?;
     let mut scene = Scene {
         from,
@@ -61,10 +61,10 @@ pub(crate) fn body(
         initial_displacement: material::displacement(evaluator, own, dimension, &material)?,
         material,
         density,
-        faces: if is_free && words.bodies.is_none() {
+        faces: if is_free && spec.bodies.is_none() {
             Vec::new()
         } else {
-            faces(evaluator, &path, words, dimension)?
+            faces(evaluator, &path, spec, dimension)?
         },
         outline,
         mapped,
@@ -76,9 +76,9 @@ pub(crate) fn body(
     };
     revolves(evaluator, &path, &scene)?;
     if scene.is_at_rest() {
-        settle(evaluator, &own.at, words, &mut scene.faces)?;
+        settle(evaluator, &own.at, spec, &mut scene.faces)?;
     }
-    load::add(evaluator, &words.loads, &mut scene)?;
+    load::add(evaluator, &spec.loads, &mut scene)?;
     Ok(scene)
 }
 
@@ -101,10 +101,10 @@ fn dimension(
 fn faces(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    spec: &SceneSpec,
     dimension: usize,
 ) -> Result<Vec<SceneFace>, Diagnostic> {
-    let holds = holds(evaluator, path, words, dimension)?;
+    let holds = holds(evaluator, path, spec, dimension)?;
     let build = |(i, hold)| SceneFace { name: FACES[i], axis: i / 2, high: i % 2 == 1, hold };
     Ok(holds.into_iter().enumerate().map(build).collect())
 }
@@ -113,18 +113,18 @@ fn faces(
 fn holds(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    spec: &SceneSpec,
     dimension: usize,
 ) -> Result<Vec<Arc<dyn BoundaryCondition>>, Diagnostic> {
     let path = path.then("boundary");
     let free: Arc<dyn BoundaryCondition> = Arc::new(FreeFace);
     let mut holds = vec![free; 2 * dimension];
-    for (name, words) in words.boundary.as_slice() {
+    for (name, spec) in spec.boundary.as_slice() {
         let at = path.then(name.as_str());
         let face = face(evaluator, &at, name, dimension, true)?;
-        let (condition, words) = words.named();
+        let (condition, spec) = spec.named();
         let entry = FaceEntry { evaluator, path: at.then(condition), dimension };
-        holds[face] = words.compile(&entry)?;
+        holds[face] = spec.compile(&entry)?;
     }
     both_ends(evaluator, &path, &holds)?;
     Ok(holds)
@@ -148,19 +148,19 @@ fn both_ends(
     Ok(())
 }
 
-/// Sets every face at rest that is not periodic, and refuses words that hold or move the body, and
+/// Sets every face at rest that is not periodic, and refuses keys that hold or move the body, and
 /// other bodies. `path` is that of the map that holds the body.
 fn settle(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    spec: &SceneSpec,
     faces: &mut [SceneFace],
 ) -> Result<(), Diagnostic> {
     let idle = |at: &Path, message: &str| {
         let diagnostic = evaluator.diagnostic_at_key(at, message);
         Err(diagnostic.with_help("a `rigid` body is at rest: remove this, or choose a material"))
     };
-    if words.bodies.is_some() {
+    if spec.bodies.is_some() {
         return idle(&path.then("material"), "a body that does not move in a list of bodies");
     }
     for face in faces {
@@ -172,17 +172,17 @@ fn settle(
         }
     }
     for (key, stated) in [
-        ("initial_stress", words.initial_stress.is_some()),
-        ("initial_displacement", words.initial_displacement.is_some()),
-        ("initial_velocity", words.initial_velocity.is_some()),
-        ("sets", !words.sets.as_slice().is_empty()),
+        ("initial_stress", spec.initial_stress.is_some()),
+        ("initial_displacement", spec.initial_displacement.is_some()),
+        ("initial_velocity", spec.initial_velocity.is_some()),
+        ("sets", !spec.sets.as_slice().is_empty()),
     ] {
         if stated {
             return idle(&path.then(key), &format!("`{key}` of a body that does not move"));
         }
     }
-    let moves = |load: &LoadSpec| !load.words().acts_at_rest();
-    match words.loads.iter().position(moves) {
+    let moves = |load: &LoadSpec| !load.keys().acts_at_rest();
+    match spec.loads.iter().position(moves) {
         Some(i) => idle(&path.then("loads").then(i), "a load on a body that does not move"),
         None => Ok(()),
     }
@@ -192,22 +192,22 @@ fn settle(
 fn plane(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    spec: &SceneSpec,
     dimension: usize,
 ) -> Result<PlaneState, Diagnostic> {
-    let Some(plane) = words.plane else { return Ok(PlaneState::Strain) };
+    let Some(plane) = spec.plane else { return Ok(PlaneState::Strain) };
     if dimension != 2 {
         let message = format!("a plane, and the scene is {dimension}-D");
         return Err(evaluator
             .diagnostic(&path.then("plane"), &message)
             .with_label("expected in a scene of `dimension: 2`"));
     }
-    if plane == PlaneState::Axisymmetric && words.bodies.is_some() {
+    if plane == PlaneState::Axisymmetric && spec.bodies.is_some() {
         let message = "`plane: axisymmetric`, and several bodies are not known to be of revolution";
         return Err(evaluator.diagnostic_at_key(&path.then("bodies"), message));
     }
-    for (i, load) in words.loads.iter().enumerate() {
-        if let Some(reason) = load.words().against_plane(plane) {
+    for (i, load) in spec.loads.iter().enumerate() {
+        if let Some(reason) = load.keys().against_plane(plane) {
             let message = format!("`plane: {}`, and {reason}", plane.name());
             return Err(evaluator.diagnostic_at_key(&load.path(i), &message));
         }

@@ -11,10 +11,10 @@ use crate::suite::yaml::{Diagnostic, NumberText, Path};
 pub(crate) fn material(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &MaterialSpec<NumberText>,
+    spec: &MaterialSpec<NumberText>,
 ) -> Result<(MaterialPlan, f64), Diagnostic> {
-    let path = path.then(words.name());
-    words.numbers(|key, parameter, text| {
+    let path = path.then(spec.name());
+    spec.numbers(|key, parameter, text| {
         let at = path.then(key);
         let value = match parameter.range {
             Range::Positive => evaluator.positive(&at, text, parameter.what),
@@ -112,10 +112,10 @@ pub(crate) fn stress(
     material: &MaterialPlan,
 ) -> Result<InitialStress, Diagnostic> {
     let path = own.at.then("initial_stress");
-    let Some(words) = own.initial_stress else { return Ok(InitialStress::default()) };
+    let Some(spec) = own.initial_stress else { return Ok(InitialStress::default()) };
     let admitted = material.properties().starts_stressed();
     admit(evaluator, &path, material, admitted, "has no initial stress")?;
-    let texts = [&words.xx, &words.yy, &words.zz, &words.xy, &words.yz, &words.xz];
+    let texts = [&spec.xx, &spec.yy, &spec.zz, &spec.xy, &spec.yz, &spec.xz];
     let mut components = Vec::new();
     for ((name, i, j), text) in COMPONENTS.into_iter().zip(texts) {
         let Some(text) = text else { continue };

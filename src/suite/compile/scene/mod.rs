@@ -15,13 +15,13 @@ use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
 /// Checks the scene of a suite.
-pub(crate) fn scene(evaluator: &Evaluator<'_>, words: &SceneSpec) -> Result<Scene, Diagnostic> {
+pub(crate) fn scene(evaluator: &Evaluator<'_>, spec: &SceneSpec) -> Result<Scene, Diagnostic> {
     let path = Path::top("scene");
-    let listed = bodies::listed(evaluator, &path, words)?;
-    let contact = bodies::contact(evaluator, &path, words)?;
-    let each = listed.iter().map(|listed| body::body(evaluator, listed, words));
+    let listed = bodies::listed(evaluator, &path, spec)?;
+    let contact = bodies::contact(evaluator, &path, spec)?;
+    let each = listed.iter().map(|listed| body::body(evaluator, listed, spec));
     let each = each.collect::<Result<Vec<Scene>, _>>()?;
-    let scene = together(evaluator, &path, each, words.bodies.is_some(), contact)?;
+    let scene = together(evaluator, &path, each, spec.bodies.is_some(), contact)?;
     sets::refuse_idle(evaluator, &path, &scene)?;
     on_grid(evaluator, &path, &scene)?;
     let with_rims = scene.each().iter().filter(|body| body.mapped.is_none());

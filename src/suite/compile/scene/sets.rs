@@ -15,15 +15,15 @@ const SLIVER: f64 = 1e-12;
 pub(crate) fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    spec: &SceneSpec,
     corners: (&[f64], &[f64]),
     outline: Option<&dyn Outline>,
 ) -> Result<Vec<Region>, Diagnostic> {
-    let declare = |(name, SetSpec::Box(words)): &(String, SetSpec)| {
+    let declare = |(name, SetSpec::Box(spec)): &(String, SetSpec)| {
         let at = path.then("sets").then(name.as_str());
         refuse_face_name(evaluator, &at, name)?;
         let at = at.then("box");
-        let (from, to) = outline::corners(evaluator, &at, words, corners.0.len())?;
+        let (from, to) = outline::corners(evaluator, &at, spec, corners.0.len())?;
         let set = Region { name: name.clone(), from, to };
         refuse_outside(evaluator, &at, &set, corners)?;
         if let Some(outline) = outline {
@@ -31,7 +31,7 @@ pub(crate) fn declared(
         }
         Ok(set)
     };
-    words.sets.as_slice().iter().map(declare).collect()
+    spec.sets.as_slice().iter().map(declare).collect()
 }
 
 /// A set that is called like a face could be taken for it.

@@ -15,17 +15,17 @@ use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 /// The heat problem of a body at rest, checked; none where the body moves.
 pub(crate) fn conduction(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     scene: &Scene,
     until: f64,
 ) -> Result<Option<Conduction>, Diagnostic> {
-    refuse_methods_of_other_bodies(evaluator, words, scene)?;
-    refuse_methods_without_heat(evaluator, words, scene)?;
+    refuse_methods_of_other_bodies(evaluator, spec, scene)?;
+    refuse_methods_without_heat(evaluator, spec, scene)?;
     if !scene.is_at_rest() {
         return Ok(None);
     }
-    judged(evaluator, words)?;
-    let (path, temperature, stated, manufactured) = match (&words.exact, &words.manufactured) {
+    judged(evaluator, spec)?;
+    let (path, temperature, stated, manufactured) = match (&spec.exact, &spec.manufactured) {
         (Some(exact), None) => {
             ("exact", exact.temperature.as_ref(), exact.tolerance.as_ref(), false)
         }
@@ -52,12 +52,12 @@ pub(crate) fn conduction(
 /// Bodies at rest have methods of their own.
 fn refuse_methods_of_other_bodies(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
     let at_rest = scene.is_at_rest();
     let fits = |method: &MethodSpec| matches!(method, MethodSpec::Heat { .. }) == at_rest;
-    let Some(i) = words.methods.iter().position(|method| !fits(method)) else { return Ok(()) };
+    let Some(i) = spec.methods.iter().position(|method| !fits(method)) else { return Ok(()) };
     let name = scene.material.name();
     let (message, help) = if at_rest {
         (format!("a `{name}` body does not move"), "its method is `heat: {basis: linear}`")
@@ -68,8 +68,8 @@ fn refuse_methods_of_other_bodies(
 }
 
 /// Refuses what is judged, observed, expected or stated of a motion.
-fn judged(evaluator: &Evaluator<'_>, words: &ConvergenceSpec) -> Result<(), Diagnostic> {
-    if words.judge.of.is_of_motion() {
+fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
+    if spec.judge.of.is_of_motion() {
         let message = "nothing moves, and what is judged belongs to a motion";
         let diagnostic = evaluator.diagnostic(&Path::top("scene").then("material"), message);
         return Err(diagnostic.with_help("add `judge: {of: temperature}`"));
@@ -81,16 +81,15 @@ fn judged(evaluator: &Evaluator<'_>, words: &ConvergenceSpec) -> Result<(), Diag
             ("linearised", exact.linearised.is_some()),
         ]
     };
-    let exact = words.exact.as_ref().map(moves).into_iter().flatten();
-    let made =
-        words.manufactured.as_ref().map(|made| ("displacement", made.displacement.is_some()));
+    let exact = spec.exact.as_ref().map(moves).into_iter().flatten();
+    let made = spec.manufactured.as_ref().map(|made| ("displacement", made.displacement.is_some()));
     let stated = exact
         .map(|(key, stated)| (Path::top("exact").then(key), stated))
         .chain(made.map(|(key, stated)| (Path::top("manufactured").then(key), stated)))
         .chain([
-            (Path::top("equilibrium"), words.equilibrium.is_some()),
-            (Path::top("reference"), words.reference.is_some()),
-            (Path::top("observe"), words.observe.is_some()),
+            (Path::top("equilibrium"), spec.equilibrium.is_some()),
+            (Path::top("reference"), spec.reference.is_some()),
+            (Path::top("observe"), spec.observe.is_some()),
         ]);
     match stated.into_iter().find(|(_, stated)| *stated) {
         Some((at, _)) => {
@@ -155,17 +154,17 @@ pub(crate) fn problem(
 /// Refuses methods that know nothing of heat.
 fn refuse_methods_without_heat(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
     if scene.heat().is_none() {
         return Ok(());
     }
-    if words.reference.is_some() {
+    if spec.reference.is_some() {
         let message = "a reference knows nothing of heat, which flows in the scene";
         return Err(evaluator.diagnostic_at_key(&Path::top("reference"), message));
     }
-    for (i, method) in words.methods.iter().enumerate() {
+    for (i, method) in spec.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
         match method {
             MethodSpec::Heat { .. } | MethodSpec::External { .. } => {}

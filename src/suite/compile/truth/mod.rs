@@ -241,12 +241,12 @@ fn face(scene: &Scene, number: usize) -> Face {
 /// A complaint about a truth that is stated.
 fn refuse_truth_of_mapped(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
 ) -> Result<(), Diagnostic> {
     let stated = [
-        ("exact", words.exact.is_some()),
-        ("equilibrium", words.equilibrium.is_some()),
-        ("manufactured", words.manufactured.is_some()),
+        ("exact", spec.exact.is_some()),
+        ("equilibrium", spec.equilibrium.is_some()),
+        ("manufactured", spec.manufactured.is_some()),
     ];
     match stated.iter().find(|(_, stated)| *stated) {
         Some((key, _)) => {

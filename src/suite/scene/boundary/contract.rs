@@ -9,12 +9,12 @@ use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Words of the condition on a face, as suites write them.
-pub(crate) trait BoundaryWords {
+/// Keys of the condition on a face, as suites write them.
+pub(crate) trait BoundaryKeys {
     /// The condition, checked, with every number computed.
     ///
     /// # Errors
-    /// The first word that is wrong.
+    /// The first mistake in its keys.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic>;
 
     /// Whether the face is one and the same with the opposite one.
@@ -23,8 +23,8 @@ pub(crate) trait BoundaryWords {
     }
 }
 
-/// A word that says all is the condition itself.
-impl<T: BoundaryCondition + Copy> BoundaryWords for T {
+/// A condition without parameters is its own specification.
+impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
     fn compile(&self, _: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
         Ok(Arc::new(*self))
     }
@@ -87,7 +87,7 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         LoadNumbers::default()
     }
 
-    /// In words that follow "the left face".
+    /// Its verb, which follows "the left face" in messages.
     fn verb(&self) -> &'static str;
 
     /// Value of its row in reports; empty: no row.

@@ -1,6 +1,6 @@
 //! A wall that presses, does not pull, and resists sliding.
 
-use super::contract::{BoundaryCondition, BoundaryWords, BuildBoundary, FaceEntry, FaceSite};
+use super::contract::{BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry, FaceSite};
 use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Friction};
 use crate::suite::evaluator::shown;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 #[serde(transparent)]
 pub(crate) struct FrictionSpec(NumberText);
 
-impl BoundaryWords for FrictionSpec {
+impl BoundaryKeys for FrictionSpec {
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
         let FaceEntry { evaluator, path, .. } = entry;
         let coefficient = evaluator.number(path, &self.0)?;

@@ -12,7 +12,7 @@ pub(crate) mod thermal;
 mod unstated;
 mod velocity;
 
-pub(crate) use contract::{BoundaryCondition, BoundaryWords, FaceEntry, FaceSite, build};
+pub(crate) use contract::{BoundaryCondition, BoundaryKeys, FaceEntry, FaceSite, build};
 pub(crate) use unstated::{FaceAtRest, FreeFace};
 
 /// Declares a family of conditions. The lines
@@ -24,28 +24,28 @@ pub(crate) use unstated::{FaceAtRest, FreeFace};
 /// `Friction = "friction" of friction::FrictionSpec;`
 ///
 /// give a condition the name that suites write: one that its name says all of, and one with a value
-/// under its name. Both types implement the contract of the family's words.
+/// under its name. Both types implement the contract of the family's keys.
 macro_rules! conditions {
     ($(#[$family:meta])* $spec:ident: $contract:ident;
      $($(#[$meta:meta])* $member:ident = $text:literal
-        $(is $file:ident::$condition:ident)? $(of $from:ident::$words:ident)?;)+
+        $(is $file:ident::$condition:ident)? $(of $from:ident::$keys:ident)?;)+
     ) => {
         $(#[$family])*
         #[derive(Debug, Clone, serde::Deserialize)]
         #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
         pub(crate) enum $spec {
-            $($(#[$meta])* #[serde(rename = $text)] $member $(($from::$words))?,)+
+            $($(#[$meta])* #[serde(rename = $text)] $member $(($from::$keys))?,)+
         }
 
         impl $spec {
-            /// The name, and the words under it.
+            /// The name, and the keys under it.
             pub(crate) fn named(&self) -> (&'static str, &dyn $contract) {
                 match self {
                     $(
                         $(Self::$member => ($text, &$file::$condition),)?
-                        $(Self::$member(words) => {
-                            let words: &$from::$words = words;
-                            ($text, words)
+                        $(Self::$member(keys) => {
+                            let keys: &$from::$keys = keys;
+                            ($text, keys)
                         })?
                     )+
                 }
@@ -57,7 +57,7 @@ use conditions;
 
 conditions! {
     /// Boundary condition on a face; a face that is not named is free.
-    BoundarySpec: BoundaryWords;
+    BoundarySpec: BoundaryKeys;
     /// No displacement.
     Fixed = "fixed" is fixed::FixedFace;
     /// No displacement along the normal, no traction along the face.

@@ -1,6 +1,6 @@
 //! A face with a given velocity.
 
-use super::contract::{BoundaryCondition, BoundaryWords, BuildBoundary, FaceEntry, FaceSite};
+use super::contract::{BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry, FaceSite};
 use crate::exact::formula::Formula;
 use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Prescribed};
@@ -14,7 +14,7 @@ use std::sync::Arc;
 #[serde(transparent)]
 pub(crate) struct VelocitySpec(Vec<NumberText>);
 
-impl BoundaryWords for VelocitySpec {
+impl BoundaryKeys for VelocitySpec {
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
         Ok(Arc::new(MovingFace(entry.vector(&self.0)?)))
     }

@@ -1,7 +1,7 @@
 //! Artificial viscosity: a pressure against compression, for shocks.
 
 use super::contract::{BodySite, BuildEffect, SceneLoad};
-use super::entry::{LoadEntry, LoadWords};
+use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::mpm::{ArtificialViscosity, Effect};
 use crate::subject::PlaneState;
@@ -21,7 +21,7 @@ pub(crate) struct ViscositySpec {
     quadratic: NumberText,
 }
 
-impl LoadWords for ViscositySpec {
+impl LoadKeys for ViscositySpec {
     fn example(_: &str) -> String {
         "{linear: s, quadratic: s}".to_owned()
     }

@@ -1,7 +1,7 @@
 //! A stated force per unit mass that depends on place, time and displacement.
 
 use super::contract::{BodySite, BuildEffect, SceneLoad};
-use super::entry::{LoadEntry, LoadWords};
+use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::exact::formula::{Formula, Hoisted, Jet};
 use crate::mpm::{BodyForce, Effect, Particles, Vector};
@@ -18,7 +18,7 @@ const MOST_OPERATIONS: u64 = 5000;
 #[serde(transparent)]
 pub(crate) struct BodyForceSpec(Vec<NumberText>);
 
-impl LoadWords for BodyForceSpec {
+impl LoadKeys for BodyForceSpec {
     fn example(vector: &str) -> String {
         vector.to_owned()
     }

@@ -16,7 +16,7 @@ use std::sync::Arc;
 macro_rules! names {
     ($(
         $(#[$meta:meta])*
-        $member:ident = $text:literal => $words_file:ident::$words:ident
+        $member:ident = $text:literal => $spec_file:ident::$spec:ident
         $(, effect $file:ident::$effect:ident)?
         $(, needs [$($need:ident),+])?;
     )+) => {

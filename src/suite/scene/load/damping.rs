@@ -1,7 +1,7 @@
 //! Damping in proportion to mass: velocities decay at a rate.
 
 use super::contract::{BodySite, BuildEffect, SceneLoad};
-use super::entry::{LoadEntry, LoadWords, StudyFacts};
+use super::entry::{LoadEntry, LoadKeys, StudyFacts};
 use crate::exact::Term;
 use crate::exact::formula::Formula;
 use crate::mpm::{Damping, Effect};
@@ -19,7 +19,7 @@ const TIMES: u32 = 1000;
 #[serde(transparent)]
 pub(crate) struct DampingSpec(NumberText);
 
-impl LoadWords for DampingSpec {
+impl LoadKeys for DampingSpec {
     fn example(_: &str) -> String {
         "s*(1 + t)".to_owned()
     }

@@ -1,4 +1,4 @@
-//! The words of a load, and what they are compiled with.
+//! The keys of a load, and the part of a suite that they are compiled with.
 
 use super::contract::{EffectName, LoadTarget, SceneLoad};
 use crate::exact::Region;
@@ -20,10 +20,9 @@ pub(crate) struct StudyFacts {
 }
 
 /// One entry of `loads`: what suites write for a load.
-pub(crate) trait LoadWords {
-    /// Words for a load of strength `s`, zero being none, of which `vector` is a value with a
-    /// component for each axis; on the face `right`, or the set `some`. The laws of the family
-    /// enrol it by them.
+pub(crate) trait LoadKeys {
+    /// Example of the keys of a load with strength `s` (zero: no effect) and the vector value
+    /// `vector`, on the face `right` or the set `some`. The laws of the family test it.
     fn example(vector: &str) -> String
     where
         Self: Sized;
@@ -31,7 +30,7 @@ pub(crate) trait LoadWords {
     /// The load, checked, with every number computed.
     ///
     /// # Errors
-    /// The first word that is wrong.
+    /// The first mistake in its keys.
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic>;
 
     /// Refuses a convergence study that the load does not go with.
@@ -42,7 +41,7 @@ pub(crate) trait LoadWords {
         Ok(())
     }
 
-    /// The word for the part of it that the reference FEM lacks.
+    /// The name of the part of it that the reference FEM lacks.
     fn lacked_by_fem(&self) -> Option<&'static str> {
         None
     }

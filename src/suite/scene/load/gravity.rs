@@ -1,7 +1,7 @@
 //! Gravity: a uniform acceleration, constant or a function of time.
 
 use super::contract::{BodySite, BuildEffect, SceneLoad};
-use super::entry::{LoadEntry, LoadWords};
+use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::exact::formula::Formula;
 use crate::mpm::{Effect, Gravity};
@@ -15,7 +15,7 @@ use std::sync::Arc;
 #[serde(transparent)]
 pub(crate) struct GravitySpec(Vec<NumberText>);
 
-impl LoadWords for GravitySpec {
+impl LoadKeys for GravitySpec {
     fn example(vector: &str) -> String {
         vector.to_owned()
     }

@@ -1,7 +1,7 @@
 //! Conduction of heat.
 
 use super::contract::{BodySite, BuildEffect, SceneLoad};
-use super::entry::{LoadEntry, LoadWords};
+use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::exact::formula::{Expr, Formula};
 use crate::exact::heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives, source_at};
@@ -42,7 +42,7 @@ pub(crate) struct HeatSpec {
     boundary: Ordered<ThermalSpec>,
 }
 
-impl LoadWords for HeatSpec {
+impl LoadKeys for HeatSpec {
     fn example(_: &str) -> String {
         "{conductivity: 0.1, capacity: 1, initial: s*X}".to_owned()
     }
@@ -171,10 +171,10 @@ fn manufactured<const D: usize>(made: &Conduction, particles: &Particles<D>) -> 
     Box::new(move |t, _, into| forcing.at(t, into))
 }
 
-/// Every face of the body, insulated where the words do not name it.
+/// Every face of the body; a face that the keys do not name is insulated.
 fn faces(
     entry: &LoadEntry<'_>,
-    words: &Ordered<ThermalSpec>,
+    spec: &Ordered<ThermalSpec>,
 ) -> Result<Vec<ThermalFace>, Diagnostic> {
     let (evaluator, dimension) = (entry.evaluator, entry.dimension());
     let unnamed = |face: &SceneFace| {
@@ -186,13 +186,13 @@ fn faces(
     };
     let path = entry.path.then("boundary");
     let mut faces: Vec<ThermalFace> = entry.scene.faces.iter().map(unnamed).collect();
-    for (name, words) in words.as_slice() {
+    for (name, spec) in spec.as_slice() {
         let at = path.then(name.as_str());
         let i = face(evaluator, &at, name, dimension, true)?;
-        let (condition, words) = words.named();
-        on_grid(entry, &at, words.lets_heat_in(), &entry.scene.faces[i])?;
+        let (condition, spec) = spec.named();
+        on_grid(entry, &at, spec.lets_heat_in(), &entry.scene.faces[i])?;
         let entry = FaceEntry { evaluator, path: at.then(condition), dimension };
-        faces[i].condition = words.compile(&entry)?;
+        faces[i].condition = spec.compile(&entry)?;
     }
     Ok(faces)
 }

@@ -1,7 +1,7 @@
 //! Local damping: a share of the force out of balance, against the motion.
 
 use super::contract::{BodySite, BuildEffect, SceneLoad};
-use super::entry::{LoadEntry, LoadWords, StudyFacts};
+use super::entry::{LoadEntry, LoadKeys, StudyFacts};
 use crate::exact::Term;
 use crate::mpm::{Effect, LocalDamping};
 use crate::suite::evaluator::shown;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 #[serde(transparent)]
 pub(crate) struct LocalDampingSpec(NumberText);
 
-impl LoadWords for LocalDampingSpec {
+impl LoadKeys for LocalDampingSpec {
     fn example(_: &str) -> String {
         "s".to_owned()
     }

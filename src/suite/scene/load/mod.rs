@@ -6,7 +6,7 @@ mod entry;
 
 pub use contract::EffectName;
 pub(crate) use contract::{BodySite, ListedLoad, LoadTarget, build};
-pub(crate) use entry::{LoadEntry, LoadWords, StudyFacts};
+pub(crate) use entry::{LoadEntry, LoadKeys, StudyFacts};
 
 use crate::members::each_effect;
 use crate::suite::evaluator::Evaluator;
@@ -14,11 +14,11 @@ use crate::suite::scene::Scene;
 use crate::suite::yaml::{Diagnostic, Path};
 
 /// Declares the family of loads, from the lines of [`each_effect`](crate::members). The type of the
-/// words implements [`LoadWords`](super::LoadWords).
+/// keys implements [`LoadKeys`].
 macro_rules! loads {
     ($(
         $(#[$meta:meta])*
-        $member:ident = $text:literal => $file:ident::$words:ident
+        $member:ident = $text:literal => $file:ident::$spec:ident
         $(, effect $effect_file:ident::$effect:ident)?
         $(, needs [$($need:ident),+])?;
     )+) => {
@@ -28,7 +28,7 @@ macro_rules! loads {
         #[derive(Debug, Clone, serde::Deserialize)]
         #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
         pub(crate) enum LoadSpec {
-            $($(#[$meta])* #[serde(rename = $text)] $member($file::$words),)+
+            $($(#[$meta])* #[serde(rename = $text)] $member($file::$spec),)+
         }
 
         impl EffectName {
@@ -37,10 +37,10 @@ macro_rules! loads {
             pub fn example(self, dimension: usize) -> String {
                 let vector = vec!["s*(1 + t)"; dimension].join(", ");
                 let vector = format!("[{vector}]");
-                let words = match self {
-                    $(Self::$member => $file::$words::example(&vector),)+
+                let keys = match self {
+                    $(Self::$member => $file::$spec::example(&vector),)+
                 };
-                format!("{}: {words}", self.name())
+                format!("{}: {keys}", self.name())
             }
         }
 
@@ -52,10 +52,10 @@ macro_rules! loads {
                 }
             }
 
-            /// The words under its name.
-            pub(crate) fn words(&self) -> &dyn LoadWords {
+            /// The keys under its name.
+            pub(crate) fn keys(&self) -> &dyn LoadKeys {
                 match self {
-                    $(Self::$member(words) => words,)+
+                    $(Self::$member(keys) => keys,)+
                 }
             }
         }
@@ -83,14 +83,14 @@ fn refuse_incomplete(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<()
 /// Adds the loads to a scene that has none, in the order in which solvers apply them.
 pub(crate) fn add(
     evaluator: &Evaluator<'_>,
-    words: &[LoadSpec],
+    spec: &[LoadSpec],
     scene: &mut Scene,
 ) -> Result<(), Diagnostic> {
-    refuse_incomplete(evaluator, words)?;
-    for (i, load) in words.iter().enumerate() {
+    refuse_incomplete(evaluator, spec)?;
+    for (i, load) in spec.iter().enumerate() {
         let effect = load.effect();
         let entry = LoadEntry { evaluator, effect, path: load.path(i), scene };
-        let load = load.words().compile(&entry)?;
+        let load = load.keys().compile(&entry)?;
         scene.loads.push(ListedLoad { effect, load });
     }
     scene.loads.sort_by_key(|load| (load.target(), load.effect));

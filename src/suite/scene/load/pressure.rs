@@ -1,7 +1,7 @@
 //! A pressure on a face of a box, which follows the face.
 
 use super::contract::{BodySite, BuildEffect, LoadTarget, SceneLoad};
-use super::entry::{LoadEntry, LoadWords, LoadedFace};
+use super::entry::{LoadEntry, LoadKeys, LoadedFace};
 use crate::exact::formula::Formula;
 use crate::exact::{Condition, FacePoint, Term, Violation};
 use crate::fem::TimeFunction;
@@ -26,7 +26,7 @@ pub(crate) struct PressureSpec {
     at: Option<Placement>,
 }
 
-impl LoadWords for PressureSpec {
+impl LoadKeys for PressureSpec {
     fn example(_: &str) -> String {
         "{on: right, value: s*(1 + t)}".to_owned()
     }

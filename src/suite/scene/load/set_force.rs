@@ -1,7 +1,7 @@
 //! A total force on a set of particles.
 
 use super::contract::{BodySite, BuildEffect, LoadTarget, SceneLoad};
-use super::entry::{LoadEntry, LoadWords, LoadedSet};
+use super::entry::{LoadEntry, LoadKeys, LoadedSet};
 use crate::exact::Term;
 use crate::exact::formula::Formula;
 use crate::mpm::{Effect, SetForce};
@@ -21,7 +21,7 @@ pub(crate) struct SetForceSpec {
     value: Vec<NumberText>,
 }
 
-impl LoadWords for SetForceSpec {
+impl LoadKeys for SetForceSpec {
     fn example(vector: &str) -> String {
         format!("{{on: some, value: {vector}}}")
     }

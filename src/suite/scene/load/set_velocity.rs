@@ -1,7 +1,7 @@
 //! A prescribed velocity of a set of particles.
 
 use super::contract::{BodySite, BuildEffect, LoadTarget, SceneLoad};
-use super::entry::{LoadEntry, LoadWords, LoadedSet};
+use super::entry::{LoadEntry, LoadKeys, LoadedSet};
 use crate::exact::formula::Formula;
 use crate::exact::{Region, Term};
 use crate::mpm::{Effect, PrescribedVelocity};
@@ -20,7 +20,7 @@ pub(crate) struct SetVelocitySpec {
     value: Vec<NumberText>,
 }
 
-impl LoadWords for SetVelocitySpec {
+impl LoadKeys for SetVelocitySpec {
     fn example(vector: &str) -> String {
         format!("{{on: some, value: {vector}}}")
     }

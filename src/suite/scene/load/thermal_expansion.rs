@@ -1,7 +1,7 @@
 //! Thermal expansion: strain that temperature makes.
 
 use super::contract::{BodySite, BuildEffect, SceneLoad};
-use super::entry::{LoadEntry, LoadWords};
+use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::{Expansion, Term};
 use crate::mpm::{Effect, ThermalExpansion};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -18,7 +18,7 @@ pub(crate) struct ExpansionSpec {
     reference: NumberText,
 }
 
-impl LoadWords for ExpansionSpec {
+impl LoadKeys for ExpansionSpec {
     fn example(_: &str) -> String {
         "{coefficient: 0.1, reference: 0}".to_owned()
     }

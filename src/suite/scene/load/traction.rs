@@ -1,7 +1,7 @@
 //! A traction on a face of a box.
 
 use super::contract::{BodySite, BuildEffect, LoadTarget, SceneLoad};
-use super::entry::{LoadEntry, LoadWords, LoadedFace};
+use super::entry::{LoadEntry, LoadKeys, LoadedFace};
 use crate::exact::formula::Formula;
 use crate::exact::{Condition, FacePoint, Term, Violation};
 use crate::fem::TimeFunction;
@@ -26,7 +26,7 @@ pub(crate) struct TractionSpec {
     at: Option<Placement>,
 }
 
-impl LoadWords for TractionSpec {
+impl LoadKeys for TractionSpec {
     fn example(vector: &str) -> String {
         format!("{{on: right, value: {vector}}}")
     }

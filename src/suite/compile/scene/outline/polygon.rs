@@ -1,4 +1,4 @@
-//! Polygons, from words.
+//! Polygons.
 
 use crate::exact::{Outline, Polygon};
 use crate::suite::evaluator::{Evaluator, shown};

@@ -1,4 +1,4 @@
-//! Round bodies, from words.
+//! Round bodies.
 
 use crate::exact::{Outline, Round};
 use crate::suite::evaluator::{Evaluator, shown};
@@ -34,11 +34,11 @@ pub(super) fn annulus(
 pub(super) fn filled(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &RoundSpec,
+    spec: &RoundSpec,
     dimension: usize,
 ) -> Result<Arc<dyn Outline>, Diagnostic> {
-    let centre = evaluator.point(&path.then("centre"), &words.centre, dimension)?;
-    let outer = radius(evaluator, &path.then("radius"), &words.radius)?;
+    let centre = evaluator.point(&path.then("centre"), &spec.centre, dimension)?;
+    let outer = radius(evaluator, &path.then("radius"), &spec.radius)?;
     Ok(Arc::new(Round { centre, inner: 0.0, outer }))
 }
 

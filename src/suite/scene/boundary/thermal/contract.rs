@@ -9,12 +9,12 @@ use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
-/// Words of the thermal condition on a face, as suites write them.
-pub(crate) trait ThermalWords {
+/// Keys of the thermal condition on a face, as suites write them.
+pub(crate) trait ThermalKeys {
     /// The condition, checked, with every number computed.
     ///
     /// # Errors
-    /// The first word that is wrong.
+    /// The first mistake in its keys.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic>;
 
     /// Whether heat can enter.

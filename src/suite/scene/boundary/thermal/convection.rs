@@ -1,6 +1,6 @@
 //! A face through which heat is exchanged with surroundings: Newton's law of cooling.
 
-use super::contract::{BuildThermal, HeatCondition, ThermalWords};
+use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
 use crate::exact::Violation;
 use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
@@ -21,7 +21,7 @@ pub(crate) struct ConvectionSpec {
     ambient: NumberText,
 }
 
-impl ThermalWords for ConvectionSpec {
+impl ThermalKeys for ConvectionSpec {
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic> {
         let (at, what) = (entry.path.then("coefficient"), "the coefficient of convection");
         let coefficient = entry.evaluator.positive(&at, &self.coefficient, what)?;

@@ -1,6 +1,6 @@
 //! A face with a given flux of heat.
 
-use super::contract::{BuildThermal, HeatCondition, ThermalWords};
+use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
 use crate::exact::Violation;
 use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
@@ -16,7 +16,7 @@ use std::sync::Arc;
 #[serde(transparent)]
 pub(crate) struct FluxSpec(NumberText);
 
-impl ThermalWords for FluxSpec {
+impl ThermalKeys for FluxSpec {
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic> {
         Ok(Arc::new(GivenFlux(entry.scalar(&entry.path, &self.0)?)))
     }

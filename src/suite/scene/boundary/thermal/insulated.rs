@@ -1,7 +1,7 @@
 //! Faces that no heat enters from outside: insulated, or one with the opposite face of a body that is
 //! periodic.
 
-use super::contract::{BuildThermal, HeatCondition, ThermalWords};
+use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
 use crate::exact::Violation;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
 use crate::suite::scene::boundary::FaceEntry;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(crate) struct Insulated;
 
-impl ThermalWords for Insulated {
+impl ThermalKeys for Insulated {
     fn compile(&self, _: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic> {
         Ok(Arc::new(Self))
     }

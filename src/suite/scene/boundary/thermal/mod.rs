@@ -8,14 +8,14 @@ mod insulated;
 mod temperature;
 
 pub use contract::SceneHeat;
-pub(crate) use contract::{HeatCondition, ThermalFace, ThermalWords, build};
+pub(crate) use contract::{HeatCondition, ThermalFace, ThermalKeys, build};
 pub(crate) use insulated::{Insulated, PeriodicTemperature};
 
 use super::conditions;
 
 conditions! {
     /// Thermal condition on a face; a face that is not named is insulated.
-    ThermalSpec: ThermalWords;
+    ThermalSpec: ThermalKeys;
     /// No heat flows.
     Insulated = "insulated" is insulated::Insulated;
     /// The temperature (K).
