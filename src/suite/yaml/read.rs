@@ -1,5 +1,5 @@
-//! From a checked text to a typed value, with errors of the YAML library in terms of a suite; and back
-//! for text that the program writes for itself.
+//! From a checked text to a typed value, with errors of the YAML library in terms of a suite; and
+//! back for text that the program writes for itself.
 
 use super::phrase::{expected, found, listed, syntax};
 use super::shape::{TopValue, refused};

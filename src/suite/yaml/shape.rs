@@ -5,17 +5,17 @@
 //! value, and a field of type `f64` accepts `.nan`.
 
 //!
-//! Refusals are messages of our own, sent through the error type of a deserializer. Its error is one
-//! string, and the YAML library writes a path in front of it and a position behind. Fences around the
-//! parts let them be found again; no file can forge them, because a source with control characters is
-//! refused.
+//! Refusals are messages of this crate, sent through the error type of a deserializer. Its error is
+//! one string, and the YAML library writes a path in front of it and a position behind. Fences
+//! around the parts let them be found again. No file can forge them, because a source with control
+//! characters is refused.
 
 use super::{MAX_ENTRIES, Source};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::collections::HashSet;
 use std::fmt;
 
-/// What a key of the whole file holds.
+/// Value of a key of the whole file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum TopValue {
     /// The file has no such key.

@@ -1,5 +1,5 @@
-//! Checks of several keys of a suite together: parts that its solvers, its loads or its truth do not
-//! support, refused before anything runs; and, each in a file, sizes, time steps and judged sums.
+//! Checks of several keys of a suite together: parts of a suite that its solvers, its loads or its
+//! truth do not support. Sizes, time steps and judged sums have files of their own.
 
 pub(crate) mod size;
 pub(crate) mod steps;

@@ -1,5 +1,5 @@
-//! One body, and what holds it and acts on it: its faces, the state across its plane, revolution and
-//! rest.
+//! One body, and what holds it and acts on it: its faces, the state across its plane, revolution
+//! and rest.
 
 use super::bodies::Listed;
 use super::outline::BodyShape;

@@ -1,5 +1,7 @@
 //! The truth of a suite: the exact solution, or the state in which the body comes to rest, checked
-//! before it is used. An equilibrium is compared with the body once it is there: at the end of the run.
+//! before it is used.
+//!
+//! A body is compared with its equilibrium once it is there: at the end of the run.
 
 pub(crate) mod conduction;
 pub(crate) mod conservation_only;

@@ -1,5 +1,5 @@
-//! Faces of which a suite says nothing: free, or those of a body that is at rest as a whole, which no
-//! solver moves.
+//! Faces that a suite does not name: free, or at rest if the body is at rest as a whole. No solver
+//! holds them.
 
 use super::contract::{BoundaryCondition, BuildBoundary};
 use super::fixed::FixedFace;

@@ -1,5 +1,5 @@
-//! Faces that no heat enters from outside: insulated, or one with the opposite face of a body that is
-//! periodic.
+//! Faces that no heat enters from outside: insulated, or continued on the opposite face of a
+//! periodic body.
 
 use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
 use crate::exact::Violation;
