@@ -45,8 +45,8 @@ pub(crate) use each_material;
 /// `ThermalExpansion = "thermal_expansion" => thermal_expansion::ExpansionSpec,`
 /// `effect thermal_expansion::ThermalExpansion, needs [Heat];`
 ///
-/// gives its member of `EffectName` and its name in suites; the file and the type of its words in
-/// `suite/compile/load`; the file and the type of the effect in `mpm/effect`, where it has one of
+/// gives its member of `EffectName` and its name in suites; the file and the type of its keys in
+/// `suite/scene/load`; the file and the type of the effect in `mpm/effect`, where it has one of
 /// its own; and the members without which it means nothing, where there are any.
 macro_rules! each_effect {
     ($declare:ident) => {

@@ -19,7 +19,7 @@ const KEYS_IN: &[&str] = &[
     "src/verify/",
     "src/external/",
     "src/mpm/material/",
-    "src/suite/compile/load/",
+    "src/suite/scene/load/",
 ];
 
 /// The repository as documents may speak of it.

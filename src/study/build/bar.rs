@@ -107,8 +107,7 @@ mod tests {
     use super::*;
     use crate::exact::Equation;
     use crate::mpm::{Block, Matrix, Particles, StressUpdate, Vector};
-    use crate::suite::compile::run::bar_law;
-    use crate::suite::compile::truth::law;
+    use crate::suite::compile::truth::{equation_of, law_of_bar};
     use approx::assert_relative_eq;
     use rstest::rstest;
 
@@ -135,7 +134,7 @@ mod tests {
             "eta" => 0.5,
             _ => 100.0,
         });
-        let known = every.into_iter().filter_map(|plan| Some((plan, law::equation(&plan)?)));
+        let known = every.into_iter().filter_map(|plan| Some((plan, equation_of(&plan)?)));
         known.filter(|(_, truth)| truth.is_finite())
     }
 
@@ -147,7 +146,7 @@ mod tests {
     }
 
     fn agree(plan: &MaterialPlan, truth: &Equation) {
-        let bar = bar_law::own(plan).map(|law| piola(law, plan).unwrap());
+        let bar = law_of_bar(plan).map(|law| piola(law, plan).unwrap());
         for stretch in [0.7, 1.0 + 1e-6, 1.4] {
             let stress = piola_of_mpm(plan, &Matrix::<1>::new(stretch))[(0, 0)];
             if let Some(bar) = &bar {

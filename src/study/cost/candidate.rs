@@ -3,8 +3,8 @@
 use super::measure::{load, seconds};
 use crate::study::runner::Runner;
 use crate::suite::compile::check::size::{nodes, too_large};
+use crate::suite::model::refine_plan::FINE_GRID;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
-use crate::suite::model::same_method::FINE_GRID;
 use crate::suite::model::{Case, ConvergencePlan, Suite};
 use crate::verify::{
     CaseOutcome, Convergence, LevelOutcome, Model, PredictedError, Ranked, Workload, by_transfers,

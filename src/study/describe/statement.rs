@@ -3,9 +3,9 @@
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialParameter, MaterialPlan};
 use crate::subject::PlaneState;
-use crate::suite::compile::load::fields::sources;
 use crate::suite::model::load::LoadTarget;
 use crate::suite::model::{Scene, Suite};
+use crate::suite::scene::numbers::sources;
 use crate::verify::rounded;
 
 /// Parameters and functions of a suite.

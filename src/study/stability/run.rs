@@ -7,12 +7,10 @@ use crate::study::build::setup::Body;
 use crate::study::convergence::stable_step::ROUNDS;
 use crate::study::kind::{RunContext, ShownRun};
 use crate::subject::{Perturbable, Subject};
-use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::compile::stability::setup::{ParameterValues, RunSetup};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::stability::{StabilityCase, StabilityPlan};
-use crate::suite::yaml::Diagnostic;
 use crate::verify::{
     CheckpointStore, Critical, Prediction, Scales, Stability, StabilityLimit, StabilityRow, Trial,
     amplification, resume_trial, spectral_radius, stability_limit,
@@ -36,15 +34,13 @@ const SHARES: [f64; 4] = [0.95, 0.98, 1.02, 1.05];
 const DEFECT: f64 = 1e-5;
 
 /// One case of a study.
-pub(super) struct CaseRun<'r, 'a> {
+pub(super) struct CaseRun<'a> {
     pub(super) plan: &'a StabilityPlan,
     pub(super) case: &'a StabilityCase,
     pub(super) context: RunContext<'a>,
-    /// The words of the scene.
-    pub(super) words: &'r Result<SceneWords<'a>, Diagnostic>,
 }
 
-impl CaseRun<'_, '_> {
+impl CaseRun<'_> {
     /// The row of one value of the swept parameter.
     pub(super) fn row(&self, value: f64) -> StabilityRow {
         let empty = StabilityRow { value, trial: None, critical: None, refused: None };
@@ -61,8 +57,7 @@ impl CaseRun<'_, '_> {
 
     /// The set-up with these values of the parameters.
     pub(super) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, String> {
-        let words = self.words.as_ref().map_err(Diagnostic::one_line)?;
-        let setup = self.plan.template.setup_of(words, values);
+        let setup = self.plan.template.setup(values);
         let mut setup = setup.map_err(|diagnostic| diagnostic.one_line())?;
         if self.context.extent == Extent::Full {
             setup.steps = setup.full_steps;

@@ -5,9 +5,7 @@ use super::{handed, statement};
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::study::describe::statement::Rows;
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, Study};
-use crate::suite::compile::scene::scene_words::SceneWords;
 use crate::suite::model::stability::StabilityPlan;
-use crate::suite::yaml::Diagnostic;
 use crate::verify::{CaseOutcome, Gating, Stability, StabilityRow, StabilityStudy};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -23,7 +21,7 @@ impl Study for StabilityPlan {
     }
 
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
-        Box::new(StabilityRunner { plan: self, context, words: self.template.words() })
+        Box::new(StabilityRunner { plan: self, context })
     }
 }
 
@@ -31,8 +29,6 @@ impl Study for StabilityPlan {
 struct StabilityRunner<'a> {
     plan: &'a StabilityPlan,
     context: RunContext<'a>,
-    /// The words of the scene, read once for all rows and steps of a bisection.
-    words: Result<SceneWords<'a>, Diagnostic>,
 }
 
 impl CaseRunner for StabilityRunner<'_> {
@@ -42,7 +38,7 @@ impl CaseRunner for StabilityRunner<'_> {
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let (plan, context, case) = (self.plan, self.context, &self.plan.cases[index]);
-        let run = CaseRun { plan, case, context, words: &self.words };
+        let run = CaseRun { plan, case, context };
         let lacks = context.solver.map_or(Vec::new(), |solver| {
             plan.needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
         });
@@ -79,13 +75,13 @@ impl CaseRunner for StabilityRunner<'_> {
         let trial = |row: &StabilityRow| row.trial.as_ref().map(|trial| trial.verdict);
         let grows = |row: &&StabilityRow| trial(row) != Some(Stability::Stable);
         let row = study.rows.iter().find(grows).or(study.rows.last()).ok_or("it has no runs")?;
-        let run = CaseRun { plan, case, context: self.context, words: &self.words };
+        let run = CaseRun { plan, case, context: self.context };
         show(run.shown(&[(&plan.swept, row.value)])?)
     }
 }
 
 /// The part of an outcome that is known before the case runs.
-fn described(run: &CaseRun<'_, '_>) -> CaseOutcome {
+fn described(run: &CaseRun<'_>) -> CaseOutcome {
     let case = run.case;
     // Where no face is held, nothing is to be said of walls.
     let walls = run.setup(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
@@ -110,7 +106,7 @@ fn described(run: &CaseRun<'_, '_>) -> CaseOutcome {
 }
 
 /// The outcome of a case, from its rows.
-fn outcome(run: &CaseRun<'_, '_>, rows: Vec<StabilityRow>) -> CaseOutcome {
+fn outcome(run: &CaseRun<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
     let CaseRun { plan, case, .. } = run;
     let unmet: Vec<String> = case
         .expected

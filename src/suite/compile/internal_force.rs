@@ -4,13 +4,12 @@
 //! One particle of the left cell is moved through the node, and the internal force on the node is
 //! taken from P2G of the solver itself.
 
-use super::evaluator::Evaluator;
-use super::expect::{because, cases};
-use super::path::Path;
+use super::expect::assign;
 use crate::mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, Vector, kernel};
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
 use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::ForceRow;
 
 /// Cells on either side of the node, all of them full. The axis is periodic: no wall, and no end of
@@ -70,13 +69,13 @@ fn cases(
         return Err(evaluator.diagnostic(&Path::top("methods"), &message));
     }
     let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
-    let owners = cases::assign(evaluator, &selectors, &names)?;
+    let owners = assign(evaluator, &selectors, &names)?;
     let case = |((basis, name), owner): ((BasisName, &str), Option<usize>)| {
         let (name, mut expected, mut because) = (name.to_owned(), None, String::new());
         if let Some(owner) = owner {
             let (path, spec) = (Path::top("expect").then(owner), &spec.expect[owner]);
             expected = Some(expectation(evaluator, &path, spec)?);
-            because = because::because(evaluator, &path, "an expectation", &spec.because)?;
+            because = evaluator.because(&path, "an expectation", &spec.because)?;
         }
         Ok(ForceCase { name, basis, expected, because })
     };

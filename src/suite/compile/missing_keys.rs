@@ -1,17 +1,13 @@
 //! Every key that must not be missing is shown with a value that may stand there.
 
-use super::scene::scene_words::SceneWords;
-use crate::suite::embedded;
+use crate::suite::grammar::SuiteSpec;
 use crate::suite::grammar::sample::SAMPLES;
-use crate::suite::grammar::{
-    ConvergenceSpec, Head, InternalForceSpec, StabilitySpec, StudyName, read,
-};
-use crate::suite::yaml;
 use crate::suite::yaml::{Diagnostic, Source};
+use crate::suite::{embedded, yaml};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 
-/// Words that no suite of the repository has.
+/// A suite with keys that no suite of the repository has.
 const MORE: &str = "
 suite: more
 title: More
@@ -26,14 +22,7 @@ expect: [{verdict: failed, because: none}]
 /// Whether a text has the keys that the grammar wants, and no others.
 fn grammatical(text: &Value) -> Result<(), Diagnostic> {
     let source = Source::from_text("suite.yaml", text.to_string())?;
-    let scene = match read::<Head>(&source, "")?.study {
-        StudyName::Convergence => read::<ConvergenceSpec>(&source, "convergence")?.scene,
-        StudyName::Stability => read::<StabilitySpec>(&source, "stability")?.scene,
-        StudyName::InternalForce => {
-            return read::<InternalForceSpec>(&source, "internal_force").map(drop);
-        }
-    };
-    SceneWords::read(&source, &scene).map(drop)
+    SuiteSpec::read(&source).map(drop)
 }
 
 /// Pointers to all maps, with their keys.

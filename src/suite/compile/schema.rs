@@ -1,11 +1,10 @@
 //! JSON Schema of a suite (draft 7, which editors know), made from the types that read it.
 
-use super::scene::scene_words::SceneOfFamilies;
 use crate::suite::grammar::{ConvergenceSpec, InternalForceSpec, StabilitySpec};
+use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{RecursiveTransform, Transform};
-use schemars::{JsonSchema, Schema};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 /// The schema of a suite, as indented JSON.
 pub fn suite_schema() -> String {
@@ -13,13 +12,7 @@ pub fn suite_schema() -> String {
     let convergence = all.subschema_for::<ConvergenceSpec>();
     let stability = all.subschema_for::<StabilitySpec>();
     let internal_force = all.subschema_for::<InternalForceSpec>();
-    let families = properties(SceneOfFamilies::json_schema(&mut all));
-    let mut definitions = all.take_definitions(true);
-    if let Some(Value::Object(scene)) =
-        definitions.get_mut("SceneSpec").and_then(|scene| scene.get_mut("properties"))
-    {
-        scene.extend(families);
-    }
+    let definitions = all.take_definitions(true);
     let of_study =
         |name: &str| json!({"required": ["study"], "properties": {"study": {"const": name}}});
     let mut schema = schemars::json_schema!({
@@ -37,13 +30,6 @@ pub fn suite_schema() -> String {
     RecursiveTransform(names_in_one_list).transform(&mut schema);
     // Names and texts only: there is nothing that JSON has no word for.
     serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
-}
-
-fn properties(schema: Schema) -> Map<String, Value> {
-    match schema.to_value().get_mut("properties") {
-        Some(Value::Object(properties)) => std::mem::take(properties),
-        _ => Map::new(),
-    }
 }
 
 /// Removes a description that speaks of items of the source, which authors of suites do not see.

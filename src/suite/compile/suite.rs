@@ -1,24 +1,21 @@
 //! From the specification to a suite: every number computed, every name resolved, the truth
 //! checked.
 
-use super::check::{fem_support, load_support, size, subject_support, sums};
-use super::evaluator::Evaluator;
-use super::expect::any_method::any_method;
-use super::expect::because::because;
-use super::path::Path;
-use super::run::{cases, refine, same_method, scatter, steps};
-use super::scene::scene_words::SceneWords;
-use super::scene::{rest, whole};
-use super::truth::{conservation_only, exact, reference};
-use super::{assemble, internal_force, observe, stability, suite_name};
+use super::check::{self, size, steps, sums};
+use super::expect::any_method;
+use super::run::{self, places, reference, refine};
+use super::truth::{self, conduction, conservation_only};
+use super::{internal_force, scene, stability};
+use crate::suite::evaluator::{DeclaredParameter, Evaluator};
 use crate::suite::grammar::{
-    AcknowledgeSpec, ConvergenceSpec, Head, InternalForceSpec, StabilitySpec, StudyName,
-    WarningName, read,
+    AcknowledgeSpec, ConvergenceSpec, InternalForceSpec, StabilitySpec, SuiteSpec, WarningName,
 };
-use crate::suite::model::external_method::AnyMethod;
 use crate::suite::model::fingerprint::fingerprint;
+use crate::suite::model::method::AnyMethod;
+use crate::suite::model::study_plan::StudyPlan;
 use crate::suite::model::{ConvergencePlan, Scene, Suite};
-use crate::suite::yaml::{Diagnostic, NumberText, Source};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path, Source};
+use std::sync::Arc;
 
 /// Instants at which the error is taken unless a suite says otherwise.
 const INSTANTS: u64 = 50;
@@ -29,10 +26,10 @@ impl Suite {
     /// # Errors
     /// A [`Diagnostic`] with the place of the first thing that is wrong.
     pub fn load(source: &Source) -> Result<Self, Diagnostic> {
-        let suite = match study_of(source)? {
-            StudyName::Convergence => convergence(source, read(source, "convergence")?),
-            StudyName::InternalForce => internal_force(source),
-            StudyName::Stability => stability(source),
+        let suite = match SuiteSpec::read(source)? {
+            SuiteSpec::Convergence(spec) => convergence(source, spec),
+            SuiteSpec::InternalForce(spec) => internal_force(source, spec),
+            SuiteSpec::Stability(spec) => stability(source, spec),
         };
         let fingerprint = fingerprint(source.text().as_bytes());
         Ok(Self { group: source.group(), fingerprint, ..suite? })
@@ -44,15 +41,10 @@ impl Suite {
     /// # Errors
     /// A [`Diagnostic`] with the place of the first thing that is wrong.
     pub fn scene(source: &Source) -> Result<Scene, Diagnostic> {
-        let spec: ConvergenceSpec = read(source, "convergence")?;
+        let spec = ConvergenceSpec::read(source)?;
         let (evaluator, _) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-        whole::scene(&evaluator, &SceneWords::read(source, &spec.scene)?)
+        scene::scene(&evaluator, &spec.scene)
     }
-}
-
-/// The kind of study, which decides what other keys are known.
-fn study_of(source: &Source) -> Result<StudyName, Diagnostic> {
-    read::<Head>(source, "").map(|head| head.study)
 }
 
 /// The convergence study that `source` holds, with `factor` times its amplitude: of the exact
@@ -72,7 +64,7 @@ pub(crate) fn with_changes(
     source: &Source,
     change: impl FnOnce(&mut ConvergenceSpec),
 ) -> Result<Suite, Diagnostic> {
-    let mut spec: ConvergenceSpec = read(source, "convergence")?;
+    let mut spec = ConvergenceSpec::read(source)?;
     spec.expect.clear();
     change(&mut spec);
     convergence(source, spec)
@@ -94,39 +86,38 @@ fn scale_amplitude(spec: &mut ConvergenceSpec, factor: f64) {
 }
 
 fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {
-    let words = SceneWords::read(source, &spec.scene)?;
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    suite_name::refuse_unusable_name(&evaluator, &spec.suite)?;
-    let scene = whole::scene(&evaluator, &words)?;
-    fem_support::refuse_conditions_unknown_to_fem(&evaluator, &spec, &scene)?;
+    refuse_unusable_name(&evaluator, &spec.suite)?;
+    let scene = scene::scene(&evaluator, &spec.scene)?;
+    check::refuse_conditions_unknown_to_fem(&evaluator, &spec, &scene)?;
     let (refine, places) = refine::plan(&evaluator, &spec, &scene)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
         evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
     })?;
-    let until = cases::until(&evaluator, &spec.run.until)?;
+    let until = run::until(&evaluator, &spec.run.until)?;
     let latest = until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
-    let conduction = rest::conduction(&evaluator, &spec, &scene, latest)?;
+    let conduction = conduction::conduction(&evaluator, &spec, &scene, latest)?;
     let exact = match &conduction {
         Some(_) => None,
-        None => exact::exact(&evaluator, &spec, &scene, latest)?,
+        None => truth::exact(&evaluator, &spec, &scene, latest)?,
     };
     let dimension = scene.dimension();
     let reference =
         spec.reference.as_ref().map(|spec| reference::reference(&evaluator, spec, dimension));
     let reference = reference.transpose()?.flatten();
     let same_method =
-        same_method::same_method(&evaluator, &spec, (&scene, &refine), &until, instants)?;
-    fem_support::refuse_law_unknown_to_fem(&evaluator, &spec, &scene)?;
-    load_support::refuse_foreign(&evaluator, &spec, &words.loads, &scene, latest)?;
+        reference::same_method(&evaluator, &spec, (&scene, &refine), &until, instants)?;
+    check::refuse_law_unknown_to_fem(&evaluator, &spec, &scene)?;
+    check::refuse_foreign(&evaluator, &spec, &scene, latest)?;
     let computed = reference.is_some() || conservation_only::is_truth(same_method);
     if exact.is_none() && conduction.is_none() && !computed {
         conservation_only::refuse_need_of_truth(&evaluator, &spec)?;
     }
-    let observe = spec.observe.as_ref().map(|spec| observe::observed(&evaluator, spec, &scene));
+    let observe = spec.observe.as_ref().map(|spec| places::observed(&evaluator, spec, &scene));
     let scale = spec.judge.scale.as_ref().map(|text| {
         evaluator.positive(&Path::top("judge").then("scale"), text, "the scale of the error")
     });
-    let scatter = scatter::scatter(&evaluator, &spec, &scene)?;
+    let scatter = places::scatter(&evaluator, &spec, &scene)?;
     let mut plan = ConvergencePlan {
         observe: observe.transpose()?,
         scene,
@@ -146,18 +137,18 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
         cases: Vec::new(),
         acknowledged: acknowledged(&evaluator, &spec.acknowledge)?,
     };
-    subject_support::refuse_quantity_unknown_to_fem(&evaluator, &spec, &plan)?;
+    check::refuse_quantity_unknown_to_fem(&evaluator, &spec, &plan)?;
     plan.sum = sums::judged(&evaluator, &spec, &plan)?;
     plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
     size::refuse_unfit_levels(&evaluator, &spec, &plan, &places)?;
     if let Some(spec) = &spec.any_method {
         plan.any_method = any_method(&evaluator, spec, &plan)?;
     }
-    plan.cases = cases::cases(&evaluator, &spec, &plan, &until)?;
+    plan.cases = run::cases(&evaluator, &spec, &plan, &until)?;
     steps::refuse_unusable(&evaluator, &plan, &places)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble::assemble(head, parameters, &spec.functions, plan))
+    Ok(assemble(head, parameters, &spec.functions, plan))
 }
 
 /// The warnings that a suite acknowledges. Each needs its reason, and appears once.
@@ -168,7 +159,7 @@ fn acknowledged(
     let mut names = Vec::new();
     for (i, spec) in specs.iter().enumerate() {
         let path = Path::top("acknowledge").then(i);
-        because(evaluator, &path, "an acknowledged warning", &spec.because)?;
+        evaluator.because(&path, "an acknowledged warning", &spec.because)?;
         if names.contains(&spec.warning) {
             let message = format!("`{}` is acknowledged twice", spec.warning.name());
             return Err(evaluator.diagnostic(&path.then("warning"), &message));
@@ -178,22 +169,42 @@ fn acknowledged(
     Ok(names)
 }
 
-fn internal_force(source: &Source) -> Result<Suite, Diagnostic> {
-    let spec: InternalForceSpec = read(source, "internal_force")?;
+fn internal_force(source: &Source, spec: InternalForceSpec) -> Result<Suite, Diagnostic> {
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    suite_name::refuse_unusable_name(&evaluator, &spec.suite)?;
+    refuse_unusable_name(&evaluator, &spec.suite)?;
     let plan = internal_force::plan(&evaluator, &spec)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble::assemble(head, parameters, &spec.functions, plan))
+    Ok(assemble(head, parameters, &spec.functions, plan))
 }
 
-fn stability(source: &Source) -> Result<Suite, Diagnostic> {
-    let spec: StabilitySpec = read(source, "stability")?;
+fn stability(source: &Source, spec: StabilitySpec) -> Result<Suite, Diagnostic> {
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    suite_name::refuse_unusable_name(&evaluator, &spec.suite)?;
+    refuse_unusable_name(&evaluator, &spec.suite)?;
     let plan = stability::plan(&evaluator, source, &spec)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble::assemble(head, parameters, &spec.functions, plan))
+    Ok(assemble(head, parameters, &spec.functions, plan))
+}
+
+/// A suite with this name, title, source and text about it.
+fn assemble(
+    [name, title, source, about]: [String; 4],
+    parameters: Vec<DeclaredParameter>,
+    functions: &Ordered<String>,
+    plan: impl StudyPlan,
+) -> Suite {
+    let (functions, study) = (functions.as_slice().to_vec(), Arc::new(plan));
+    let group = String::new();
+    Suite { name, group, title, source, about, parameters, functions, study, fingerprint: 0 }
+}
+
+/// A name becomes part of test and file names.
+fn refuse_unusable_name(evaluator: &Evaluator<'_>, name: &str) -> Result<(), Diagnostic> {
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    if !name.is_empty() && name.len() <= 64 && name.chars().all(plain) {
+        return Ok(());
+    }
+    let diagnostic = evaluator.diagnostic(&Path::top("suite"), "this is not a name for a suite");
+    Err(diagnostic.with_label("expected lower-case letters, digits and hyphens, at most 64"))
 }

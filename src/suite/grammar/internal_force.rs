@@ -1,7 +1,6 @@
 //! Keys of an internal-force study.
 
-use super::ParameterSpec;
-use super::StudyName;
+use super::{ParameterSpec, StudyName};
 use crate::mpm::BasisName;
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
 use serde::Deserialize;

@@ -1,11 +1,16 @@
-//! Keys of a method.
+//! Keys of a method: its parts, its transfer and the length of its steps.
 
 use super::EquationName;
 use crate::fem::{Element, Mass, Sampling};
-use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice};
+use crate::mpm::{
+    BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, WithParameter,
+};
 use crate::subject::{Precision, Start};
-use crate::suite::yaml::{NumberText, OneOrMany};
+use crate::suite::yaml::{InPlaceOfNumber, NumberOr, NumberText, OneOrMany, refuse};
 use serde::Deserialize;
+use serde::de::value::StrDeserializer;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
+use std::fmt;
 
 /// One method, or several: the lists in it multiply to cases.
 #[derive(Debug, Clone, Deserialize)]
@@ -54,4 +59,104 @@ pub(crate) enum MethodSpec {
         /// Precision of its numbers.
         precision: Option<Precision>,
     },
+}
+
+impl<'de> Deserialize<'de> for TransferChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NameOrParameter)
+    }
+}
+
+#[cfg(feature = "schemas")]
+impl schemars::JsonSchema for TransferChoice {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "TransferChoice".into()
+    }
+
+    fn json_schema(all: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let series = WithParameter::ALL.iter().map(|name| {
+            let (least, most) = name.parameter().range;
+            let terms = schemars::json_schema!({
+                "type": "integer", "minimum": least, "maximum": most,
+                "description": "Number of terms."
+            });
+            schemars::json_schema!({
+                "type": "object", "properties": {name.name(): terms},
+                "required": [name.name()], "additionalProperties": false
+            })
+        });
+        let name = all.subschema_for::<TransferName>();
+        schemars::json_schema!({"anyOf": std::iter::once(name).chain(series).collect::<Vec<_>>()})
+    }
+}
+
+struct NameOrParameter;
+
+impl<'de> Visitor<'de> for NameOrParameter {
+    type Value = TransferChoice;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the name of a transfer, or a series with its number of terms")
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<TransferChoice, E> {
+        TransferName::deserialize(StrDeserializer::new(name)).map(TransferChoice::Named)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<TransferChoice, A::Error> {
+        let Some(name) = map.next_key::<WithParameter>()? else {
+            return Err(A::Error::invalid_length(0, &self));
+        };
+        let (value, parameter) = (map.next_value::<u32>()?, name.parameter());
+        let ((least, most), (before, after)) = (parameter.range, parameter.words);
+        if !(least..=most).contains(&value) {
+            let message = format!("{before} {value} {after}");
+            let label = format!("expected a whole number from {least} to {most}");
+            return Err(refuse(&message, &label, ""));
+        }
+        if map.next_key::<WithParameter>()?.is_some() {
+            return Err(A::Error::invalid_length(2, &self));
+        }
+        Ok(TransferChoice::With(name, value))
+    }
+}
+
+/// Length of a step.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(from = "NumberOr<Rule>")]
+pub(crate) enum StepSpec {
+    /// A number (s), or a formula.
+    Length(NumberText),
+    /// The share of the stable time step.
+    Courant(NumberText),
+    /// A share that leaves room for what happens on the way.
+    Auto,
+}
+
+/// `{courant: 0.5}`.
+#[derive(Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+struct Rule {
+    /// Share of the stable time step.
+    courant: NumberText,
+}
+
+impl InPlaceOfNumber for Rule {
+    const EXPECTED: &'static str = "a time step, `auto`, or `{courant: ...}`";
+}
+
+impl From<NumberOr<Rule>> for StepSpec {
+    fn from(step: NumberOr<Rule>) -> Self {
+        match step {
+            NumberOr::Number(NumberText::Formula(text)) if text == "auto" => Self::Auto,
+            NumberOr::Number(length) => Self::Length(length),
+            NumberOr::Map(rule) => Self::Courant(rule.courant),
+        }
+    }
 }

@@ -3,217 +3,68 @@
 //! Every map refuses keys that it does not know. A number may be a formula of declared parameters;
 //! a method's entries may be lists, whose product gives the cases.
 
-pub(crate) mod acknowledge;
-pub(crate) mod drift;
+pub(crate) mod convergence;
 pub(crate) mod expect;
-pub(crate) mod head;
 pub(crate) mod internal_force;
 pub(crate) mod method;
-pub(crate) mod parameter;
-pub(crate) mod refine;
 pub(crate) mod sample;
 pub(crate) mod scene;
 pub(crate) mod stability;
-pub(crate) mod step;
-pub(crate) mod transfer;
 pub(crate) mod truth;
 
-pub(crate) use acknowledge::AcknowledgeSpec;
-pub use acknowledge::WarningName;
-pub(crate) use drift::DriftSpec;
-pub(crate) use expect::{AnyMethodSpec, CrossingsName, ExpectSpec};
-pub(crate) use head::{Head, StudyName};
+pub(crate) use super::evaluator::ParameterSpec;
+pub(crate) use convergence::{
+    ConvergenceSpec, ObserveSpec, ReferenceSpec, RefineSpec, ScatterSpec,
+};
+pub use convergence::{CrossingLevels, NormName};
+pub use expect::WarningName;
+pub(crate) use expect::{AcknowledgeSpec, AnyMethodSpec, CrossingsName, DriftSpec, ExpectSpec};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
-pub(crate) use method::MethodSpec;
-pub(crate) use parameter::{ParameterSpec, TableSpec};
-pub(crate) use refine::{RefineSpec, RunSpec, ScatterSpec};
-pub(crate) use sample::read;
+pub(crate) use method::{MethodSpec, StepSpec};
 pub(crate) use scene::{
     AnnulusSpec, BodySpec, BoxSpec, OneBodySpec, QuadrilateralSpec, RoundSpec, SceneSpec, SetSpec,
     StressSpec,
 };
 pub(crate) use stability::{FigureSpec, StabilityExpectSpec, StabilitySpec};
-pub(crate) use step::StepSpec;
 pub use truth::EquationName;
 pub(crate) use truth::{ExactSpec, LinearisedSpec, ManufacturedSpec};
 
-use super::yaml::{NumberText, Ordered};
-use crate::fem::{Element, Mass};
-use crate::named::named;
-use crate::verify::Quantity;
 use serde::Deserialize;
 
-/// A convergence study.
+/// A suite, by its kind of study.
+#[derive(Debug, Clone)]
+pub(crate) enum SuiteSpec {
+    /// Errors over a refinement plan.
+    Convergence(ConvergenceSpec),
+    /// Internal force on a node while a particle moves through it.
+    InternalForce(InternalForceSpec),
+    /// Whether runs stay bounded, and up to which value of a parameter.
+    Stability(StabilitySpec),
+}
+
+/// Keys that every suite has, whatever it studies.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ConvergenceSpec {
-    /// Name of the suite: lower-case letters, digits and hyphens.
-    pub(crate) suite: String,
-    /// Kind of study; `convergence` unless stated.
-    #[serde(rename = "study")]
-    pub(crate) _study: Option<StudyName>,
-    /// Headline of the report.
-    pub(crate) title: String,
-    /// Where the problem comes from.
-    pub(crate) source: String,
-    /// Remarks for a reader of the report.
-    #[serde(default)]
-    pub(crate) about: String,
-    /// Numbers, formulas of the parameters above them, or tables; each must be used.
-    #[serde(default)]
-    pub(crate) parameters: Ordered<ParameterSpec>,
-    /// Functions for formulas that need something more than once: `s(tau): "..."`.
-    #[serde(default)]
-    pub(crate) functions: Ordered<String>,
-    /// The body, what holds it and what acts on it.
-    pub(crate) scene: SceneSpec,
-    /// The solution as formulas, checked before any solver runs.
-    pub(crate) exact: Option<ExactSpec>,
-    /// A motion whose body force follows by differentiation.
-    pub(crate) manufactured: Option<ManufacturedSpec>,
-    /// The state in which the body comes to rest, as formulas of the coordinates.
-    pub(crate) equilibrium: Option<ExactSpec>,
-    /// A fine computation, where no formula is known.
-    pub(crate) reference: Option<ReferenceSpec>,
-    /// End, time step and instants of a run.
-    pub(crate) run: RunSpec,
-    /// Levels: what is a list is refined, from coarse to fine.
-    pub(crate) refine: RefineSpec,
-    /// Places of particles beside the lattice.
-    pub(crate) particles: Option<ScatterSpec>,
-    /// Methods that are judged; lists in an entry multiply to cases.
-    pub(crate) methods: Vec<MethodSpec>,
-    /// The error that is judged.
-    #[serde(default)]
-    pub(crate) judge: JudgeSpec,
-    /// A place for Richardson's extrapolation and the velocity history.
-    pub(crate) observe: Option<ObserveSpec>,
-    /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
-    #[serde(default)]
-    pub(crate) expect: Vec<ExpectSpec>,
-    /// Warnings of `check` that the suite intends, each with its reason.
-    #[serde(default)]
-    pub(crate) acknowledge: Vec<AcknowledgeSpec>,
-    /// Accuracy that any method can reach, for the gate of external solvers.
-    pub(crate) any_method: Option<AnyMethodSpec>,
+pub(crate) struct Head {
+    #[serde(default = "StudyName::default_study")]
+    pub(crate) study: StudyName,
 }
 
-impl ConvergenceSpec {
-    /// Number of the first entry of `methods` that is an FEM.
-    pub(crate) fn fem_method(&self) -> Option<usize> {
-        self.methods.iter().position(|method| matches!(method, MethodSpec::Fem { .. }))
-    }
-
-    /// Whether a fine FEM computation is asked for.
-    pub(crate) fn has_fem_reference(&self) -> bool {
-        self.reference.as_ref().is_some_and(|reference| reference.fem.is_some())
-    }
-}
-
-#[derive(Debug, Clone, Deserialize)]
+/// Kinds of study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ReferenceSpec {
-    /// The equation that the fine computation solves.
-    pub(crate) equation: Option<EquationName>,
-    /// A fine FEM computation.
-    pub(crate) fem: Option<ReferenceFemSpec>,
-    /// The same method with much shorter steps, or on a much finer grid.
-    pub(crate) same_method: Option<SameMethodSpec>,
+#[serde(rename_all = "snake_case")]
+pub(crate) enum StudyName {
+    /// Errors over a refinement plan.
+    Convergence,
+    /// Internal force on a node while a particle moves through it.
+    InternalForce,
+    /// Whether runs stay bounded, and up to which value of a parameter.
+    Stability,
 }
 
-/// The same method with shorter steps, or on a fine grid.
-#[derive(Debug, Clone, Deserialize)]
-#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SameMethodSpec {
-    /// Time step (s), at most 1/8 of the finest.
-    pub(crate) dt: Option<NumberText>,
-    /// Cells along the first axis, at least 4 times those of the finest level.
-    pub(crate) cells: Option<NumberText>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ReferenceFemSpec {
-    /// Element.
-    pub(crate) element: Element,
-    /// Mass matrix.
-    pub(crate) mass: Mass,
-    /// Number of elements.
-    pub(crate) cells: NumberText,
-    /// Time step (s).
-    pub(crate) dt: NumberText,
-}
-
-#[derive(Debug, Clone, Default, Deserialize)]
-#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct JudgeSpec {
-    /// The judged quantity.
-    #[serde(default)]
-    pub(crate) of: Quantity,
-    /// Norm of the error.
-    #[serde(default)]
-    pub(crate) norm: NormName,
-    /// Face whose reaction is judged; absent: all walls together.
-    pub(crate) face: Option<String>,
-    /// Divisor of the error before it is judged.
-    pub(crate) scale: Option<NumberText>,
-    /// Whether levels on which particles change their cell count.
-    #[serde(default)]
-    pub(crate) crossing_levels: CrossingLevels,
-}
-
-named! {
-    /// The error that is judged.
-    #[derive(Default)]
-    pub enum NormName {
-        /// RMS over labels at the end: the measure of the talk.
-        #[default]
-        Rms = "rms",
-        /// Mean, weighted by volume, at the end.
-        L1 = "l1",
-        /// RMS, weighted by volume, at the end.
-        L2 = "l2",
-        /// Largest at the end.
-        Linf = "linf",
-        /// Largest RMS over the instants.
-        MaxRms = "max_rms",
-        /// Largest L1 over the instants.
-        MaxL1 = "max_l1",
-        /// Largest L2 over the instants.
-        MaxL2 = "max_l2",
-        /// Largest over labels and instants.
-        MaxLinf = "max_linf",
+impl StudyName {
+    pub(super) fn default_study() -> Self {
+        Self::Convergence
     }
-}
-
-impl NormName {
-    /// Whether it is the largest over the instants of another norm.
-    pub(crate) fn is_over_instants(self) -> bool {
-        matches!(self, Self::MaxRms | Self::MaxL1 | Self::MaxL2 | Self::MaxLinf)
-    }
-}
-
-named! {
-    /// Whether levels on which particles changed their cell may count.
-    #[derive(Default)]
-    pub enum CrossingLevels {
-        /// They count like others.
-        #[default]
-        Counted = "counted",
-        /// They are shown and do not count.
-        Excluded = "excluded",
-    }
-}
-
-#[derive(Debug, Clone, Deserialize)]
-#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ObserveSpec {
-    /// Reference position (m).
-    pub(crate) at: Vec<NumberText>,
 }

@@ -1,9 +1,12 @@
 //! Values that may stand under the keys that must not be missing, for messages that can be pasted.
 
-use crate::suite::yaml::{Diagnostic, Source, read_with};
+use super::{ConvergenceSpec, Head, StudyName, SuiteSpec};
+use crate::suite::yaml::{CheckedShape, Diagnostic, Source, TopValue};
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::de::value::{Error, StrDeserializer};
 
-/// A key, or a key of an owner where the same word has another value elsewhere, and a sample.
+/// A key, or a key of an owner where the same key has another value elsewhere, and a sample.
 pub(crate) const SAMPLES: &[(&str, &str)] = &[
     // Every study.
     ("suite", "my-suite"),
@@ -88,12 +91,46 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("prediction", "n_left - n_right"),
 ];
 
-/// Reads a suite of a kind of `study` into a type; what is missing is shown with a sample.
-///
-/// # Errors
-/// The first mistake in the file, with its place.
-pub(crate) fn read<T: DeserializeOwned>(source: &Source, study: &str) -> Result<T, Diagnostic> {
-    read_with(source, &|owner, key| sample(if owner.is_empty() { study } else { owner }, key))
+impl SuiteSpec {
+    /// Reads the keys of a suite. The error of a missing key shows a sample of its value.
+    ///
+    /// # Errors
+    /// The first mistake in the file, with its place.
+    pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
+        let checked = CheckedShape::new(source, "study")?;
+        match StudyName::of_checked(&checked)? {
+            StudyName::Convergence => read(&checked, "convergence").map(Self::Convergence),
+            StudyName::InternalForce => read(&checked, "internal_force").map(Self::InternalForce),
+            StudyName::Stability => read(&checked, "stability").map(Self::Stability),
+        }
+    }
+}
+
+impl ConvergenceSpec {
+    /// Reads the keys of a convergence study.
+    ///
+    /// # Errors
+    /// The first mistake in the file, with its place.
+    pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
+        read(&CheckedShape::new(source, "study")?, "convergence")
+    }
+}
+
+impl StudyName {
+    /// The kind of study of a suite.
+    fn of_checked(checked: &CheckedShape<'_>) -> Result<Self, Diagnostic> {
+        let known = match checked.top() {
+            TopValue::Absent => Some(Self::default_study()),
+            TopValue::Text(name) => Self::deserialize(StrDeserializer::<Error>::new(name)).ok(),
+            TopValue::Other => None,
+        };
+        known.map_or_else(|| read::<Head>(checked, "").map(|head| head.study), Ok)
+    }
+}
+
+/// Reads a suite of a kind of `study` into a type.
+fn read<T: DeserializeOwned>(checked: &CheckedShape<'_>, study: &str) -> Result<T, Diagnostic> {
+    checked.read(&|owner, key| sample(if owner.is_empty() { study } else { owner }, key))
 }
 
 /// The sample of a key of `owner`.

@@ -2,9 +2,12 @@
 
 use crate::mpm::MaterialSpec;
 use crate::subject::PlaneState;
+use crate::suite::scene::boundary::BoundarySpec;
+#[cfg(feature = "schemas")]
+use crate::suite::scene::face::by_face;
+use crate::suite::scene::load::LoadSpec;
 use crate::suite::yaml::{NumberText, Ordered};
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
@@ -24,10 +27,10 @@ pub(crate) struct SceneSpec {
     pub(crate) grid: Option<BoxSpec>,
     /// The material.
     pub(crate) material: Option<MaterialSpec<NumberText>>,
-    /// The words of boundary conditions stand in their files, and are read there.
-    #[serde(rename = "boundary")]
-    #[cfg_attr(feature = "schemas", schemars(skip))]
-    pub(crate) _boundary: Option<IgnoredAny>,
+    /// Conditions on faces; one that is not named is free.
+    #[serde(default)]
+    #[cfg_attr(feature = "schemas", schemars(schema_with = "by_face::<BoundarySpec>"))]
+    pub(crate) boundary: Ordered<BoundarySpec>,
     /// Residual or geostatic stress of the reference body.
     pub(crate) initial_stress: Option<StressSpec>,
     /// Displacement at the start (m), formulas of the coordinates.
@@ -37,10 +40,9 @@ pub(crate) struct SceneSpec {
     /// Names for the particles in a part of the reference body.
     #[serde(default)]
     pub(crate) sets: Ordered<SetSpec>,
-    /// As those of loads.
-    #[serde(rename = "loads")]
-    #[cfg_attr(feature = "schemas", schemars(skip))]
-    pub(crate) _loads: Option<IgnoredAny>,
+    /// Loads and effects.
+    #[serde(default)]
+    pub(crate) loads: Vec<LoadSpec>,
 }
 
 /// One of several bodies.

@@ -1,7 +1,6 @@
 //! Keys of a stability study.
 
-use super::ParameterSpec;
-use super::{MethodSpec, SceneSpec, StepSpec, StudyName};
+use super::{MethodSpec, ParameterSpec, SceneSpec, StepSpec, StudyName};
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
 use crate::verify::Stability;
 use serde::Deserialize;

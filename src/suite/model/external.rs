@@ -1,7 +1,6 @@
 //! Suites with an external solver in place of their methods.
 
-use super::external_method::{ExternalMethod, GateTerms};
-use super::method::Method;
+use super::method::{ExternalMethod, GateTerms, Method};
 use super::{Against, Case, ConvergencePlan, Suite};
 use crate::verify::{Axis, Expectation, Gating, Quantity, Requirement, format_number};
 use std::sync::Arc;

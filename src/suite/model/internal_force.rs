@@ -1,4 +1,4 @@
-//! An internal-force study whose every word has been checked.
+//! An internal-force study whose keys have all been checked.
 
 use super::study_plan::{StudyPlan, kept};
 use crate::exact::formula::Formula;

@@ -1,34 +1,23 @@
-//! A suite whose every word has been checked and every number computed.
+//! A suite whose keys have all been checked and whose numbers have all been computed.
 
-pub(crate) mod boundary;
 pub(crate) mod external;
-pub(crate) mod external_method;
-#[cfg(feature = "schemas")]
-pub(crate) mod face_schema;
 pub(crate) mod fingerprint;
-pub(crate) mod grid_size;
-pub(crate) mod heat;
 pub(crate) mod internal_force;
-pub(crate) mod lattice;
-pub(crate) mod load;
 pub(crate) mod method;
-pub(crate) mod numbers;
 pub(crate) mod refine_plan;
-pub(crate) mod same_method;
-pub(crate) mod scene;
 pub(crate) mod stability;
 pub(crate) mod study_plan;
 
+pub(crate) use super::scene::{Scene, SceneFace, boundary, grid_size, lattice, load, numbers};
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
-pub use same_method::SameMethod;
-pub use scene::{Scene, SceneFace};
+pub(crate) use method as external_method;
+pub use refine_plan::SameMethod;
 
-use self::external_method::{AnyMethod, ExternalMethod, GateTerms};
-use self::lattice::LatticeOffsets;
-use self::method::Method;
+use self::method::{AnyMethod, ExternalMethod, GateTerms, Method};
 use self::refine_plan::{LevelPlan, RefinePlan};
 use self::study_plan::{StudyPlan, kept};
 use super::grammar::{CrossingLevels, EquationName, NormName, WarningName};
+use super::scene::lattice::LatticeOffsets;
 use crate::exact::Problem;
 use crate::exact::formula::Formula;
 use crate::exact::heat::Conduction;

@@ -1,10 +1,9 @@
-//! A stability study whose every word has been checked.
+//! A stability study whose keys have all been checked.
 
-use super::external_method::{ExternalMethod, GateTerms};
-use super::lattice::LatticeOffsets;
-use super::method::Method;
+use super::method::{ExternalMethod, GateTerms, Method};
 use super::study_plan::{StudyPlan, kept};
 use crate::suite::grammar::StabilitySpec;
+use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::yaml::Source;
 use crate::verify::{Gating, RunFigure, StabilityExpectation};
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! Plan of a study, of any kind.
 
-use super::external_method::{ExternalMethod, GateTerms};
+use super::method::{ExternalMethod, GateTerms};
 use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;

@@ -26,38 +26,33 @@
 //! ```
 
 pub(crate) mod diagnostic;
-pub(crate) mod exchange;
 pub(crate) mod locate;
-pub(crate) mod number_or;
-pub(crate) mod number_text;
+pub(crate) mod number;
 pub(crate) mod one_or_many;
 pub(crate) mod ordered;
 pub(crate) mod phrase;
 pub(crate) mod place;
 pub(crate) mod read;
-pub(crate) mod refusal;
-pub(crate) mod scalar;
 pub(crate) mod scalars;
 pub(crate) mod scan;
 pub(crate) mod shape;
 pub(crate) mod source;
-pub(crate) mod translate;
-pub(crate) mod unwanted;
 
 #[cfg(test)]
 mod tests;
 
 pub use diagnostic::{Diagnostic, Severity};
-pub(crate) use exchange::{read_again, written};
+pub(crate) use locate::Path;
 pub use locate::Step;
-pub(crate) use number_or::{InPlaceOfNumber, NumberOr};
-pub use number_text::NumberText;
+pub use number::NumberText;
+pub(crate) use number::{InPlaceOfNumber, NumberOr};
 pub use one_or_many::OneOrMany;
 pub use ordered::Ordered;
 pub use place::Place;
 pub use read::read;
-pub(crate) use read::read_with;
-pub use refusal::refuse;
+pub(crate) use read::{CheckedShape, read_again, written};
+pub(crate) use shape::TopValue;
+pub use shape::refuse;
 pub use source::{MAX_BYTES, Source};
 
 /// The most entries that one list or one map may have.

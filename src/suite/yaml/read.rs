@@ -1,7 +1,11 @@
-//! From a checked text to a typed value.
+//! From a checked text to a typed value, with errors of the YAML library in terms of a suite; and
+//! back for text that the program writes for itself.
 
-use super::translate::SampleOf;
-use super::{Diagnostic, Source, shape, translate};
+use super::phrase::{expected, found, listed, syntax};
+use super::shape::{TopValue, refused};
+use super::{Diagnostic, Source, shape};
+use crate::nearest::nearest;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 /// Reads a file into a type.
@@ -14,16 +18,217 @@ use serde::de::DeserializeOwned;
 /// # Errors
 /// The first mistake in the file, with its place.
 pub fn read<T: DeserializeOwned>(source: &Source) -> Result<T, Diagnostic> {
-    read_with(source, &|_, _| None)
+    CheckedShape::new(source, "")?.read(&|_, _| None)
 }
 
-/// The same, with a sample value for a missing key where one is known.
-pub(crate) fn read_with<T: DeserializeOwned>(
-    source: &Source,
-    sample: &SampleOf<'_>,
-) -> Result<T, Diagnostic> {
-    let parser = serde_yaml::Deserializer::from_str(source.text());
-    shape::check(source)
-        .and_then(|()| serde_yaml::with::singleton_map_recursive::deserialize(parser))
-        .map_err(|error| translate::diagnostic(source, &error, sample))
+/// A file whose shape has been checked, ready to be read into a type.
+pub(crate) struct CheckedShape<'s> {
+    source: &'s Source,
+    top: TopValue,
+}
+
+impl<'s> CheckedShape<'s> {
+    /// Checks the shape of `source`, and keeps the value of its key `key`, by which the type may be
+    /// chosen.
+    ///
+    /// # Errors
+    /// The first mistake of shape, with its place.
+    pub(crate) fn new(source: &'s Source, key: &str) -> Result<Self, Diagnostic> {
+        let top = shape::check(source, key);
+        let top = top.map_err(|error| diagnostic(source, &error, &|_, _| None))?;
+        Ok(Self { source, top })
+    }
+
+    /// The value of the key that is kept.
+    pub(crate) fn top(&self) -> &TopValue {
+        &self.top
+    }
+
+    /// Reads the file into a type, with a sample value for a missing key where one is known.
+    ///
+    /// # Errors
+    /// The first mistake in the file, with its place.
+    pub(crate) fn read<T: DeserializeOwned>(&self, sample: &SampleOf<'_>) -> Result<T, Diagnostic> {
+        let parser = serde_yaml::Deserializer::from_str(self.source.text());
+        serde_yaml::with::singleton_map_recursive::deserialize(parser)
+            .map_err(|error| diagnostic(self.source, &error, sample))
+    }
+}
+
+/// The text of a value.
+///
+/// # Errors
+/// The message of the library on a value that it cannot write.
+pub(crate) fn written<T: Serialize>(value: &T) -> Result<String, String> {
+    serde_yaml::to_string(value).map_err(|error| error.to_string())
+}
+
+/// The value of a text, if it is one.
+pub(crate) fn read_again<T: DeserializeOwned>(text: &str) -> Option<T> {
+    serde_yaml::from_str(text).ok()
+}
+
+/// A value that may stand in a map: from the owner of the map (empty for the whole file) and the
+/// key.
+pub(crate) type SampleOf<'a> = dyn Fn(&str, &str) -> Option<&'static str> + 'a;
+
+/// Turns an error of the library into a complaint at the same place.
+fn diagnostic(source: &Source, error: &serde_yaml::Error, sample: &SampleOf<'_>) -> Diagnostic {
+    let text = error.to_string();
+    let offset = error.location().map_or(source.text().len(), |location| location.index());
+    let fault = Fault { source, offset };
+    if let Some([message, label, help]) = refused(&text) {
+        return fault.at_token(message).with_label(label).with_help(help);
+    }
+    if let Some((message, help)) = syntax(&text) {
+        return fault.at_token(message).with_help(help);
+    }
+    let position = error
+        .location()
+        .map(|location| format!(" at line {} column {}", location.line(), location.column()));
+    let text = position.and_then(|position| text.strip_suffix(&position)).unwrap_or(&text);
+    let (path, problem) = split_path(text);
+    fault
+        .unknown(problem)
+        .or_else(|| fault.missing(path, problem, sample))
+        .or_else(|| fault.wrong_type(problem))
+        .or_else(|| fault.wrong_length(problem))
+        .unwrap_or_else(|| fault.at_token(problem))
+}
+
+/// Prefix of a problem by the library, `scene.material: `, and the problem.
+fn split_path(text: &str) -> (&str, &str) {
+    const OPENINGS: [&str; 7] = [
+        "unknown field `",
+        "unknown variant `",
+        "missing field `",
+        "duplicate field `",
+        "invalid type: ",
+        "invalid value: ",
+        "invalid length ",
+    ];
+    let start = OPENINGS.iter().filter_map(|opening| text.find(opening)).min().unwrap_or(0);
+    (text[..start].trim_end_matches(": "), &text[start..])
+}
+
+#[derive(Clone, Copy)]
+struct Fault<'a> {
+    source: &'a Source,
+    offset: usize,
+}
+
+impl<'a> Fault<'a> {
+    fn at_token(self, message: &str) -> Diagnostic {
+        let range = self.source.token_at(self.offset);
+        Diagnostic::at(self.source.name(), self.source.text(), range, message)
+    }
+
+    /// The same at the first name after a bracket.
+    fn at_first_name(self) -> (Self, &'a str) {
+        let scalar = self.source.scalar_from(self.offset);
+        let offset = scalar.map_or(self.offset, |scalar| scalar.range.start);
+        let name = scalar.and_then(|scalar| {
+            let inside =
+                scalar.verbatim(self.source.text()).unwrap_or_else(|| scalar.range.clone());
+            self.source.text().get(inside)
+        });
+        (Self { offset, ..self }, name.unwrap_or("this"))
+    }
+
+    fn unknown(self, problem: &str) -> Option<Diagnostic> {
+        let (kind, rest) = match problem.strip_prefix("unknown field `") {
+            Some(rest) => ("key", rest),
+            None => ("name", problem.strip_prefix("unknown variant `")?),
+        };
+        // The name is the author's, and may hold anything; what is expected is ours.
+        let (name, valid) =
+            rest.rsplit_once("`, expected ").or_else(|| rest.rsplit_once("`, there are no "))?;
+        let valid: Vec<&str> = valid.split('`').skip(1).step_by(2).collect();
+        let help = match nearest(name, valid.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if valid.is_empty() => format!("no {kind} is possible here"),
+            None => format!("possible {kind}s: {}", listed(&valid)),
+        };
+        Some(
+            self.at_token(&format!("unknown {kind} `{name}`"))
+                .with_label(&format!("no {kind} that is known here"))
+                .with_help(&help),
+        )
+    }
+
+    fn missing(self, path: &str, problem: &str, sample: &SampleOf<'_>) -> Option<Diagnostic> {
+        let key = problem.strip_prefix("missing field `")?.strip_suffix('`')?;
+        let owner = path.rsplit('.').next().unwrap_or_default();
+        let inside = if owner.is_empty() { String::new() } else { format!(" in `{owner}`") };
+        let owner = owner.split('[').next().unwrap_or_default();
+        let value = sample(owner, key).unwrap_or("VALUE");
+        Some(
+            self.at_token(&format!("missing key `{key}`{inside}"))
+                .with_label(&format!("these keys lack `{key}`"))
+                .with_help(&format!("add `{key}: {value}`{inside}")),
+        )
+    }
+
+    fn wrong_type(self, problem: &str) -> Option<Diagnostic> {
+        let what = problem
+            .strip_prefix("invalid type: ")
+            .or_else(|| problem.strip_prefix("invalid value: "))?;
+        let (unexpected, wanted) = what.rsplit_once(", expected ")?;
+        if let Some(diagnostic) = self.wrong_settings(unexpected, wanted) {
+            return Some(diagnostic);
+        }
+        let wanted = expected(wanted);
+        let diagnostic = self
+            .at_token(&format!("expected {wanted}, found {}", found(unexpected)))
+            .with_label(&format!("{wanted} is expected here"));
+        Some(if self.is_quoted_number() {
+            diagnostic.with_help("remove the quotes")
+        } else {
+            diagnostic
+        })
+    }
+
+    /// A named choice with settings where it has none, without where it needs some, or several.
+    fn wrong_settings(self, unexpected: &str, wanted: &str) -> Option<Diagnostic> {
+        let (fault, name) = self.at_first_name();
+        match (unexpected, wanted) {
+            (_, "unit variant") => Some(
+                fault
+                    .at_token(&format!("`{name}` takes no settings"))
+                    .with_help(&format!("write the bare name `{name}`")),
+            ),
+            ("unit variant", _) => Some(
+                fault
+                    .at_token(&format!("`{name}` needs settings"))
+                    .with_help(&format!("write `{name}: ...` with its settings")),
+            ),
+            (_, "map with a single key") => Some(self.not_one_name()),
+            _ => None,
+        }
+    }
+
+    fn not_one_name(self) -> Diagnostic {
+        self.at_token("one name with its settings is expected here, found none or several")
+            .with_help("write `{NAME: {...}}`; a list holds several")
+    }
+
+    fn wrong_length(self, problem: &str) -> Option<Diagnostic> {
+        let (length, wanted) =
+            problem.strip_prefix("invalid length ")?.split_once(", expected ")?;
+        if wanted == "map containing 1 entry" {
+            return Some(self.not_one_name());
+        }
+        let wanted = expected(wanted);
+        Some(
+            self.at_token(&format!("expected {wanted}, found {length}"))
+                .with_label(&format!("{wanted} is expected here")),
+        )
+    }
+
+    fn is_quoted_number(self) -> bool {
+        let scalar = self.source.scalar_at(self.offset).filter(|scalar| scalar.is_quoted());
+        scalar
+            .and_then(|scalar| scalar.verbatim(self.source.text()))
+            .is_some_and(|inside| self.source.text()[inside].parse::<f64>().is_ok())
+    }
 }

@@ -1,8 +1,7 @@
 //! How far a scalar reaches, by the rules of its style.
 
 use super::Diagnostic;
-use super::scalar::{Scalar, Style};
-use super::scan::Scanner;
+use super::scan::{Scalar, Scanner, Style};
 use std::ops::Range;
 
 impl Scanner<'_> {

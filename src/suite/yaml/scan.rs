@@ -7,9 +7,42 @@
 //! extent of each scalar, so that a caret can underline a whole one, and it finds brackets and
 //! quotes that are never closed, of which the parser would only notice the end of the file.
 
-use super::Diagnostic;
-use super::scalar::Scalar;
+use super::{Diagnostic, MAX_NESTING, Place};
 use std::ops::Range;
+
+/// The extent of one scalar, with its quotes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Scalar {
+    pub(crate) range: Range<usize>,
+    pub(crate) style: Style,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Style {
+    Plain,
+    SingleQuoted,
+    DoubleQuoted,
+    Block,
+}
+
+impl Scalar {
+    /// The bytes that are the value, if they are so one for one: no escape, no folded line.
+    pub(crate) fn verbatim(&self, text: &str) -> Option<Range<usize>> {
+        let Range { start, end } = self.range;
+        let (inside, altered) = match self.style {
+            Style::Plain => (start..end, '\n'),
+            Style::SingleQuoted => (start + 1..end - 1, '\''),
+            Style::DoubleQuoted => (start + 1..end - 1, '\\'),
+            Style::Block => return None,
+        };
+        let words = text.get(inside.clone())?;
+        (!words.contains([altered, '\n'])).then_some(inside)
+    }
+
+    pub(crate) fn is_quoted(&self) -> bool {
+        matches!(self.style, Style::SingleQuoted | Style::DoubleQuoted)
+    }
+}
 
 /// The scalars of a text in their order, or the reason why it is refused.
 pub(crate) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Diagnostic> {
@@ -251,5 +284,57 @@ impl Scanner<'_> {
 
     pub(crate) fn here(&self) -> Range<usize> {
         self.at..self.at + 1
+    }
+}
+
+/// Diagnostics of the scan.
+impl Scanner<'_> {
+    pub(crate) fn nesting(&self) -> Result<(), Diagnostic> {
+        if self.open.len() + self.indents.len() <= MAX_NESTING {
+            return Ok(());
+        }
+        let message = format!("lists and maps nest more than {MAX_NESTING} deep");
+        Err(self.diagnostic(self.here(), &message))
+    }
+
+    pub(crate) fn all_closed(&self) -> Result<(), Diagnostic> {
+        let Some(&start) = self.open.last() else { return Ok(()) };
+        let bracket = &self.text[start..=start];
+        let closing = if bracket == "[" { "]" } else { "}" };
+        Err(self
+            .diagnostic(start..start + 1, &format!("this `{bracket}` is never closed"))
+            .with_label(&format!("no matching `{closing}`")))
+    }
+
+    /// A bracket closed by one of the other kind: what is missing is at the first of the two.
+    pub(crate) fn crossed(&self, start: usize, byte: u8) -> Diagnostic {
+        let (bracket, byte) = (&self.text[start..=start], byte as char);
+        let closing = Place::of(self.text, self.here());
+        let (line, column) = (closing.line(), closing.column());
+        let message = format!("this `{bracket}` is not closed before a `{byte}`");
+        self.diagnostic(start..start + 1, &message)
+            .with_label("no matching bracket")
+            .with_help(&format!("the `{byte}` is on line {line}, column {column}"))
+    }
+
+    pub(crate) fn second_document(&self) -> Diagnostic {
+        self.diagnostic(self.here(), "a second document starts here")
+            .with_label("a suite is one document")
+            .with_help("put each suite in a file of its own")
+    }
+
+    pub(crate) fn unneeded(&self, what: &str, byte: u8) -> Diagnostic {
+        self.diagnostic(self.here(), &format!("{what} are not supported"))
+            .with_label(&format!("a value cannot start with `{}`", byte as char))
+            .with_help("put text in quotes; give a value a name under `parameters`")
+    }
+
+    pub(crate) fn tab(&self) -> Diagnostic {
+        self.diagnostic(self.here(), "tab used for indentation; YAML needs spaces")
+            .with_label("a tab")
+    }
+
+    pub(crate) fn diagnostic(&self, range: Range<usize>, message: &str) -> Diagnostic {
+        Diagnostic::at(self.name, self.text, range, message)
     }
 }

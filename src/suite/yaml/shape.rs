@@ -4,23 +4,47 @@
 //! Checked in a walk of its own, because a typed reader notices a second key only after its
 //! value, and a field of type `f64` accepts `.nan`.
 
-use super::{MAX_ENTRIES, Source, refuse};
+//!
+//! Refusals are messages of this crate, sent through the error type of a deserializer. Its error is
+//! one string, and the YAML library writes a path in front of it and a position behind. Fences
+//! around the parts let them be found again. No file can forge them, because a source with control
+//! characters is refused.
+
+use super::{MAX_ENTRIES, Source};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::collections::HashSet;
 use std::fmt;
 
-/// Walks the whole file.
-pub(crate) fn check(source: &Source) -> Result<(), serde_yaml::Error> {
-    ShapeCheck { root: true }.deserialize(serde_yaml::Deserializer::from_str(source.text()))
+/// Value of a key of the whole file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum TopValue {
+    /// The file has no such key.
+    Absent,
+    /// Text.
+    Text(String),
+    /// Anything else.
+    Other,
 }
 
-struct ShapeCheck {
-    root: bool,
+/// Walks the whole file. Returns the value of its key `key`.
+pub(crate) fn check(source: &Source, key: &str) -> Result<TopValue, serde_yaml::Error> {
+    let parser = serde_yaml::Deserializer::from_str(source.text());
+    let mut found = TopValue::Absent;
+    ShapeCheck::Root { key, found: &mut found }.deserialize(parser)?;
+    Ok(found)
 }
 
-const INSIDE: ShapeCheck = ShapeCheck { root: false };
+/// The check of a value.
+enum ShapeCheck<'k> {
+    /// The whole file, with the key whose value is kept.
+    Root { key: &'k str, found: &'k mut TopValue },
+    /// The value that is kept.
+    Kept(&'k mut TopValue),
+    /// Any other value.
+    Inside,
+}
 
-impl<'de> DeserializeSeed<'de> for ShapeCheck {
+impl<'de> DeserializeSeed<'de> for ShapeCheck<'_> {
     type Value = ();
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
@@ -28,7 +52,7 @@ impl<'de> DeserializeSeed<'de> for ShapeCheck {
     }
 }
 
-impl<'de> Visitor<'de> for ShapeCheck {
+impl<'de> Visitor<'de> for ShapeCheck<'_> {
     type Value = ();
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -37,15 +61,25 @@ impl<'de> Visitor<'de> for ShapeCheck {
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
         let mut seen = HashSet::new();
-        while map.next_key_seed(NewKey { seen: &mut seen })?.is_some() {
-            map.next_value_seed(INSIDE)?;
+        let mut root = match self {
+            Self::Root { key, found } => Some((key, found)),
+            Self::Kept(_) | Self::Inside => None,
+        };
+        while let Some(name) = map.next_key_seed(NewKey { seen: &mut seen })? {
+            map.next_value_seed(match &mut root {
+                Some((key, found)) if *key == name => {
+                    **found = TopValue::Other;
+                    ShapeCheck::Kept(found)
+                }
+                _ => ShapeCheck::Inside,
+            })?;
         }
         Ok(())
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<(), A::Error> {
         let mut length = 0;
-        while list.next_element_seed(INSIDE)?.is_some() {
+        while list.next_element_seed(Self::Inside)?.is_some() {
             length += 1;
             within_cap(length, "list")?;
         }
@@ -61,7 +95,7 @@ impl<'de> Visitor<'de> for ShapeCheck {
     }
 
     fn visit_unit<E: de::Error>(self) -> Result<(), E> {
-        if !self.root {
+        if !matches!(self, Self::Root { .. }) {
             return Ok(());
         }
         Err(refuse("the file is empty; a suite starts with `suite: NAME`", "", ""))
@@ -87,7 +121,10 @@ impl<'de> Visitor<'de> for ShapeCheck {
         Ok(())
     }
 
-    fn visit_str<E: de::Error>(self, _: &str) -> Result<(), E> {
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<(), E> {
+        if let Self::Kept(found) = self {
+            *found = TopValue::Text(text.to_owned());
+        }
         Ok(())
     }
 }
@@ -152,4 +189,21 @@ pub(crate) fn finite<E: de::Error>(value: f64, expected: &str) -> Result<f64, E>
         &format!("{expected} is expected here"),
         "",
     ))
+}
+
+const FENCE: char = '\u{1f}';
+
+/// A refusal to raise while deserializing: what is wrong, what was expected, what to do.
+///
+/// `label` and `help` may be empty. [`read`](super::read()) shows the three as they are, at the
+/// place of the innermost value that was being read.
+pub fn refuse<E: de::Error>(message: &str, label: &str, help: &str) -> E {
+    let [message, label, help] = [message, label, help].map(|part| part.replace(FENCE, " "));
+    E::custom(format!("{FENCE}{message}{FENCE}{label}{FENCE}{help}{FENCE}"))
+}
+
+/// Message, label and help of a refusal, if `error` is the text of one.
+pub(crate) fn refused(error: &str) -> Option<[&str; 3]> {
+    let mut parts = error.split(FENCE).skip(1);
+    Some([parts.next()?, parts.next()?, parts.next()?])
 }

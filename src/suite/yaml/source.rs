@@ -1,7 +1,6 @@
 //! A suite file in memory, checked before anything interprets it.
 
-use super::scalar::Scalar;
-use super::scan::scan;
+use super::scan::{Scalar, scan};
 use super::{Diagnostic, Place};
 use std::fs::{self, File, Metadata};
 use std::io::{self, Read};

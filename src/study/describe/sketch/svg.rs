@@ -9,7 +9,7 @@ use crate::report::figure::plot::text::wrap;
 use crate::study::describe::statement::{self, stated};
 use crate::subject::PlaneState;
 use crate::suite::model::Suite;
-use crate::suite::model::scene::FACES;
+use crate::suite::scene::face::FACES;
 
 /// Cells narrower than this (px) would be a grey field.
 const FINEST: f64 = 3.0;

@@ -1,8 +1,170 @@
-//! Checks of a whole suite: what subjects and truths support, and whether levels fit.
+//! Checks of several keys of a suite together: parts of a suite that its solvers, its loads or its
+//! truth do not support. Sizes, time steps and judged sums have files of their own.
 
-pub(crate) mod energy;
-pub(crate) mod fem_support;
-pub(crate) mod load_support;
 pub(crate) mod size;
-pub(crate) mod subject_support;
+pub(crate) mod steps;
 pub(crate) mod sums;
+
+use crate::fem::BarLaw;
+use crate::suite::compile::truth::law_of_bar;
+use crate::suite::evaluator::Evaluator;
+use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
+use crate::suite::model::method::Method;
+use crate::suite::model::{ConvergencePlan, Scene};
+use crate::suite::scene::load::{LoadEntry, StudyFacts};
+use crate::suite::yaml::{Diagnostic, Path};
+use crate::verify::Limits;
+
+/// Refuses conditions that the bar does not know, if the suite asks for one.
+pub(crate) fn refuse_conditions_unknown_to_fem(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+) -> Result<(), Diagnostic> {
+    if !spec.has_fem_reference() && spec.fem_method().is_none() {
+        return Ok(());
+    }
+    let path = Path::top("scene");
+    let help = "remove the FEM, also as `reference`, or the condition";
+    for face in &scene.faces {
+        if face.hold.is_lacked_by_fem() {
+            let message = format!(
+                "the {} face {}, and the FEM knows fixed and free ends only",
+                face.name,
+                face.hold.verb()
+            );
+            let at = path.then("boundary").then(face.name);
+            return Err(evaluator.diagnostic(&at, &message).with_help(help));
+        }
+    }
+    if !scene.initial_stress.is_none() {
+        let at = path.then("initial_stress");
+        let message = "an initial stress, which the FEM does not have";
+        return Err(evaluator.diagnostic_at_key(&at, message).with_help(help));
+    }
+    if let Some(set) = scene.driven_set() {
+        let message = format!("the set `{set}` is driven, which the FEM cannot do");
+        let at = path.then("sets").then(set);
+        return Err(evaluator.diagnostic_at_key(&at, &message).with_help(help));
+    }
+    Ok(())
+}
+
+/// Refuses an FEM bar, a method or the reference, of a material that it has no law for.
+pub(crate) fn refuse_law_unknown_to_fem(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+) -> Result<(), Diagnostic> {
+    let name = scene.material.name();
+    let elastic = scene.material.elasticity().is_some();
+    let of_fluid = || format!("the reference FEM is a solid bar, `{name}` has no Young's modulus");
+    if spec.has_fem_reference() && !elastic {
+        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &of_fluid()));
+    }
+    let foreign = |law: EquationName| {
+        let known = BarLaw::find(law.name()).is_some();
+        (!known).then(|| format!("the reference FEM has no `{}`", law.name()))
+    };
+    let reference = spec.reference.as_ref().and_then(|reference| reference.equation);
+    if let Some(message) = reference.and_then(foreign) {
+        return Err(evaluator.diagnostic(&Path::top("reference").then("equation"), &message));
+    }
+    for (i, method) in spec.methods.iter().enumerate() {
+        let MethodSpec::Fem { law, .. } = method else { continue };
+        let path = Path::top("methods").then(i);
+        if !elastic {
+            return Err(evaluator.diagnostic(&path, &of_fluid()));
+        }
+        let laws = law.as_ref().map_or(&[][..], |laws| laws.as_slice());
+        if let Some(message) = laws.iter().copied().find_map(foreign) {
+            return Err(evaluator.diagnostic(&path, &message));
+        }
+        if law.is_none() && law_of_bar(&scene.material).is_none() {
+            let diagnostic =
+                evaluator.diagnostic(&path, &format!("the reference FEM has no `{name}`"));
+            return Err(diagnostic.with_help("name the `law` of an elastic bar to compare with"));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses what the loads of the scene do not go with, and the FEM where it lacks one.
+pub(crate) fn refuse_foreign(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+    until: f64,
+) -> Result<(), Diagnostic> {
+    let study = StudyFacts { manufactured: spec.manufactured.is_some(), until };
+    for (i, load) in spec.scene.loads.iter().enumerate() {
+        let entry = LoadEntry { evaluator, effect: load.effect(), path: load.path(i), scene };
+        load.keys().check(&entry, &study)?;
+        if let Some(lacked) = load.keys().lacked_by_fem() {
+            refuse_fem_without(evaluator, spec, lacked)?;
+        }
+    }
+    Ok(())
+}
+
+/// Refuses the reference FEM, as method or as reference, for a scene with an effect that it lacks.
+fn refuse_fem_without(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    effect: &str,
+) -> Result<(), Diagnostic> {
+    let message = format!("the reference FEM has no {effect}, and the scene has");
+    if spec.has_fem_reference() {
+        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &message));
+    }
+    match spec.fem_method() {
+        Some(i) => Err(evaluator.diagnostic(&Path::top("methods").then(i), &message)),
+        None => Ok(()),
+    }
+}
+
+/// Refuses to judge a quantity that the reference FEM does not give.
+pub(crate) fn refuse_quantity_unknown_to_fem(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    plan: &ConvergencePlan,
+) -> Result<(), Diagnostic> {
+    if !plan.of.is_optional() {
+        return Ok(());
+    }
+    let name = plan.of.words();
+    let help = "judge the displacement or the velocity";
+    if plan.reference.is_some() || plan.same_method.is_some() {
+        let message = format!("a reference has no {name} to compare with, which this suite judges");
+        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &message).with_help(help));
+    }
+    match spec.fem_method() {
+        Some(i) => {
+            let message = format!("the reference FEM gives no {name}, which this suite judges");
+            let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), &message);
+            Err(diagnostic.with_help(help))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Refuses to bound the drift of sums that the reference FEM does not give; `path` is that of the
+/// expectation.
+pub(crate) fn check_drift(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    limits: &Limits,
+    method: Method,
+) -> Result<(), Diagnostic> {
+    let key = if limits.energy_rate.is_some() { "energy_rate" } else { "drift" };
+    let asks = !limits.drift.is_empty() || limits.energy_rate.is_some();
+    if !asks || matches!(method, Method::Mpm { .. } | Method::External { .. }) {
+        return Ok(());
+    }
+    let message = match method {
+        Method::Heat { .. } => "a body at rest has no motion whose sums could drift",
+        _ => "the reference FEM does not give the sums whose drift is bound here",
+    };
+    let diagnostic = evaluator.diagnostic_at_key(&path.then(key), message);
+    Err(diagnostic.with_help("let this expectation speak of MPM cases only"))
+}

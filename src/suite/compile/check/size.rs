@@ -1,21 +1,24 @@
 //! Whether every level fits into a machine, and has nodes where a face is held.
 
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::run::refine::LevelPaths;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
-use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
-use crate::suite::model::lattice::{any_particle, is_vacant};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Scene};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
+use crate::suite::scene::lattice::{any_particle, is_vacant};
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// Most particles, and most nodes, of one level.
 const MOST: f64 = 5e7;
 
 /// Distance of a held face from the grid's face that is no more than rounding, in cells.
 const ROUNDING: f64 = 1e-6;
+
+/// Where a file states what makes a level: its size, and its time step.
+pub(crate) struct LevelPaths {
+    pub(crate) size: Path,
+    pub(crate) dt: Path,
+}
 
 /// Refuses a level that is too large, or on which a held face has no nodes.
 pub(crate) fn refuse_unfit_levels(

@@ -1,15 +1,13 @@
 //! Whether a sum over the body that a suite judges can be told, by every subject and by the truth.
 
-use super::energy;
 use crate::exact::Problem;
 use crate::mpm::MassName;
 use crate::subject::PlaneState;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::scene::face;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::{ConvergencePlan, SceneFace};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::scene::face::face;
+use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{JudgedSum, SumNeed};
 use std::sync::Arc;
 
@@ -79,7 +77,7 @@ fn stored_energy(
     problem: &Problem,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
-    energy::refuse_law_without_energy(evaluator, path, plan)?;
+    refuse_law_without_energy(evaluator, path, plan)?;
     if problem.heat.is_some() {
         let message = "the energy of a body in which heat flows is more than that of its strain";
         return Err(evaluator.diagnostic(path, message));
@@ -137,7 +135,7 @@ fn walls(
         };
     };
     let path = path.then("face");
-    let number = face::face(evaluator, &path, name, plan.scene.dimension(), false)?;
+    let number = face(evaluator, &path, name, plan.scene.dimension(), false)?;
     let wall = &faces[number];
     if !wall.hold.stays() {
         return Err(no_reaction(evaluator, &path, wall));
@@ -174,4 +172,22 @@ fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
     let message = "with a consistent mass matrix the inertia of other nodes is part of a reaction";
     let path = Path::top("methods").then(i).then("mpm").then("mass");
     Err(evaluator.diagnostic(&path, message).with_help("take `lumped` to judge a reaction"))
+}
+
+/// Refuses to bound the energy of a body whose law has none; `path` is that of the bound.
+pub(crate) fn refuse_law_without_energy(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    plan: &ConvergencePlan,
+) -> Result<(), Diagnostic> {
+    let material = &plan.scene.material;
+    let mut energy = material.properties().has_energy(plan.scene.dimension());
+    let is_prestressed = plan.scene.each().iter().any(|body| !body.initial_stress.is_none());
+    if is_prestressed && material.properties().depends_on_deformation_alone().is_err() {
+        energy = Err("is integrated in rate form, and has no energy beside an initial stress");
+    }
+    let Err(reason) = energy else { return Ok(()) };
+    let message = format!("the law `{}` {reason}", material.name());
+    let diagnostic = evaluator.diagnostic_at_key(path, &message);
+    Err(diagnostic.with_help("take `neo_hookean` or `hencky`"))
 }

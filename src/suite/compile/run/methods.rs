@@ -1,14 +1,12 @@
 //! The entries of `methods` become methods: the products of their lists, with names.
 
-use super::external;
 use crate::fem::Sampling;
 use crate::mpm::{FrameName, MassName};
-use crate::subject::Start;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, Start, is_solver_name};
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{EquationName, MethodSpec};
 use crate::suite::model::method::Method;
-use crate::suite::yaml::{Diagnostic, OneOrMany};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use std::collections::BTreeMap;
 
 /// A method on its way to a name.
@@ -116,10 +114,10 @@ pub(crate) fn methods(
         MethodSpec::External { name, formal_order, precision } => {
             let path = Path::top("methods").then(entry).then("external");
             let method = Method::External {
-                formal_order: external::formal_order(evaluator, &path, formal_order.as_ref())?,
+                formal_order: stated_order(evaluator, &path, formal_order.as_ref())?,
                 precision: precision.unwrap_or_default(),
             };
-            let solver = Some(external::solver_name(evaluator, &path, name)?);
+            let solver = Some(solver_name(evaluator, &path, name)?);
             drafts.push(MethodDraft { entry, method, solver, said: Vec::new() });
         }
     }
@@ -218,4 +216,30 @@ fn length<T>(list: Option<&OneOrMany<T>>) -> usize {
 /// Whether an optional list has several members.
 fn many<T>(list: Option<&OneOrMany<T>>) -> bool {
     length(list) > 1
+}
+
+/// The name of a solver.
+fn solver_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<String, Diagnostic> {
+    if is_solver_name(name) {
+        return Ok(name.to_owned());
+    }
+    let diagnostic = evaluator.diagnostic(&path.then("name"), "this is not a name for a solver");
+    let label = format!("expected up to {LONGEST_NAME} letters, digits, `-`, `_` or `.`");
+    Err(diagnostic.with_label(&label))
+}
+
+/// The order that theory gives a solver: two, unless it is stated.
+fn stated_order(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    text: Option<&NumberText>,
+) -> Result<f64, Diagnostic> {
+    let (Some(text), path) = (text, path.then("formal_order")) else { return Ok(2.0) };
+    let order = evaluator.positive(&path, text, "the formal order")?;
+    if order <= HIGHEST_ORDER {
+        return Ok(order);
+    }
+    let message = format!("the formal order is {}", shown(order));
+    let diagnostic = evaluator.diagnostic(&path, &message);
+    Err(diagnostic.with_label(&format!("expected one up to {HIGHEST_ORDER}")))
 }

@@ -1,11 +1,225 @@
-//! The run: refinement plan, time steps, methods, and the cases that they make.
+//! The run: levels, time steps and methods, and the cases that they make: the product of everything
+//! that a suite gives as a list.
 
-pub(crate) mod bar_law;
-pub(crate) mod cases;
-pub(crate) mod external;
 pub(crate) mod methods;
+pub(crate) mod places;
+pub(crate) mod reference;
 pub(crate) mod refine;
-pub(crate) mod same_method;
-pub(crate) mod scatter;
-pub(crate) mod step_rule;
-pub(crate) mod steps;
+
+use crate::mpm::{FrameName, MassName, combine, combine_across, combine_bodies};
+use crate::suite::compile::expect::expectations;
+use crate::suite::compile::truth::{conservation_only, law_of_bar};
+use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
+use crate::suite::model::method::Method;
+use crate::suite::model::{Against, Case, ConvergencePlan, SceneFace};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
+use crate::verify::{Axis, Expectation};
+use methods::{NamedMethod, count, methods, named};
+
+/// Most cases that a suite may unfold into.
+const MOST_CASES: usize = 1000;
+
+/// The ends of the runs: how names write them, and value (s).
+pub(crate) fn until(
+    evaluator: &Evaluator<'_>,
+    spec: &OneOrMany<NumberText>,
+) -> Result<Vec<(String, f64)>, Diagnostic> {
+    let path = Path::top("run").then("until");
+    let mut ends: Vec<(String, f64)> = Vec::new();
+    for (i, text) in spec.as_slice().iter().enumerate() {
+        let path = path.alternative(spec, i);
+        let until = evaluator.positive(&path, text, "the end of the run")?;
+        let text = shown(until);
+        if ends.iter().any(|(known, _)| *known == text) {
+            let message = format!("the end {text} s appears twice");
+            return Err(evaluator.diagnostic(&path, &message).with_label("the second time"));
+        }
+        ends.push((text, until));
+    }
+    Ok(ends)
+}
+
+/// All cases of a suite with what is expected of each.
+pub(crate) fn cases(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    plan: &ConvergencePlan,
+    until: &[(String, f64)],
+) -> Result<Vec<Case>, Diagnostic> {
+    let truths = truths(plan);
+    let mut found = Vec::new();
+    for (i, method) in spec.methods.iter().enumerate() {
+        let path = Path::top("methods").then(i);
+        possible(evaluator, &path, method, plan)?;
+        few(evaluator, &path, found.len() * until.len() * truths.len(), method, until.len())?;
+        let more = methods(evaluator, i, method, own_law(plan))?;
+        more.iter().try_for_each(|draft| combined(evaluator, &path, draft.method, plan))?;
+        found.extend(more);
+    }
+    let found = named(evaluator, found)?;
+    let runs = |method: &NamedMethod| runs(method, &truths, until);
+    let drafts: Vec<Draft> = found.iter().flat_map(runs).collect();
+    let names: Vec<_> = drafts.iter().map(|draft| (draft.name.as_str(), draft.method)).collect();
+    let expectations = expectations(evaluator, &spec.expect, plan, &names)?;
+    let with = |(draft, expected): (Draft, Option<(Expectation, Option<Expectation>)>)| {
+        let (expectation, expectation_in_full) = expected.unzip();
+        Case {
+            name: draft.name,
+            method: draft.method,
+            solver: draft.solver,
+            until: draft.until,
+            against: draft.against,
+            expectation,
+            expectation_in_full: expectation_in_full.flatten(),
+            gating: None,
+        }
+    };
+    Ok(drafts.into_iter().zip(expectations).map(with).collect())
+}
+
+/// A case before anything is expected of it.
+struct Draft {
+    name: String,
+    method: Method,
+    solver: Option<String>,
+    until: f64,
+    against: Against,
+}
+
+/// The truths of the study, each with what it adds to a name.
+fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
+    let truths = [
+        plan.has_formulas().then_some((Against::Exact, "-vs-exact")),
+        plan.reference.as_ref().map(|_| (Against::Reference, "-vs-reference")),
+        plan.same_method.map(|same| (Against::SameMethod(same), same.suffix())),
+    ];
+    let nothing = conservation_only::is_truthless(plan).then_some((Against::Nothing, ""));
+    truths.into_iter().flatten().chain(nothing).collect()
+}
+
+/// One method, for every end of the run and every truth. A part enters the name only where there
+/// is a choice.
+fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)]) -> Vec<Draft> {
+    let mut drafts = Vec::new();
+    for (text, until_value) in until {
+        for (against, suffix) in truths {
+            let mut name = method.name.clone();
+            if until.len() > 1 {
+                name += &format!("-until-{text}");
+            }
+            if truths.len() > 1 {
+                name += suffix;
+            }
+            let (solver, until, against) = (method.solver.clone(), *until_value, *against);
+            drafts.push(Draft { name, method: method.method, solver, until, against });
+        }
+    }
+    drafts
+}
+
+/// Refuses parts of a method that do not go together, or not with the scene.
+fn combined(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    method: Method,
+    plan: &ConvergencePlan,
+) -> Result<(), Diagnostic> {
+    let Method::Mpm { basis, transfer, mass, frame, start, .. } = method else { return Ok(()) };
+    let mut known = combine(basis, transfer, mass, frame)
+        .and_then(|()| combine_across(plan.scene.plane, basis, transfer));
+    if plan.scene.bodies.len() > 1 {
+        let contact = plan.scene.contact.is_some();
+        known = known.and_then(|()| combine_bodies(transfer, mass, frame, start, contact));
+    }
+    known.map_err(|reason| {
+        let help = "give what goes together an entry of `methods` of its own";
+        evaluator.diagnostic(path, &reason).with_help(help)
+    })
+}
+
+/// Refuses a product of lists that is too long, before it is unfolded.
+fn few(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    already: usize,
+    spec: &MethodSpec,
+    ends: usize,
+) -> Result<(), Diagnostic> {
+    let more = count(spec).saturating_mul(ends);
+    if already.saturating_add(more) <= MOST_CASES {
+        return Ok(());
+    }
+    let message = format!("these lists unfold into {more} cases");
+    let label = format!("expected at most {MOST_CASES} in a suite");
+    Err(evaluator.diagnostic(path, &message).with_label(&label))
+}
+
+/// Refuses combinations that mean nothing before anything runs.
+fn possible(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &MethodSpec,
+    plan: &ConvergencePlan,
+) -> Result<(), Diagnostic> {
+    if let MethodSpec::Mpm { mass: Some(mass), .. } = spec
+        && mass.as_slice().contains(&MassName::Consistent)
+        && let Some(message) = against_consistent_mass(plan)
+    {
+        return Err(evaluator.diagnostic(&path.then("mpm").then("mass"), message));
+    }
+    match spec {
+        MethodSpec::Fem { .. } if plan.scene.dimension() != 1 => {
+            let d = plan.scene.dimension();
+            Err(evaluator.diagnostic(path, &format!("the reference FEM is 1-D, the scene {d}-D")))
+        }
+        MethodSpec::Fem { .. } if !plan.scene.bodies.is_empty() => {
+            Err(evaluator
+                .diagnostic(path, "the reference FEM is one bar, and the scene lists bodies"))
+        }
+        MethodSpec::Mpm { frame: Some(frame), .. }
+            if frame.as_slice().contains(&FrameName::Total) && stretched(plan) =>
+        {
+            let message = "a total-Lagrangian body stays in its reference place, and the periodic \
+                           grid is not as long";
+            Err(evaluator.diagnostic(&path.then("mpm").then("frame"), message))
+        }
+        MethodSpec::External { .. } if plan.same_method.is_some() => {
+            let message = "a solver that is not of this crate is not run finer for its own truth";
+            Err(evaluator.diagnostic(path, message).with_help("state `exact` or a `reference`"))
+        }
+        MethodSpec::Fem { .. } if plan.refine.axis == Axis::Particles => {
+            Err(evaluator.diagnostic(path, "particles per cell are refined, and an FEM has none"))
+        }
+        MethodSpec::Mpm { .. } | MethodSpec::Heat { .. } | MethodSpec::External { .. }
+            if !plan.refine.has_particles() =>
+        {
+            let solver =
+                if matches!(spec, MethodSpec::External { .. }) { "a solver" } else { "MPM" };
+            let message = format!("{solver} needs particles, and `refine` says no `ppc`");
+            Err(evaluator.diagnostic(path, &message).with_help("add `ppc: 4` to `refine`"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Why no consistent mass matrix can be solved with the walls of the scene, if none can.
+fn against_consistent_mass(plan: &ConvergencePlan) -> Option<&'static str> {
+    plan.scene.faces.iter().find_map(|face| face.hold.against_consistent_mass())
+}
+
+/// Whether a period of the grid is not that of the body's reference place.
+fn stretched(plan: &ConvergencePlan) -> bool {
+    let scene = &plan.scene;
+    let apart = |face: &SceneFace| {
+        let length = scene.to[face.axis] - scene.from[face.axis];
+        (scene.period(face.axis) - length).abs() > 1e-12 * length
+    };
+    scene.faces.iter().any(|face| face.hold.is_periodic() && apart(face))
+}
+
+/// The law of an FEM case that names none: that of the scene's material. Where there is none, such
+/// a case has been refused (`fem_support`).
+fn own_law(plan: &ConvergencePlan) -> EquationName {
+    law_of_bar(&plan.scene.material).unwrap_or_default()
+}

@@ -1,21 +1,16 @@
-//! The refinement plan of a suite: the key that holds a list is refined.
+//! The refinement plan of a suite: the key that holds a list is refined. Time steps are stated, or
+//! follow from a rule: a share of the stable time step.
 
-use super::step_rule;
 use crate::exact::formula::Formula;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::grammar::{ConvergenceSpec, RefineSpec};
+use crate::suite::compile::check::size::LevelPaths;
+use crate::suite::compile::check::steps::COARSE_TO_FINE;
+use crate::suite::evaluator::Evaluator;
+use crate::suite::grammar::{ConvergenceSpec, MethodSpec, RefineSpec, StepSpec};
 use crate::suite::model::Scene;
-use crate::suite::model::grid_size::{cell_size, per_axis};
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
-use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
+use crate::suite::scene::grid_size::{cell_size, per_axis};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::Axis;
-
-/// Where a file states what makes a level: its size, and its time step.
-pub(crate) struct LevelPaths {
-    pub(crate) size: Path,
-    pub(crate) dt: Path,
-}
 
 /// One entry of a list, and where it stands.
 struct Located<T> {
@@ -38,11 +33,11 @@ pub(crate) fn plan(
         equally_spaced(evaluator, entry, d)?;
     }
     let at_run = Path::top("run").then("dt");
-    let rule = spec.run.dt.as_ref().map(|spec| step_rule::share(evaluator, &at_run, spec));
+    let rule = spec.run.dt.as_ref().map(|spec| stable_share(evaluator, &at_run, spec));
     let rule = rule.transpose()?.flatten();
-    step_rule::refuse_methods_without_rule(evaluator, &spec.methods, rule)?;
+    refuse_methods_without_rule(evaluator, &spec.methods, rule)?;
     let stated = spec.run.dt.as_ref();
-    let stated = stated.map(|spec| step_rule::formula_text(evaluator, &at_run, spec, scene));
+    let stated = stated.map(|spec| step_formula(evaluator, &at_run, spec, scene));
     let dt = steps(evaluator, spec, axis, stated.transpose()?.as_ref())?;
     let count = cells.len().max(ppc.len()).max(dt.len());
     let level = |k: usize| {
@@ -159,8 +154,6 @@ fn counts(
     Ok(counts)
 }
 
-pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
-
 fn equally_spaced(
     evaluator: &Evaluator<'_>,
     ppc: &Located<u64>,
@@ -206,4 +199,60 @@ fn steps(
         Ok(Located { value: evaluator.formula(&at, value, &["h"])?, at })
     };
     texts.into_iter().map(bind).collect()
+}
+
+/// The share that `auto` takes.
+const AUTO: f64 = 0.5;
+
+/// The share of the stable time step that `spec` at `path` asks for, if it is a rule.
+pub(crate) fn stable_share(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &StepSpec,
+) -> Result<Option<f64>, Diagnostic> {
+    match spec {
+        StepSpec::Length(_) => Ok(None),
+        StepSpec::Auto => Ok(Some(AUTO)),
+        StepSpec::Courant(text) => evaluator
+            .positive(&path.then("courant"), text, "the share of the stable step")
+            .map(Some),
+    }
+}
+
+/// The step (s) as a formula of h: as stated, or, for a rule, its value before any particle is
+/// known.
+pub(crate) fn step_formula(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &StepSpec,
+    scene: &Scene,
+) -> Result<NumberText, Diagnostic> {
+    let share = match (spec, stable_share(evaluator, path, spec)?) {
+        (StepSpec::Length(text), _) => return Ok(text.clone()),
+        (_, share) => share.unwrap_or(AUTO),
+    };
+    let speed = scene.fastest_wave();
+    if speed > 0.0 && speed.is_finite() {
+        let [share, speed] = [share, speed].map(NumberText::Number);
+        return Ok(NumberText::Formula(format!("{share}*h/{speed}")));
+    }
+    let message = "a time step is chosen by the speed of waves, and this body has none";
+    Err(evaluator.diagnostic(path, message).with_label("expected a number"))
+}
+
+/// Refuses methods whose steps no rule can choose.
+fn refuse_methods_without_rule(
+    evaluator: &Evaluator<'_>,
+    methods: &[MethodSpec],
+    rule: Option<f64>,
+) -> Result<(), Diagnostic> {
+    let steps = |method: &MethodSpec| {
+        matches!(method, MethodSpec::Mpm { .. } | MethodSpec::External { .. })
+    };
+    let other = methods.iter().position(|method| !steps(method));
+    let (Some(i), Some(_)) = (other, rule) else { return Ok(()) };
+    let message = "the time step is chosen by a rule, which is one for the steps of MPM in motion";
+    let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), message);
+    Err(diagnostic
+        .with_help("state `dt` as a number or a formula of h, or put this into a suite of its own"))
 }

@@ -1,20 +1,17 @@
-//! Several bodies in a scene, from words.
+//! Several bodies in a scene.
 //!
 //! A scene has one `body` with its `material`, or a list of `bodies`. The grid, its walls and the
 //! loads are those of the scene: they act on every body.
 
 use crate::mpm::MaterialSpec;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::scene::scene_words::SceneWords;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec, StressSpec};
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// Most bodies of a scene.
 const MOST: usize = 100;
 
-/// The words of one body, and where they stand.
+/// The keys of one body, and where they stand.
 pub(crate) struct Listed<'w> {
     /// The map that holds them.
     pub(crate) at: Path,
@@ -29,10 +26,10 @@ pub(crate) struct Listed<'w> {
 pub(crate) fn listed<'w>(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &'w SceneWords<'_>,
+    spec: &'w SceneSpec,
 ) -> Result<Vec<Listed<'w>>, Diagnostic> {
-    if let Some(bodies) = &words.bodies {
-        refuse_beside(evaluator, path, words)?;
+    if let Some(bodies) = &spec.bodies {
+        refuse_beside(evaluator, path, spec)?;
         let at = path.then("bodies");
         if bodies.is_empty() || bodies.len() > MOST {
             let diagnostic =
@@ -58,37 +55,37 @@ pub(crate) fn listed<'w>(
     };
     Ok(vec![Listed {
         at: path.clone(),
-        body: words.body.as_ref().ok_or_else(|| missing("body"))?,
-        material: words.material.as_ref().ok_or_else(|| missing("material"))?,
-        initial_stress: words.initial_stress.as_ref(),
-        initial_displacement: words.initial_displacement.as_ref(),
-        initial_velocity: words.initial_velocity.as_ref(),
+        body: spec.body.as_ref().ok_or_else(|| missing("body"))?,
+        material: spec.material.as_ref().ok_or_else(|| missing("material"))?,
+        initial_stress: spec.initial_stress.as_ref(),
+        initial_displacement: spec.initial_displacement.as_ref(),
+        initial_velocity: spec.initial_velocity.as_ref(),
     }])
 }
 
-/// Refuses words that speak of one body beside a list of bodies.
+/// Refuses keys of one body next to a list of bodies.
 fn refuse_beside(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords<'_>,
+    spec: &SceneSpec,
 ) -> Result<(), Diagnostic> {
     let alone = [
-        ("body", words.body.is_some()),
-        ("material", words.material.is_some()),
-        ("initial_velocity", words.initial_velocity.is_some()),
-        ("initial_stress", words.initial_stress.is_some()),
-        ("initial_displacement", words.initial_displacement.is_some()),
-        ("sets", !words.sets.as_slice().is_empty()),
+        ("body", spec.body.is_some()),
+        ("material", spec.material.is_some()),
+        ("initial_velocity", spec.initial_velocity.is_some()),
+        ("initial_stress", spec.initial_stress.is_some()),
+        ("initial_displacement", spec.initial_displacement.is_some()),
+        ("sets", !spec.sets.as_slice().is_empty()),
     ];
     if let Some((key, _)) = alone.iter().find(|(_, stated)| *stated) {
         let message = format!("`{key}` speaks of one body, and the scene has several");
         return Err(evaluator.diagnostic_at_key(&path.then(*key), &message));
     }
-    for (i, load) in words.loads.iter().enumerate() {
+    for (i, load) in spec.loads.iter().enumerate() {
         let name = load.effect().name();
-        let acts = match load.words().face() {
+        let acts = match load.keys().face() {
             Some(_) => "acts on a face of",
-            None if load.words().is_of_one_body() => "is that of",
+            None if load.keys().is_of_one_body() => "is that of",
             None => continue,
         };
         let message = format!("`{name}` {acts} one body, and the scene has several");
@@ -101,9 +98,9 @@ fn refuse_beside(
 pub(crate) fn contact(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    spec: &SceneSpec,
 ) -> Result<Option<f64>, Diagnostic> {
-    let Some(contact) = &words.contact else { return Ok(None) };
+    let Some(contact) = &spec.contact else { return Ok(None) };
     let path = path.then("contact").then("friction");
     let coefficient = evaluator.number(&path, &contact.friction)?;
     if coefficient >= 0.0 {

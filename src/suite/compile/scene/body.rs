@@ -1,80 +1,84 @@
-//! One body, and what acts on it, from words, and the grid around it.
+//! One body, and what holds it and acts on it: its faces, the state across its plane, revolution
+//! and rest.
 
 use super::bodies::Listed;
-use super::material::material;
 use super::outline::BodyShape;
 use super::outline::quadrilateral::faces_are_sides;
-use super::scene_words::SceneWords;
-use super::{boundary, boxes, initial, outline, plane, rest, revolution, sets};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::load::listed;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
-use crate::suite::model::Scene;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use super::{material, outline, sets};
+use crate::mpm::MaterialPlan;
+use crate::subject::PlaneState;
+use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::grammar::SceneSpec;
+use crate::suite::model::{Scene, SceneFace};
+use crate::suite::scene::boundary::{BoundaryCondition, FaceAtRest, FaceEntry, FreeFace};
+use crate::suite::scene::face::{FACES, face};
+use crate::suite::scene::load;
+use crate::suite::scene::load::LoadSpec;
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use std::sync::Arc;
 
 /// One body, and what acts on it.
 pub(crate) fn body(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
-    words: &SceneWords<'_>,
+    spec: &SceneSpec,
 ) -> Result<Scene, Diagnostic> {
     let path = Path::top("scene");
-    let dimension = dimension(evaluator, &path, &words.dimension)?;
+    let dimension = dimension(evaluator, &path, &spec.dimension)?;
     let at = own.at.then("body");
     let (mut outline, mut mapped) = (None, None);
     let (from, to) = match outline::shape(evaluator, &at, own.body, dimension)? {
-        BodyShape::Box(words) => boxes::corners(evaluator, &at.then("box"), words, dimension)?,
+        BodyShape::Box(spec) => outline::corners(evaluator, &at.then("box"), spec, dimension)?,
         BodyShape::Free(found) => {
-            if words.bodies.is_none() {
-                outline::rims_are_free(evaluator, &path, words, found.as_ref())?;
+            if spec.bodies.is_none() {
+                outline::rims_are_free(evaluator, &path, spec, found.as_ref())?;
             }
             outline.insert(found).ends()
         }
         BodyShape::Mapped(found, panel) => {
-            faces_are_sides(evaluator, &path, words, &panel)?;
+            faces_are_sides(evaluator, &path, spec, &panel)?;
             mapped = Some(panel);
             outline.insert(found).ends()
         }
     };
     let is_free = outline.is_some() && mapped.is_none();
-    let grid = words
+    let grid = spec
         .grid
         .as_ref()
-        .map(|grid| boxes::corners(evaluator, &path.then("grid"), grid, dimension))
+        .map(|grid| outline::corners(evaluator, &path.then("grid"), grid, dimension))
         .transpose()?;
-    let sets = sets::declared(evaluator, &path, words, (&from, &to), outline.as_deref())?;
+    let sets = sets::declared(evaluator, &path, spec, (&from, &to), outline.as_deref())?;
     let at = own.at.then("material");
-    let (material, density) = material(evaluator, &at, own.material)?;
-    let plane = plane::plane(evaluator, &path, words, dimension)?;
-    plane::knows(evaluator, &at, &material, plane)?;
+    let (material, density) = material::material(evaluator, &at, own.material)?;
+    let plane = plane(evaluator, &path, spec, dimension)?;
+    knows(evaluator, &at, &material, plane)?;
     let mut scene = Scene {
         from,
         to,
         grid,
         plane,
-        initial_stress: initial::stress(evaluator, own, dimension, &material)?,
-        initial_displacement: initial::displacement(evaluator, own, dimension, &material)?,
+        initial_stress: material::stress(evaluator, own, dimension, &material)?,
+        initial_displacement: material::displacement(evaluator, own, dimension, &material)?,
         material,
         density,
-        faces: if is_free && words.bodies.is_none() {
+        faces: if is_free && spec.bodies.is_none() {
             Vec::new()
         } else {
-            boundary::faces(evaluator, &path, words, dimension)?
+            faces(evaluator, &path, spec, dimension)?
         },
         outline,
         mapped,
         sets,
         loads: Vec::new(),
-        initial_velocity: initial::velocity(evaluator, own, dimension)?,
+        initial_velocity: material::velocity(evaluator, own, dimension)?,
         bodies: Vec::new(),
         contact: None,
     };
-    revolution::revolves(evaluator, &path, &scene)?;
+    revolves(evaluator, &path, &scene)?;
     if scene.is_at_rest() {
-        rest::settle(evaluator, &own.at, words, &mut scene.faces)?;
+        settle(evaluator, &own.at, spec, &mut scene.faces)?;
     }
-    listed::add(evaluator, &words.loads, &mut scene)?;
+    load::add(evaluator, &spec.loads, &mut scene)?;
     Ok(scene)
 }
 
@@ -91,4 +95,178 @@ fn dimension(
             .diagnostic(&path, &format!("a scene of dimension {}", shown(dimension)))
             .with_label("expected 1, 2 or 3")),
     }
+}
+
+/// The faces of a body that has a box or four sides, in their order.
+fn faces(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &SceneSpec,
+    dimension: usize,
+) -> Result<Vec<SceneFace>, Diagnostic> {
+    let holds = holds(evaluator, path, spec, dimension)?;
+    let build = |(i, hold)| SceneFace { name: FACES[i], axis: i / 2, high: i % 2 == 1, hold };
+    Ok(holds.into_iter().enumerate().map(build).collect())
+}
+
+/// Boundary conditions of the faces, in their order.
+fn holds(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &SceneSpec,
+    dimension: usize,
+) -> Result<Vec<Arc<dyn BoundaryCondition>>, Diagnostic> {
+    let path = path.then("boundary");
+    let free: Arc<dyn BoundaryCondition> = Arc::new(FreeFace);
+    let mut holds = vec![free; 2 * dimension];
+    for (name, spec) in spec.boundary.as_slice() {
+        let at = path.then(name.as_str());
+        let face = face(evaluator, &at, name, dimension, true)?;
+        let (condition, spec) = spec.named();
+        let entry = FaceEntry { evaluator, path: at.then(condition), dimension };
+        holds[face] = spec.compile(&entry)?;
+    }
+    both_ends(evaluator, &path, &holds)?;
+    Ok(holds)
+}
+
+/// A face can only be periodic together with the opposite one.
+fn both_ends(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    holds: &[Arc<dyn BoundaryCondition>],
+) -> Result<(), Diagnostic> {
+    for (i, hold) in holds.iter().enumerate() {
+        let (name, other) = (FACES[i], FACES[i ^ 1]);
+        if hold.is_periodic() && !holds[i ^ 1].is_periodic() {
+            let verb = holds[i ^ 1].verb();
+            let message = format!("the {name} face is periodic, and the {other} face {verb}");
+            let diagnostic = evaluator.diagnostic(&path.then(name), &message);
+            return Err(diagnostic.with_label(&format!("expected `{other}: periodic` as well")));
+        }
+    }
+    Ok(())
+}
+
+/// Sets every face at rest that is not periodic, and refuses keys that hold or move the body, and
+/// other bodies. `path` is that of the map that holds the body.
+fn settle(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &SceneSpec,
+    faces: &mut [SceneFace],
+) -> Result<(), Diagnostic> {
+    let idle = |at: &Path, message: &str| {
+        let diagnostic = evaluator.diagnostic_at_key(at, message);
+        Err(diagnostic.with_help("a `rigid` body is at rest: remove this, or choose a material"))
+    };
+    if spec.bodies.is_some() {
+        return idle(&path.then("material"), "a body that does not move in a list of bodies");
+    }
+    for face in faces {
+        if face.hold.is_free() {
+            face.hold = Arc::new(FaceAtRest);
+        } else if !face.hold.is_periodic() {
+            let message = format!("the {} face {}", face.name, face.hold.verb());
+            return idle(&path.then("boundary").then(face.name), &message);
+        }
+    }
+    for (key, stated) in [
+        ("initial_stress", spec.initial_stress.is_some()),
+        ("initial_displacement", spec.initial_displacement.is_some()),
+        ("initial_velocity", spec.initial_velocity.is_some()),
+        ("sets", !spec.sets.as_slice().is_empty()),
+    ] {
+        if stated {
+            return idle(&path.then(key), &format!("`{key}` of a body that does not move"));
+        }
+    }
+    let moves = |load: &LoadSpec| !load.keys().acts_at_rest();
+    match spec.loads.iter().position(moves) {
+        Some(i) => idle(&path.then("loads").then(i), "a load on a body that does not move"),
+        None => Ok(()),
+    }
+}
+
+/// The state that the scene states, plane strain unless it does.
+fn plane(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &SceneSpec,
+    dimension: usize,
+) -> Result<PlaneState, Diagnostic> {
+    let Some(plane) = spec.plane else { return Ok(PlaneState::Strain) };
+    if dimension != 2 {
+        let message = format!("a plane, and the scene is {dimension}-D");
+        return Err(evaluator
+            .diagnostic(&path.then("plane"), &message)
+            .with_label("expected in a scene of `dimension: 2`"));
+    }
+    if plane == PlaneState::Axisymmetric && spec.bodies.is_some() {
+        let message = "`plane: axisymmetric`, and several bodies are not known to be of revolution";
+        return Err(evaluator.diagnostic_at_key(&path.then("bodies"), message));
+    }
+    for (i, load) in spec.loads.iter().enumerate() {
+        if let Some(reason) = load.keys().against_plane(plane) {
+            let message = format!("`plane: {}`, and {reason}", plane.name());
+            return Err(evaluator.diagnostic_at_key(&load.path(i), &message));
+        }
+    }
+    Ok(plane)
+}
+
+/// Refuses a material whose law is not known in the state across the plane; `path` is that of the
+/// material.
+fn knows(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    material: &MaterialPlan,
+    plane: PlaneState,
+) -> Result<(), Diagnostic> {
+    if material.in_plane::<2>(plane).is_some() {
+        return Ok(());
+    }
+    let name = material.name();
+    let message = format!("the law `{name}` is not known in plane stress, where sigma_33 = 0");
+    let diagnostic = evaluator.diagnostic_at_key(&path.then(name), &message);
+    Err(diagnostic.with_help("take `linear_elastic`, `neo_hookean` or `hencky`"))
+}
+
+/// Refuses a body that cannot be turned about the axis, where the first coordinate is zero.
+fn revolves(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), Diagnostic> {
+    if scene.plane != PlaneState::Axisymmetric {
+        return Ok(());
+    }
+    let help = "the first coordinate of the meridian plane is the radius";
+    let body = path.then("body");
+    if scene.mapped.is_some() {
+        let message = "`plane: axisymmetric`, and quadrilaterals are not known to be of revolution";
+        return Err(evaluator.diagnostic_at_key(&body, message));
+    }
+    if !scene.initial_stress.is_none() {
+        let message = "`plane: axisymmetric`, and an initial stress has no word for its hoops";
+        return Err(evaluator.diagnostic_at_key(&path.then("initial_stress"), message));
+    }
+    if scene.from[0] < 0.0 {
+        let message = format!("the body begins at a radius of {}", shown(scene.from[0]));
+        return Err(evaluator.diagnostic_at_key(&body, &message).with_help(help));
+    }
+    if scene.outline.is_some() && scene.from[0] == 0.0 {
+        let message = "the rim of the body is free, and reaches the axis, which nothing leaves";
+        let diagnostic = evaluator.diagnostic_at_key(&body, message);
+        return Err(diagnostic.with_help("move it to larger radii, or take a `box`"));
+    }
+    let mut faces = scene.faces.iter().filter(|face| face.axis == 0);
+    if let Some(face) = faces.clone().find(|face| face.hold.is_periodic()) {
+        let message = format!("a radius has no period, and the face `{}` is periodic", face.name);
+        let at = path.then("boundary").then(face.name);
+        return Err(evaluator.diagnostic_at_key(&at, &message).with_help(help));
+    }
+    let is_axis = |face: &SceneFace| !face.high && scene.from[0] == 0.0;
+    if let Some(face) = faces.find(|face| is_axis(face) && face.hold.name() != "roller") {
+        let message = format!("the {} face is the axis, and {}", face.name, face.hold.verb());
+        let diagnostic = evaluator.diagnostic_at_key(&path.then("boundary"), &message);
+        return Err(diagnostic.with_help("state `left: roller`: nothing leaves the axis"));
+    }
+    Ok(())
 }

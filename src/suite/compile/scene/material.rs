@@ -1,20 +1,20 @@
-//! The material of a body, from words.
+//! The material of a body, and the state in which the body starts.
 
+use super::bodies::Listed;
+use crate::exact::InitialStress;
+use crate::exact::formula::Formula;
 use crate::mpm::{MaterialPlan, MaterialSpec, Range};
-use crate::suite::compile::coordinates::COORDINATES;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::shown;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time, shown};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// The material and its density (kg/m3).
 pub(crate) fn material(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &MaterialSpec<NumberText>,
+    spec: &MaterialSpec<NumberText>,
 ) -> Result<(MaterialPlan, f64), Diagnostic> {
-    let path = path.then(words.name());
-    let material = words.numbers(|key, parameter, text| {
+    let path = path.then(spec.name());
+    let material = spec.numbers(|key, parameter, text| {
         let at = path.then(key);
         let value = match parameter.range {
             Range::Positive => evaluator.positive(&at, text, parameter.what),
@@ -83,4 +83,94 @@ fn poissons_ratio(
     }
     let message = format!("Poisson's ratio is {poisson}");
     Err(evaluator.unusable(path, text, &message, "expected a number above -1 and below 0.5"))
+}
+
+/// Components of a stress, each with its row and column.
+const COMPONENTS: [(&str, usize, usize); 6] =
+    [("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("yz", 1, 2), ("xz", 0, 2)];
+
+/// The initial displacement (m); empty: not stated.
+///
+/// # Errors
+/// A complaint about a `material` that cannot start deformed, or about a formula.
+pub(crate) fn displacement(
+    evaluator: &Evaluator<'_>,
+    own: &Listed<'_>,
+    dimension: usize,
+    material: &MaterialPlan,
+) -> Result<Vec<Formula>, Diagnostic> {
+    let path = own.at.then("initial_displacement");
+    let Some(texts) = own.initial_displacement else { return Ok(Vec::new()) };
+    let admitted = material.properties().starts_deformed();
+    admit(evaluator, &path, material, admitted, "cannot start deformed")?;
+    evaluator.vector(&path, texts, dimension, &coordinates_and_time(dimension))
+}
+
+/// The initial velocity (m/s); empty: not stated.
+///
+/// # Errors
+/// A complaint about a formula.
+pub(crate) fn velocity(
+    evaluator: &Evaluator<'_>,
+    own: &Listed<'_>,
+    dimension: usize,
+) -> Result<Vec<Formula>, Diagnostic> {
+    let path = own.at.then("initial_velocity");
+    let variables = coordinates_and_time(dimension);
+    own.initial_velocity
+        .map_or(Ok(Vec::new()), |texts| evaluator.vector(&path, texts, dimension, &variables))
+}
+
+/// The stress of the reference configuration.
+///
+/// # Errors
+/// A complaint about a `material` that cannot have one, about a component that the scene has no
+/// axes for, or about a formula.
+pub(crate) fn stress(
+    evaluator: &Evaluator<'_>,
+    own: &Listed<'_>,
+    dimension: usize,
+    material: &MaterialPlan,
+) -> Result<InitialStress, Diagnostic> {
+    let path = own.at.then("initial_stress");
+    let Some(spec) = own.initial_stress else { return Ok(InitialStress::default()) };
+    let admitted = material.properties().starts_stressed();
+    admit(evaluator, &path, material, admitted, "has no initial stress")?;
+    let texts = [&spec.xx, &spec.yy, &spec.zz, &spec.xy, &spec.yz, &spec.xz];
+    let mut components = Vec::new();
+    for ((name, i, j), text) in COMPONENTS.into_iter().zip(texts) {
+        let Some(text) = text else { continue };
+        let at = path.then(name);
+        if i.max(j) >= dimension {
+            let message = format!("`{name}` is no component in a scene of dimension {dimension}");
+            return Err(evaluator.diagnostic_at_key(&at, &message).with_help(&known(dimension)));
+        }
+        components.push((i, j, evaluator.formula(&at, text, &COORDINATES[..dimension])?));
+    }
+    if components.is_empty() {
+        let diagnostic = evaluator.diagnostic(&path, "an initial stress without a component");
+        return Err(diagnostic.with_help(&known(dimension)));
+    }
+    Ok(InitialStress::new(components))
+}
+
+/// The components that a scene can state.
+fn known(dimension: usize) -> String {
+    let inside = COMPONENTS.iter().filter(|(_, i, j)| *i.max(j) < dimension);
+    let names: Vec<String> = inside.map(|(name, ..)| format!("`{name}`")).collect();
+    format!("components: {}", names.join(", "))
+}
+
+/// Refuses what the law of `material` does not admit; `lacks` follows its name in the message.
+fn admit(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    material: &MaterialPlan,
+    admitted: Result<(), &'static str>,
+    lacks: &str,
+) -> Result<(), Diagnostic> {
+    admitted.map_err(|reason| {
+        let message = format!("a `{}` body {lacks}", material.name());
+        evaluator.diagnostic_at_key(path, &message).with_help(reason)
+    })
 }

@@ -1,18 +1,174 @@
-//! The scene: bodies, materials, boundaries and sets.
+//! The scene as a whole: its bodies, and how they lie to each other and on the grid.
 
 pub(crate) mod bodies;
-pub(crate) mod body;
-pub(crate) mod boundary;
-pub(crate) mod boxes;
-pub(crate) mod face;
-pub(crate) mod initial;
-pub(crate) mod lengths;
-pub(crate) mod material;
+mod body;
+mod material;
 pub(crate) mod outline;
-mod plane;
-pub(crate) mod rest;
-mod revolution;
-pub(crate) mod scene_words;
-pub(crate) mod sets;
-mod together;
-pub(crate) mod whole;
+mod sets;
+
+use crate::exact::Polygon;
+use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::grammar::SceneSpec;
+use crate::suite::model::{Scene, SceneFace};
+use crate::suite::scene::boundary::FreeFace;
+use crate::suite::yaml::{Diagnostic, Path};
+use std::sync::Arc;
+
+/// Checks the scene of a suite.
+pub(crate) fn scene(evaluator: &Evaluator<'_>, spec: &SceneSpec) -> Result<Scene, Diagnostic> {
+    let path = Path::top("scene");
+    let listed = bodies::listed(evaluator, &path, spec)?;
+    let contact = bodies::contact(evaluator, &path, spec)?;
+    let each = listed.iter().map(|listed| body::body(evaluator, listed, spec));
+    let each = each.collect::<Result<Vec<Scene>, _>>()?;
+    let scene = together(evaluator, &path, each, spec.bodies.is_some(), contact)?;
+    sets::refuse_idle(evaluator, &path, &scene)?;
+    on_grid(evaluator, &path, &scene)?;
+    let with_rims = scene.each().iter().filter(|body| body.mapped.is_none());
+    for outline in with_rims.filter_map(|body| body.outline.as_deref()) {
+        outline::fits(evaluator, &path, outline, scene.grid.as_ref())?;
+    }
+    Ok(scene)
+}
+
+/// The grid must reach over the body, and a face that is held must lie on the grid's own face: its
+/// nodes are what is held, and a periodic axis ends there. Where the body may start deformed, the
+/// period is that of its motion, which is checked against the grid's.
+fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), Diagnostic> {
+    let Some((from, to)) = &scene.grid else { return Ok(()) };
+    let deforms = scene.material.properties().depends_on_deformation_alone().is_ok();
+    let given = |face: &&SceneFace| !(deforms && face.hold.is_periodic());
+    for face in scene.faces.iter().filter(given) {
+        let (body, grid, key) = if face.high {
+            (scene.to[face.axis], to[face.axis], "to")
+        } else {
+            (scene.from[face.axis], from[face.axis], "from")
+        };
+        let outside = if face.high { grid < body } else { grid > body };
+        let apart = !face.hold.is_free() && grid != body;
+        if outside || apart {
+            let name = face.name;
+            let message = if outside {
+                format!(
+                    "the body's {name} face at {body} is outside the grid, which ends at {grid}"
+                )
+            } else {
+                let verb = face.hold.verb();
+                format!("the {name} face at {body} {verb}, but the grid ends at {grid}")
+            };
+            let at = path.then("grid").then(key).then(face.axis);
+            let beyond = if face.high { "at least" } else { "at most" };
+            let label = if apart { "exactly" } else { beyond };
+            let label = format!("expected {label} {}", shown(body));
+            return Err(evaluator.diagnostic(&at, &message).with_label(&label));
+        }
+    }
+    Ok(())
+}
+
+/// The scene of all `bodies`: the first one's, if they are not a list.
+fn together(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    mut bodies: Vec<Scene>,
+    several: bool,
+    contact: Option<f64>,
+) -> Result<Scene, Diagnostic> {
+    let Some(first) = bodies.first() else {
+        return Err(evaluator.diagnostic(path, "a scene without a body"));
+    };
+    let mut scene = Scene { contact, ..first.clone() };
+    if !several {
+        return Ok(scene);
+    }
+    (scene.outline, scene.mapped) = (None, None);
+    for body in &bodies {
+        for axis in 0..scene.from.len() {
+            scene.from[axis] = scene.from[axis].min(body.from[axis]);
+            scene.to[axis] = scene.to[axis].max(body.to[axis]);
+        }
+    }
+    apart(evaluator, path, &bodies)?;
+    let mut faces = scene.faces.iter();
+    let against = faces.find_map(|face| Some((face.name, face.hold.against_several_bodies()?)));
+    if let Some((name, why)) = against {
+        return Err(evaluator.diagnostic_at_key(&path.then("boundary").then(name), why));
+    }
+    for body in &mut bodies {
+        inner_faces_are_free(body, &scene);
+    }
+    scene.bodies = bodies;
+    Ok(scene)
+}
+
+/// Walls hold the faces of a body that lie on those of the box around all bodies.
+fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
+    for face in &mut body.faces {
+        let axis = face.axis;
+        let at_wall = if face.high {
+            body.to[axis] == scene.to[axis]
+        } else {
+            body.from[axis] == scene.from[axis]
+        };
+        if !at_wall {
+            face.hold = Arc::new(FreeFace);
+        }
+    }
+    if body.outline.is_some() && body.mapped.is_none() {
+        body.faces.clear();
+    }
+}
+
+/// No two bodies have a place in common.
+fn apart(evaluator: &Evaluator<'_>, path: &Path, bodies: &[Scene]) -> Result<(), Diagnostic> {
+    for (i, body) in bodies.iter().enumerate() {
+        if let Some(k) = bodies[..i].iter().position(|other| overlap(body, other)) {
+            let message = format!("body {} and body {} have places in common", k + 1, i + 1);
+            let at = path.then("bodies").then(i).then("body");
+            return Err(evaluator.diagnostic_at_key(&at, &message));
+        }
+    }
+    Ok(())
+}
+
+/// Whether two bodies overlap; a ring counts as a disk.
+fn overlap(one: &Scene, other: &Scene) -> bool {
+    let boxes = (0..one.from.len())
+        .all(|axis| one.from[axis] < other.to[axis] && other.from[axis] < one.to[axis]);
+    let ball = |body: &'_ Scene| -> Option<(Vec<f64>, f64)> {
+        let (centre, radius) = body.outline.as_ref()?.ball()?;
+        Some((centre.to_vec(), radius))
+    };
+    boxes
+        && match (ball(one), ball(other)) {
+            (Some((centre, radius)), Some((other, other_radius))) => {
+                let ends = centre.iter().zip(&other);
+                ends.fold(0.0, |all, (a, b)| libm::hypot(all, b - a)) < radius + other_radius
+            }
+            (Some((centre, radius)), None) => distance(other, &centre) < radius,
+            (None, Some((centre, radius))) => distance(one, &centre) < radius,
+            (None, None) => match (polygon(one), polygon(other)) {
+                (Some(one), Some(other)) => one.overlaps(&other),
+                _ => true,
+            },
+        }
+}
+
+/// Distance (m) of a place from a body.
+fn distance(body: &Scene, place: &[f64]) -> f64 {
+    if let Some(outline) = &body.outline {
+        return outline.distance(place);
+    }
+    let ends = body.from.iter().zip(&body.to).zip(place);
+    ends.fold(0.0, |all, ((from, to), x)| libm::hypot(all, x.clamp(*from, *to) - x))
+}
+
+/// A body in the plane with straight sides.
+fn polygon(body: &Scene) -> Option<Polygon> {
+    let ([left, bottom], [right, top]) = (&body.from[..], &body.to[..]) else { return None };
+    let corners = match &body.outline {
+        Some(outline) => outline.trace().into_iter().map(<[f64; 2]>::from).collect(),
+        None => vec![[*left, *bottom], [*right, *bottom], [*right, *top], [*left, *top]],
+    };
+    Polygon::new("polygon", &corners).ok()
+}

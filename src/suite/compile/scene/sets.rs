@@ -1,14 +1,12 @@
 //! Sets of particles, and what acts on them.
 
-use super::boxes;
+use super::outline;
 use crate::exact::{Outline, Region};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::{shown, suggestion};
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{SceneSpec, SetSpec};
-use crate::suite::model::load::LoadTarget;
-use crate::suite::model::scene::{FACES, Scene};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::scene::load::LoadTarget;
+use crate::suite::scene::{Scene, face::FACES};
+use crate::suite::yaml::{Diagnostic, Path};
 
 /// Share of a box that is no more than rounding.
 const SLIVER: f64 = 1e-12;
@@ -17,15 +15,15 @@ const SLIVER: f64 = 1e-12;
 pub(crate) fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneSpec,
+    spec: &SceneSpec,
     corners: (&[f64], &[f64]),
     outline: Option<&dyn Outline>,
 ) -> Result<Vec<Region>, Diagnostic> {
-    let declare = |(name, SetSpec::Box(words)): &(String, SetSpec)| {
+    let declare = |(name, SetSpec::Box(spec)): &(String, SetSpec)| {
         let at = path.then("sets").then(name.as_str());
         refuse_face_name(evaluator, &at, name)?;
         let at = at.then("box");
-        let (from, to) = boxes::corners(evaluator, &at, words, corners.0.len())?;
+        let (from, to) = outline::corners(evaluator, &at, spec, corners.0.len())?;
         let set = Region { name: name.clone(), from, to };
         refuse_outside(evaluator, &at, &set, corners)?;
         if let Some(outline) = outline {
@@ -33,7 +31,7 @@ pub(crate) fn declared(
         }
         Ok(set)
     };
-    words.sets.as_slice().iter().map(declare).collect()
+    spec.sets.as_slice().iter().map(declare).collect()
 }
 
 /// A set that is called like a face could be taken for it.
@@ -82,39 +80,6 @@ fn refuse_beside(
     let message = format!("the set `{}` has no part of the {}", set.name, outline.kind());
     let label = format!("the body is a {}", outline.row());
     Err(evaluator.diagnostic(&path.then("from"), &message).with_label(&label))
-}
-
-/// Tractions and pressures are forces per area, which a set does not have.
-pub(crate) fn refuse_surface_load(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    load: &str,
-    name: &str,
-    sets: &[Region],
-) -> Result<(), Diagnostic> {
-    if sets.iter().all(|set| set.name != name) {
-        return Ok(());
-    }
-    let message = format!("`{name}` is a set, and a {load} acts on a face");
-    let help = format!("give the total force: `force: {{on: {name}, value: [...]}}`");
-    Err(evaluator.diagnostic(path, &message).with_help(&help))
-}
-
-/// Number of the set that a suite calls `name`.
-pub(crate) fn number(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    name: &str,
-    sets: &[Region],
-) -> Result<usize, Diagnostic> {
-    sets.iter().position(|set| set.name == name).ok_or_else(|| {
-        let diagnostic = evaluator.diagnostic(path, &format!("there is no set `{name}`"));
-        let known: Vec<&str> = sets.iter().map(|set| set.name.as_str()).collect();
-        diagnostic.with_help(&match known[..] {
-            [] => format!("declare it: `sets: {{{name}: {{box: {{from: [...], to: [...]}}}}}}`"),
-            _ => suggestion("sets", name, &known),
-        })
-    })
 }
 
 /// A set that nothing acts on is a slip of the pen.

@@ -1,11 +1,9 @@
 //! Expectations of the rows of a stability study.
 
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::wording::suggestion;
+use crate::suite::evaluator::{Evaluator, suggestion};
 use crate::suite::grammar::{FigureSpec, StabilityExpectSpec};
 use crate::suite::model::stability::SetupTemplate;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{FigureBounds, RunFigure, StabilityExpectation};
 
 /// The figures that an entry of `expect` speaks of.

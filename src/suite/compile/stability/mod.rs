@@ -1,15 +1,200 @@
 //! The stability study: a parameter is swept, and every run ends in a verdict.
 //!
 //! ```text
-//! setup    values of the parameters -> the set-up of a run
-//! scales   scales and bounds that a run is judged by
-//! plan     specification -> cases, each with an expectation of every row
+//! setup    values of the parameters -> the set-up of a run, its scales and bounds
 //! expect   the expectations
 //! ```
 
 pub(crate) mod expect;
-pub(crate) mod plan;
-pub(crate) mod scales;
 pub(crate) mod setup;
 
-pub(crate) use plan::plan;
+use crate::mpm::{MaterialPlan, combine, combine_across};
+use crate::subject::PlaneState;
+use crate::suite::compile::expect::assign;
+use crate::suite::compile::run::methods::{count, methods, named};
+use crate::suite::compile::truth::law_of_bar;
+use crate::suite::evaluator::{Evaluator, shown, suggestion};
+use crate::suite::grammar::{MethodSpec, StabilitySpec};
+use crate::suite::model::method::Method;
+use crate::suite::model::stability::{SetupTemplate, StabilityCase, StabilityPlan};
+use crate::suite::yaml::{Diagnostic, Path, Source};
+use setup::setup;
+
+/// Most rows and most cases of a study.
+const MOST: usize = 500;
+
+/// Checks a stability study.
+pub(crate) fn plan(
+    evaluator: &Evaluator<'_>,
+    source: &Source,
+    spec: &StabilitySpec,
+) -> Result<StabilityPlan, Diagnostic> {
+    few(evaluator, spec)?;
+    let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
+    // The values of the suite itself come first: they mark parameters as used.
+    let base = setup(evaluator, spec)?;
+    let (swept, values) = sweep(evaluator, spec)?;
+    let sought = sought(evaluator, spec, &swept)?;
+    let mut material = base.scene.material;
+    for value in &values {
+        let ends = sought.as_ref().map_or(vec![None], |(name, from, to)| {
+            vec![Some((name.as_str(), *from)), Some((name.as_str(), *to))]
+        });
+        for end in ends {
+            let mut with = vec![(swept.as_str(), *value)];
+            with.extend(end);
+            material = template.setup(&with)?.scene.material;
+        }
+    }
+    let drafts = drafts(evaluator, spec, &material, base.scene.plane)?;
+    let cases = cases(evaluator, &template, spec, drafts, (&swept, &values, sought.is_some()))?;
+    let mut figures = spec.show.clone();
+    for entry in &spec.expect {
+        for figure in expect::named(evaluator, &Path::top("expect"), entry)? {
+            if !figures.contains(&figure) {
+                figures.push(figure);
+            }
+        }
+    }
+    let frozen = spec.run.frozen;
+    Ok(StabilityPlan { template, swept, values, sought, frozen, figures, cases })
+}
+
+/// The parameter that is swept, and its values.
+fn sweep(
+    evaluator: &Evaluator<'_>,
+    spec: &StabilitySpec,
+) -> Result<(String, Vec<f64>), Diagnostic> {
+    let path = Path::top("sweep");
+    let [(name, list)] = spec.sweep.as_slice() else {
+        let diagnostic = evaluator.diagnostic(&path, "one parameter is swept at a time");
+        return Err(diagnostic.with_label("expected a parameter and its values"));
+    };
+    let path = path.then(name.as_str());
+    declared(evaluator, &path, spec, name)?;
+    let values = list
+        .as_slice()
+        .iter()
+        .enumerate()
+        .map(|(i, text)| evaluator.number(&path.alternative(list, i), text))
+        .collect::<Result<Vec<f64>, _>>()?;
+    if values.len() > MOST {
+        let message = format!("{} values of one parameter", values.len());
+        let diagnostic = evaluator.diagnostic(&path, &message);
+        return Err(diagnostic.with_label(&format!("expected at most {MOST}")));
+    }
+    Ok((name.clone(), values))
+}
+
+/// Only what the suite declares can be swept or sought.
+fn declared(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &StabilitySpec,
+    name: &str,
+) -> Result<(), Diagnostic> {
+    if spec.parameters.get(name).is_some() {
+        return Ok(());
+    }
+    let known: Vec<&str> =
+        spec.parameters.as_slice().iter().map(|(name, _)| name.as_str()).collect();
+    let diagnostic =
+        evaluator.diagnostic(path, &format!("`{name}` is not a parameter of this suite"));
+    Err(diagnostic.with_help(&suggestion("parameters", name, &known)))
+}
+
+/// The parameter whose limit is sought, and the range.
+fn sought(
+    evaluator: &Evaluator<'_>,
+    spec: &StabilitySpec,
+    swept: &str,
+) -> Result<Option<(String, f64, f64)>, Diagnostic> {
+    let Some(critical) = &spec.critical else { return Ok(None) };
+    let path = Path::top("critical");
+    declared(evaluator, &path.then("parameter"), spec, &critical.parameter)?;
+    if critical.parameter == swept {
+        let message = format!("`{swept}` is swept, and its limit sought");
+        return Err(evaluator.diagnostic(&path.then("parameter"), &message));
+    }
+    let from = evaluator.positive(&path.then("from"), &critical.from, "the start of the range")?;
+    let to = evaluator.positive(&path.then("to"), &critical.to, "the end of the range")?;
+    if from < to {
+        return Ok(Some((critical.parameter.clone(), from, to)));
+    }
+    let message = format!("the range ends at {} and starts at {}", shown(to), shown(from));
+    Err(evaluator.diagnostic(&path.then("to"), &message).with_label("expected a larger number"))
+}
+
+/// Refuses products of lists that are too long, before anything is computed for them.
+fn few(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<(), Diagnostic> {
+    let mut all = 0_usize;
+    for (i, spec) in spec.methods.iter().enumerate() {
+        all = all.saturating_add(count(spec));
+        if all > MOST {
+            let path = Path::top("methods").then(i);
+            return Err(evaluator.diagnostic(&path, &format!("more than {MOST} cases")));
+        }
+    }
+    Ok(())
+}
+
+/// The product of the lists of `methods`.
+fn drafts(
+    evaluator: &Evaluator<'_>,
+    spec: &StabilitySpec,
+    material: &MaterialPlan,
+    plane: PlaneState,
+) -> Result<Vec<(String, Method)>, Diagnostic> {
+    let own = law_of_bar(material).unwrap_or_default();
+    let mut drafts = Vec::new();
+    for (i, spec) in spec.methods.iter().enumerate() {
+        let path = Path::top("methods").then(i);
+        if matches!(spec, MethodSpec::Fem { .. } | MethodSpec::External { .. }) {
+            return Err(evaluator.diagnostic(&path, "stability is studied of MPM only"));
+        }
+        for draft in methods(evaluator, i, spec, own)? {
+            if let Method::Mpm { basis, transfer, mass, frame, .. } = draft.method {
+                let across = |()| combine_across(plane, basis, transfer);
+                combine(basis, transfer, mass, frame).and_then(across).map_err(|reason| {
+                    let help = "give what goes together an entry of `methods` of its own";
+                    evaluator.diagnostic(&path, &reason).with_help(help)
+                })?;
+            }
+            drafts.push(draft);
+        }
+    }
+    let named = named(evaluator, drafts)?;
+    Ok(named.into_iter().map(|draft| (draft.name, draft.method)).collect())
+}
+
+fn cases(
+    evaluator: &Evaluator<'_>,
+    template: &SetupTemplate,
+    spec: &StabilitySpec,
+    drafts: Vec<(String, Method)>,
+    (swept, values, seeks): (&str, &[f64], bool),
+) -> Result<Vec<StabilityCase>, Diagnostic> {
+    let names: Vec<&str> = drafts.iter().map(|(name, _)| name.as_str()).collect();
+    let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, &selectors, &names)?;
+    let rows: Vec<Vec<(&str, f64)>> = values.iter().map(|value| vec![(swept, *value)]).collect();
+    let expected = spec
+        .expect
+        .iter()
+        .enumerate()
+        .map(|(i, spec)| {
+            let path = Path::top("expect").then(i);
+            Ok((
+                expect::rows((evaluator, template), spec, i, &rows, seeks)?,
+                evaluator.because(&path, "an expectation", &spec.because)?,
+            ))
+        })
+        .collect::<Result<Vec<_>, Diagnostic>>()?;
+    let predicted = seeks && spec.run.frozen;
+    let case = |((name, method), owner): ((String, Method), Option<usize>)| {
+        let (expected, because) = owner.map(|owner| expected[owner].clone()).unwrap_or_default();
+        let summary = owner.map(|owner| expect::summary(&spec.expect[owner], predicted));
+        StabilityCase { name, method, expected, summary, because, gating: None }
+    };
+    Ok(drafts.into_iter().zip(owners).map(case).collect())
+}

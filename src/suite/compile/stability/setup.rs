@@ -3,21 +3,17 @@
 //! Any parameter can be swept, because nothing is computed before its value is known: the
 //! specification is evaluated once more for every value.
 
-use super::scales::scales;
 use crate::suite::compile::check::size;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::run::step_rule;
-use crate::suite::compile::scene::scene_words::SceneWords;
-use crate::suite::compile::scene::whole;
-use crate::suite::compile::wording::shown;
+use crate::suite::compile::run::refine::{stable_share, step_formula};
+use crate::suite::compile::scene;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ParameterSpec, StabilitySpec};
 use crate::suite::model::Scene;
-use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::{LatticeEdits, SetupTemplate};
-use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
-use crate::verify::Scales;
+use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
+use crate::verify::{RunFigure, Scales};
 
 /// Size of the perturbations that a frozen run starts with: in it, nothing else moves.
 const PERTURBATION: f64 = 1e-9;
@@ -57,33 +53,18 @@ impl SetupTemplate {
         Ok(Evaluator::new(&self.source, &parameters, &self.spec.functions)?.0)
     }
 
-    /// The words of the scene, which no value of a parameter changes.
-    pub(crate) fn words(&self) -> Result<SceneWords<'_>, Diagnostic> {
-        SceneWords::read(&self.source, &self.spec.scene)
-    }
-
     /// The run with these values.
     pub(crate) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, Diagnostic> {
-        self.setup_of(&self.words()?, values)
-    }
-
-    /// The same, of words that have been read: for many values.
-    pub(crate) fn setup_of(
-        &self,
-        words: &SceneWords<'_>,
-        values: &ParameterValues<'_>,
-    ) -> Result<RunSetup, Diagnostic> {
-        setup(&self.evaluator(values)?, words, &self.spec)
+        setup(&self.evaluator(values)?, &self.spec)
     }
 }
 
 /// The set-up that `spec` describes.
 pub(crate) fn setup(
     evaluator: &Evaluator<'_>,
-    words: &SceneWords<'_>,
     spec: &StabilitySpec,
 ) -> Result<RunSetup, Diagnostic> {
-    let scene = whole::scene(evaluator, words)?;
+    let scene = scene::scene(evaluator, &spec.scene)?;
     let d = scene.dimension();
     let particles = Path::top("particles");
     let at = particles.then("cells");
@@ -106,8 +87,8 @@ pub(crate) fn setup(
         Err(evaluator.diagnostic(&at, &message).with_label("expected a positive number"))
     };
     let at_dt = run.then("dt");
-    let rule = step_rule::share(evaluator, &at_dt, &spec.run.dt)?;
-    let dt = length("dt", &step_rule::formula_text(evaluator, &at_dt, &spec.run.dt, &scene)?)?;
+    let rule = stable_share(evaluator, &at_dt, &spec.run.dt)?;
+    let dt = length("dt", &step_formula(evaluator, &at_dt, &spec.run.dt, &scene)?)?;
     let every = turns(evaluator, spec)?;
     if let (Some(_), Some(_)) = (rule, &spec.run.alternate) {
         let message = "steps of a length chosen by a rule take no turns with others";
@@ -221,4 +202,69 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
         "a frozen body rests without stress, and this one is loaded, driven or starts otherwise";
     let diagnostic = evaluator.diagnostic_at_key(&Path::top("run").then("frozen"), message);
     Err(diagnostic.with_help("remove what the scene states of it; `perturb` starts the run"))
+}
+
+/// Energy, over that at the start, up to which a run is stable: above what the exchange between
+/// velocities and stresses makes of a random start just below the limit of a leapfrog.
+const STABLE_BELOW: f64 = 1e3;
+
+/// Energy beyond which a run is unstable.
+const UNSTABLE_ABOVE: f64 = 1e8;
+
+/// Scales and bounds of the runs of `scene`.
+fn scales(
+    evaluator: &Evaluator<'_>,
+    spec: &StabilitySpec,
+    scene: &Scene,
+) -> Result<Scales, Diagnostic> {
+    let modulus = scene
+        .each()
+        .iter()
+        .map(|body| body.material.properties().wave_modulus())
+        .fold(0.0, f64::max);
+    let path = Path::top("run");
+    let bound = |key: &str, text: &Option<NumberText>, default: f64| {
+        let at = path.then(key);
+        text.as_ref().map_or(Ok(default), |text| evaluator.positive(&at, text, "the bound"))
+    };
+    let stable_below = bound("stable_below", &spec.run.stable_below, STABLE_BELOW)?;
+    let unstable_above = bound("unstable_above", &spec.run.unstable_above, UNSTABLE_ABOVE)?;
+    if !(stable_below <= unstable_above) {
+        let message = format!(
+            "a run is stable below {} and unstable above {}",
+            shown(stable_below),
+            shown(unstable_above)
+        );
+        return Err(evaluator.diagnostic_at_key(&path, &message));
+    }
+    let speed = scene.fastest_wave();
+    let centred = scene.faces.iter().all(|face| !face.hold.is_held());
+    let null_space = of_null_space(evaluator, spec, scene)?;
+    Ok(Scales { speed, modulus, stable_below, unstable_above, centred, null_space })
+}
+
+/// Whether a requested figure needs the null space of the grid, which is known of one body only.
+fn of_null_space(
+    evaluator: &Evaluator<'_>,
+    spec: &StabilitySpec,
+    scene: &Scene,
+) -> Result<bool, Diagnostic> {
+    let shown = spec.show.iter().enumerate();
+    let shown = shown.map(|(i, figure)| (Path::top("show").then(i), *figure));
+    let expected = spec.expect.iter().enumerate().flat_map(|(i, entry)| {
+        let path = Path::top("expect").then(i).then("figures");
+        let named = entry.figures.as_slice().iter().filter_map(|(name, _)| {
+            RunFigure::ALL.iter().copied().find(|figure| figure.name() == name)
+        });
+        named.map(move |figure| (path.then(figure.name()), figure))
+    });
+    let Some((path, figure)) = shown.chain(expected).find(|(_, f)| f.is_of_null_space()) else {
+        return Ok(false);
+    };
+    if scene.bodies.is_empty() {
+        return Ok(true);
+    }
+    let name = figure.name();
+    let message = format!("`{name}` is a figure of one body, and the scene has several");
+    Err(evaluator.diagnostic(&path, &message))
 }

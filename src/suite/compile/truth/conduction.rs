@@ -1,17 +1,105 @@
-//! The heat problem that a stated temperature is to solve, and the methods that know of heat.
+//! Heat problems that a stated temperature is to solve, in bodies that move or are at rest, and the
+//! methods that know of heat.
 
-use super::tolerance::if_rounded;
+use super::tolerance::{if_rounded, tolerance};
 use crate::exact::Motion;
 
 use crate::exact::heat::{Conduction, Temperature};
 use crate::mpm::{FrameName, TransferKind};
-use crate::suite::compile::coordinates::coordinates_and_time;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
+use crate::suite::evaluator::{Evaluator, coordinates_and_time};
+use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec};
 use crate::suite::model::Scene;
-use crate::suite::model::heat::ThermalFace;
-use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
+use crate::suite::scene::boundary::thermal::ThermalFace;
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
+
+/// The heat problem of a body at rest, checked; none where the body moves.
+pub(crate) fn conduction(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+    until: f64,
+) -> Result<Option<Conduction>, Diagnostic> {
+    refuse_methods_of_other_bodies(evaluator, spec, scene)?;
+    refuse_methods_without_heat(evaluator, spec, scene)?;
+    if !scene.is_at_rest() {
+        return Ok(None);
+    }
+    judged(evaluator, spec)?;
+    let (path, temperature, stated, manufactured) = match (&spec.exact, &spec.manufactured) {
+        (Some(exact), None) => {
+            ("exact", exact.temperature.as_ref(), exact.tolerance.as_ref(), false)
+        }
+        (None, Some(made)) => ("manufactured", made.temperature.as_ref(), None, true),
+        _ => {
+            let at = Path::top("scene").then("material");
+            let message = "a body at rest has one truth: a temperature, `exact` or `manufactured`";
+            return Err(evaluator.diagnostic(&at, message));
+        }
+    };
+    let path = Path::top(path);
+    let tolerance = tolerance(evaluator, &path, stated)?;
+    let inputs = ConductionInputs { motion: None, manufactured, until, tolerance };
+    let found = problem(evaluator, &path, temperature, scene, inputs)?;
+    let Some(found) = found else {
+        let at = Path::top("scene").then("material");
+        let diagnostic = evaluator.diagnostic(&at, "nothing happens to a body at rest");
+        return Err(diagnostic.with_help("add `heat` to `loads`, or choose a material"));
+    };
+    refuse_wrong_temperature(evaluator, &path, &found)?;
+    Ok(Some(found))
+}
+
+/// Bodies at rest have methods of their own.
+fn refuse_methods_of_other_bodies(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+) -> Result<(), Diagnostic> {
+    let at_rest = scene.is_at_rest();
+    let fits = |method: &MethodSpec| matches!(method, MethodSpec::Heat { .. }) == at_rest;
+    let Some(i) = spec.methods.iter().position(|method| !fits(method)) else { return Ok(()) };
+    let name = scene.material.name();
+    let (message, help) = if at_rest {
+        (format!("a `{name}` body does not move"), "its method is `heat: {basis: linear}`")
+    } else {
+        (format!("a `{name}` body moves"), "`heat` is the method of a `rigid` one; this is `mpm`")
+    };
+    Err(evaluator.diagnostic(&Path::top("methods").then(i), &message).with_help(help))
+}
+
+/// Refuses what is judged, observed, expected or stated of a motion.
+fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
+    if spec.judge.of.is_of_motion() {
+        let message = "nothing moves, and what is judged belongs to a motion";
+        let diagnostic = evaluator.diagnostic(&Path::top("scene").then("material"), message);
+        return Err(diagnostic.with_help("add `judge: {of: temperature}`"));
+    }
+    let moves = |exact: &ExactSpec| {
+        [
+            ("equation", exact.equation.is_some()),
+            ("displacement", exact.displacement.is_some()),
+            ("linearised", exact.linearised.is_some()),
+        ]
+    };
+    let exact = spec.exact.as_ref().map(moves).into_iter().flatten();
+    let made = spec.manufactured.as_ref().map(|made| ("displacement", made.displacement.is_some()));
+    let stated = exact
+        .map(|(key, stated)| (Path::top("exact").then(key), stated))
+        .chain(made.map(|(key, stated)| (Path::top("manufactured").then(key), stated)))
+        .chain([
+            (Path::top("equilibrium"), spec.equilibrium.is_some()),
+            (Path::top("reference"), spec.reference.is_some()),
+            (Path::top("observe"), spec.observe.is_some()),
+        ]);
+    match stated.into_iter().find(|(_, stated)| *stated) {
+        Some((at, _)) => {
+            let diagnostic =
+                evaluator.diagnostic_at_key(&at, "this speaks of a motion, and nothing moves");
+            Err(diagnostic.with_help("remove it, or choose another material than `rigid`"))
+        }
+        None => Ok(()),
+    }
+}
 
 /// The heat problem of `scene` with the temperature that a suite states at `path`, not yet checked;
 /// none where neither is there.
@@ -64,19 +152,19 @@ pub(crate) fn problem(
 }
 
 /// Refuses methods that know nothing of heat.
-pub(crate) fn methods(
+fn refuse_methods_without_heat(
     evaluator: &Evaluator<'_>,
-    words: &ConvergenceSpec,
+    spec: &ConvergenceSpec,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
     if scene.heat().is_none() {
         return Ok(());
     }
-    if words.reference.is_some() {
+    if spec.reference.is_some() {
         let message = "a reference knows nothing of heat, which flows in the scene";
         return Err(evaluator.diagnostic_at_key(&Path::top("reference"), message));
     }
-    for (i, method) in words.methods.iter().enumerate() {
+    for (i, method) in spec.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
         match method {
             MethodSpec::Heat { .. } | MethodSpec::External { .. } => {}

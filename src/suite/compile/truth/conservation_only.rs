@@ -1,11 +1,10 @@
 //! Suites without a truth: no error is taken, and expectations bound only what a run keeps.
 
 use crate::exact::Truth;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, ExpectSpec};
 use crate::suite::model::{ConvergencePlan, SameMethod};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{Judgement, LevelOutcome, Verdict};
 
 /// The truth of which nothing is known.

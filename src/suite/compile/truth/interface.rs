@@ -5,11 +5,10 @@
 //! rims.
 
 use crate::exact::{Interface, Problem, Survey, Violation, meets};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::ConvergenceSpec;
 use crate::suite::model::Scene;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
 /// Help for two bodies that move as if they could part.

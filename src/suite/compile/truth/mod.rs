@@ -1,10 +1,343 @@
-//! The truth: exact solutions, references, and what is conserved.
+//! The truth of a suite: the exact solution, or the state in which the body comes to rest, checked
+//! before it is used.
+//!
+//! A body is compared with its equilibrium once it is there: at the end of the run.
 
 pub(crate) mod conduction;
 pub(crate) mod conservation_only;
-pub(crate) mod equilibrium;
-pub(crate) mod exact;
-pub(crate) mod interface;
-pub(crate) mod law;
-pub(crate) mod reference;
+mod interface;
 pub(crate) mod tolerance;
+
+use crate::exact::{Equation, Face, Motion, Problem, Survey};
+use crate::fem::BarLaw;
+use crate::mpm::MaterialPlan;
+use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time};
+use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec, NormName};
+use crate::suite::model::{Scene, SceneFace};
+use crate::suite::scene::load::{EffectName, LoadTarget};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use conduction::ConductionInputs;
+use tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
+
+/// Maximum length of a formula of a solution, which is evaluated some 30000 times with all its
+/// derivatives before anything runs.
+const MOST_OPERATIONS: u64 = 5000;
+
+/// The problem that a suite's formulas solve, if it has formulas.
+///
+/// # Errors
+/// A diagnostic at the formula that names the violated condition, where and by how much.
+pub(crate) fn exact(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+    until: f64,
+) -> Result<Option<Problem>, Diagnostic> {
+    if scene.each().iter().any(|body| body.mapped.is_some()) {
+        refuse_truth_of_mapped(evaluator, spec)?;
+    }
+    if !scene.bodies.is_empty() {
+        interface::refuse(evaluator, spec)?;
+    }
+    if let Some(state) = &spec.equilibrium {
+        refuse_equilibrium_with(evaluator, spec, state, scene)?;
+        let path = Path::top("equilibrium");
+        let problem = Problem {
+            at_rest: true,
+            follows_motion: false,
+            ..solution(evaluator, &path, state, (scene, true), until)?
+        };
+        refuse_wrong_solution(evaluator, &path, &problem, &Survey::of(&problem))?;
+        return Ok(Some(problem));
+    }
+    let Some(exact) = &spec.exact else { return manufactured(evaluator, spec, scene, until) };
+    let path = Path::top("exact");
+    if spec.manufactured.is_some() {
+        let message = "a solution is either exact or manufactured";
+        return Err(evaluator.diagnostic_at_key(&Path::top("manufactured"), message));
+    }
+    let problem = solution(evaluator, &path, exact, (scene, false), until)?;
+    if scene.bodies.is_empty() {
+        refuse_wrong_solution(evaluator, &path, &problem, &Survey::of(&problem))?;
+        return Ok(Some(problem));
+    }
+    let each =
+        scene.bodies.iter().map(|body| solution(evaluator, &path, exact, (body, false), until));
+    let bodies = each.collect::<Result<Vec<Problem>, _>>()?;
+    interface::refuse_violated_conditions(
+        evaluator,
+        scene,
+        bodies.clone(),
+        |problem, survey| refuse_wrong_solution(evaluator, &path, problem, survey),
+        |violation| no_solution(evaluator, &path, &violation, problem.tolerance),
+    )?;
+    Ok(Some(Problem { bodies, ..problem }))
+}
+
+/// The scene's problem with the formulas at `path`, not yet checked.
+fn solution(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &ExactSpec,
+    (scene, at_rest): (&Scene, bool),
+    until: f64,
+) -> Result<Problem, Diagnostic> {
+    let tolerance = tolerance(evaluator, path, spec.tolerance.as_ref())?;
+    let linearised = linearised(evaluator, path, spec.linearised.as_ref())?;
+    let (Some(name), Some(texts)) = (spec.equation, &spec.displacement) else {
+        let message = "a body that moves needs an `equation` and a `displacement`";
+        return Err(evaluator.diagnostic_at_key(path, message));
+    };
+    let equation = equation(evaluator, &path.then("equation"), name, (scene, at_rest))?;
+    let motion = motion(evaluator, path, texts, scene.dimension())?;
+    let motion_in_heat = equation.is_finite().then(|| motion.clone());
+    let inputs = ConductionInputs { motion: motion_in_heat, manufactured: false, until, tolerance };
+    let heat = conduction::problem(evaluator, path, spec.temperature.as_ref(), scene, inputs)?;
+    Ok(Problem { heat, tolerance, linearised, ..problem(scene, equation, motion, until) })
+}
+
+/// The equation that a formula is checked against, which must be that of the scene's material.
+fn equation(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    name: EquationName,
+    (scene, at_rest): (&Scene, bool),
+) -> Result<Equation, Diagnostic> {
+    if let Some(equation) = equation_of(&scene.material).filter(|law| law.name() == name.name()) {
+        let admitted = equation.admits(scene.dimension(), at_rest);
+        return admitted
+            .map(|()| equation)
+            .map_err(|[message, help]| evaluator.diagnostic(path, message).with_help(help));
+    }
+    let (name, material) = (name.name(), scene.material.name());
+    let (message, help) = if Equation::NAMES.contains(&name) {
+        (
+            format!("`{name}` is not the problem of a `{material}` material"),
+            "a linear elastic material has `small_strain`, others have the equation of their name",
+        )
+    } else {
+        let message = "a formula is checked against `small_strain`, `neo_hookean`, `hencky` or `corotated` only";
+        (message.to_owned(), "give other equations a `reference`")
+    };
+    Err(evaluator.diagnostic(path, &message).with_help(help))
+}
+
+/// The problem whose body force follows from the motion that the suite states.
+fn manufactured(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+    until: f64,
+) -> Result<Option<Problem>, Diagnostic> {
+    let Some(made) = &spec.manufactured else { return Ok(None) };
+    let path = Path::top("manufactured");
+    let equation = manufactured_law(&scene.material).map_err(|reason| {
+        let message =
+            "a force is manufactured for a `neo_hookean`, `hencky` or `corotated` material";
+        evaluator.diagnostic_at_key(&path, message).with_help(reason)
+    })?;
+    for (key, what, stated) in [
+        ("initial_displacement", "displacement", &scene.initial_displacement),
+        ("initial_velocity", "velocity", &scene.initial_velocity),
+    ] {
+        if !stated.is_empty() {
+            let message = format!("the initial {what} follows from the motion");
+            let at = Path::top("scene").then(key);
+            return Err(evaluator.diagnostic_at_key(&at, &message).with_help("remove it"));
+        }
+    }
+    if scene.lists(EffectName::BodyForce) {
+        let message = "the body force follows from the motion, and the scene states one besides";
+        let help = "remove the `body_force` from `loads`, or state the motion under `exact` to \
+                    have the force checked";
+        return Err(evaluator.diagnostic_at_key(&path, message).with_help(help));
+    }
+    let Some(texts) = &made.displacement else {
+        let message = "a body that moves needs a `displacement`";
+        return Err(evaluator.diagnostic_at_key(&path, message));
+    };
+    let motion = motion(evaluator, &path, texts, scene.dimension())?;
+    let inputs = ConductionInputs {
+        motion: Some(motion.clone()),
+        manufactured: true,
+        until,
+        tolerance: TOLERANCE,
+    };
+    let heat = conduction::problem(evaluator, &path, made.temperature.as_ref(), scene, inputs)?;
+    let problem = Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) };
+    refuse_wrong_solution(evaluator, &path, &problem, &Survey::of(&problem))?;
+    Ok(Some(problem))
+}
+
+/// The scene as a continuum problem, with the motion that is to solve it.
+fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Problem {
+    Problem {
+        from: scene.from.clone(),
+        to: scene.to.clone(),
+        outline: scene.outline.clone(),
+        bodies: Vec::new(),
+        plane: scene.plane,
+        density: scene.density,
+        equation,
+        terms: scene.terms(),
+        heat: None,
+        at_rest: false,
+        manufactured: false,
+        faces: (0..scene.faces.len()).map(|number| face(scene, number)).collect(),
+        follows_motion: scene.material.properties().depends_on_deformation_alone().is_ok(),
+        initial_stress: scene.initial_stress.clone(),
+        initial_displacement: scene.initial_displacement.clone(),
+        initial_velocity: scene.initial_velocity.clone(),
+        until,
+        motion,
+        tolerance: TOLERANCE,
+        linearised: None,
+        shared_forces: None,
+    }
+}
+
+fn refuse_wrong_solution(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    problem: &Problem,
+    survey: &Survey,
+) -> Result<(), Diagnostic> {
+    if let Some(problem) = &problem.heat {
+        conduction::refuse_wrong_temperature(evaluator, path, problem)?;
+    }
+    problem.check_with(survey).map_err(|violation| violated(evaluator, path, problem, &violation))
+}
+
+fn motion(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    displacement: &[NumberText],
+    dimension: usize,
+) -> Result<Motion, Diagnostic> {
+    let variables = coordinates_and_time(dimension);
+    let path = path.then("displacement");
+    let components = evaluator.vector(&path, displacement, dimension, &variables)?;
+    for (i, component) in components.iter().enumerate() {
+        let operations = component.operations();
+        if operations > MOST_OPERATIONS {
+            let message = format!("this formula takes {operations} operations");
+            let label = format!("expected at most {MOST_OPERATIONS}: shorten its sums");
+            return Err(evaluator.diagnostic(&path.then(i), &message).with_label(&label));
+        }
+    }
+    Ok(Motion::new(components))
+}
+
+/// A face with its condition, which is that of the load on it, if there is one: it is free then.
+fn face(scene: &Scene, number: usize) -> Face {
+    let SceneFace { name, axis, high, hold } = &scene.faces[number];
+    let loaded =
+        scene.loads_on(LoadTarget::Face(number)).find_map(|load| load.load.clone().condition());
+    let condition = loaded.unwrap_or_else(|| hold.clone());
+    Face { name, axis: *axis, high: *high, period: scene.period(*axis), condition }
+}
+
+/// Solutions are checked in boxes and bodies with a free rim.
+///
+/// # Errors
+/// A complaint about a truth that is stated.
+fn refuse_truth_of_mapped(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+) -> Result<(), Diagnostic> {
+    let stated = [
+        ("exact", spec.exact.is_some()),
+        ("equilibrium", spec.equilibrium.is_some()),
+        ("manufactured", spec.manufactured.is_some()),
+    ];
+    match stated.iter().find(|(_, stated)| *stated) {
+        Some((key, _)) => {
+            let message = "a solution is checked in a box or a body with a free rim, not in a \
+                           quadrilateral";
+            Err(evaluator.diagnostic_at_key(&Path::top(key), message))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The equation of motion of a body of this material, for which motions the truth has it: J2 where
+/// loading never reverses, a fluid at rest. Material and law are one by the material's name.
+pub(crate) fn equation_of(material: &MaterialPlan) -> Option<Equation> {
+    Equation::of_material(material.name(), |key| material.parameter(key))
+}
+
+/// The equation that forces are manufactured with, or why there is none.
+fn manufactured_law(material: &MaterialPlan) -> Result<Equation, &'static str> {
+    material.properties().depends_on_deformation_alone()?;
+    equation_of(material).ok_or("the law has no equation")
+}
+
+/// Name of the law of an FEM bar of this material, if the FEM has it.
+pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
+    let name = equation_of(material)?.name();
+    BarLaw::find(name).and(EquationName::find(name))
+}
+
+/// Refuses a suite whose `equilibrium` makes no sense beside what else it says.
+fn refuse_equilibrium_with(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    state: &ExactSpec,
+    scene: &Scene,
+) -> Result<(), Diagnostic> {
+    let path = Path::top("equilibrium");
+    let others = [
+        ("exact", spec.exact.is_some()),
+        ("manufactured", spec.manufactured.is_some()),
+        ("reference", spec.reference.is_some()),
+    ];
+    if let Some((other, _)) = others.iter().find(|(_, stated)| *stated) {
+        let message = format!("`{other}` is a motion, and the suite states an equilibrium besides");
+        return Err(evaluator.diagnostic_at_key(&Path::top(other), &message));
+    }
+    // Bound without t, for the complaint that there is no t.
+    let d = scene.dimension();
+    if let Some(texts) = &state.displacement {
+        evaluator.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;
+    }
+    if scene.heat().is_some() {
+        let message = "a body in which heat flows is not at rest: state a motion under `exact`";
+        return Err(evaluator.diagnostic_at_key(&path, message));
+    }
+    if spec.run.until.as_slice().len() > 1 {
+        let at = Path::top("run").then("until").alternative(&spec.run.until, 1);
+        let message = "a body comes to rest once, under the loads at the end of its run";
+        return Err(evaluator.diagnostic(&at, message).with_label("expected one end"));
+    }
+    let over_time = [NormName::MaxRms, NormName::MaxL1, NormName::MaxL2, NormName::MaxLinf];
+    if over_time.contains(&spec.judge.norm) {
+        let message = "on its way a body is not in equilibrium";
+        let diagnostic = evaluator.diagnostic(&Path::top("judge").then("norm"), message);
+        return Err(diagnostic.with_label("expected a norm at the end: rms, l1, l2 or linf"));
+    }
+    refuse_driven(evaluator, scene)?;
+    match spec.fem_method() {
+        Some(i) => {
+            let message = "the reference FEM has no damping and does not come to rest";
+            Err(evaluator.diagnostic(&Path::top("methods").then(i), message))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Where a wall or a set has got to is not known from its velocity at the end.
+fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
+    let scene_path = Path::top("scene");
+    if let Some(face) = scene.faces.iter().find(|face| face.hold.is_driven()) {
+        let message = format!("the face `{}` is driven, and the body comes to rest", face.name);
+        return Err(
+            evaluator.diagnostic_at_key(&scene_path.then("boundary").then(face.name), &message)
+        );
+    }
+    if let Some(set) = scene.driven_set() {
+        let message = format!("the set `{set}` is driven, and the body comes to rest");
+        let at = scene_path.then("sets").then(set);
+        return Err(evaluator.diagnostic_at_key(&at, &message));
+    }
+    Ok(())
+}

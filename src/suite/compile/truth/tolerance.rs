@@ -1,11 +1,9 @@
 //! How well a stated solution must meet its problem, and how well one that is linearised.
 
 use crate::exact::{Linearised, Problem, Violation};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::expect::because::because;
-use crate::suite::compile::path::Path;
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::LinearisedSpec;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// Largest relative residual of a closed form: what rounding leaves of second derivatives.
 pub(crate) const TOLERANCE: f64 = 1e-8;
@@ -38,7 +36,7 @@ pub(crate) fn linearised(
     let Some(spec) = spec else { return Ok(None) };
     let path = path.then("linearised");
     let tolerance = tolerance(evaluator, &path, Some(&spec.tolerance))?;
-    let because = because(evaluator, &path, "a linearised solution", &spec.because)?;
+    let because = evaluator.because(&path, "a linearised solution", &spec.because)?;
     Ok(Some(Linearised { tolerance, because }))
 }
 

@@ -1,4 +1,4 @@
-//! Bodies that are no box, from words.
+//! Shapes of bodies: boxes, and bodies of another outline.
 
 mod polygon;
 pub(crate) mod quadrilateral;
@@ -6,17 +6,15 @@ mod round;
 
 use crate::exact::Outline;
 use crate::mpm::Quadrilateral;
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::scene::scene_words::SceneWords;
-use crate::suite::compile::wording::shown;
-use crate::suite::grammar::{BodySpec, BoxSpec};
-use crate::suite::yaml::Diagnostic;
+use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::grammar::{BodySpec, BoxSpec, SceneSpec};
+use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
+use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
 /// Shape of a body.
 pub(crate) enum BodyShape<'a> {
-    /// A box, from its words.
+    /// A box, by its keys.
     Box(&'a BoxSpec),
     /// A body with a free rim.
     Free(Arc<dyn Outline>),
@@ -24,14 +22,14 @@ pub(crate) enum BodyShape<'a> {
     Mapped(Arc<dyn Outline>, Quadrilateral),
 }
 
-/// The shape that `words` describe.
+/// The shape that `spec` describes.
 ///
 /// # Errors
 /// A complaint about a body that makes no sense in `dimension` dimensions.
 pub(crate) fn shape<'a>(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &'a BodySpec,
+    spec: &'a BodySpec,
     dimension: usize,
 ) -> Result<BodyShape<'a>, Diagnostic> {
     let of_kind = |kind: &str, flat: usize| {
@@ -47,23 +45,23 @@ pub(crate) fn shape<'a>(
         );
         Err(evaluator.diagnostic_at_key(&at, &message).with_help(&help))
     };
-    match words {
-        BodySpec::Box(words) => Ok(BodyShape::Box(words)),
-        BodySpec::Annulus(words) => {
-            round::annulus(evaluator, &of_kind("annulus", 2)?, words).map(BodyShape::Free)
+    match spec {
+        BodySpec::Box(spec) => Ok(BodyShape::Box(spec)),
+        BodySpec::Annulus(spec) => {
+            round::annulus(evaluator, &of_kind("annulus", 2)?, spec).map(BodyShape::Free)
         }
-        BodySpec::Disk(words) => {
-            round::filled(evaluator, &of_kind("disk", 2)?, words, 2).map(BodyShape::Free)
+        BodySpec::Disk(spec) => {
+            round::filled(evaluator, &of_kind("disk", 2)?, spec, 2).map(BodyShape::Free)
         }
-        BodySpec::Ball(words) => {
-            round::filled(evaluator, &of_kind("ball", 3)?, words, 3).map(BodyShape::Free)
+        BodySpec::Ball(spec) => {
+            round::filled(evaluator, &of_kind("ball", 3)?, spec, 3).map(BodyShape::Free)
         }
         BodySpec::Polygon(corners) => {
             polygon::polygon(evaluator, &of_kind("polygon", 2)?, corners).map(BodyShape::Free)
         }
-        BodySpec::Quadrilateral(words) => {
+        BodySpec::Quadrilateral(spec) => {
             let at = of_kind("quadrilateral", 2)?;
-            let (outline, panel) = quadrilateral::quadrilateral(evaluator, &at, words)?;
+            let (outline, panel) = quadrilateral::quadrilateral(evaluator, &at, spec)?;
             Ok(BodyShape::Mapped(outline, panel))
         }
     }
@@ -72,20 +70,20 @@ pub(crate) fn shape<'a>(
 /// Rims are free: a scene can neither hold nor load them.
 ///
 /// # Errors
-/// A complaint about the first word that says something else.
+/// A diagnostic of the first condition or load on a rim.
 pub(crate) fn rims_are_free(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords<'_>,
+    spec: &SceneSpec,
     outline: &dyn Outline,
 ) -> Result<(), Diagnostic> {
     let kind = outline.kind();
-    let held = words.boundary.as_slice().first().map(|(face, _)| {
+    let held = spec.boundary.as_slice().first().map(|(face, _)| {
         let message = format!("the rims of a body of kind `{kind}` are free, not `{face}`");
         evaluator.diagnostic_at_key(&path.then("boundary").then(face.as_str()), &message)
     });
-    let loaded = words.loads.iter().enumerate().find_map(|(i, load)| {
-        let on = load.words().face()?;
+    let loaded = spec.loads.iter().enumerate().find_map(|(i, load)| {
+        let on = load.keys().face()?;
         let message = format!("the rims of a body of kind `{kind}` are free, `{on}` has no load");
         Some(evaluator.diagnostic(&load.path(i).then("on"), &message))
     });
@@ -124,4 +122,35 @@ pub(crate) fn fits(
         }
     }
     Ok(())
+}
+
+/// Lowest and highest corner of a box.
+///
+/// # Errors
+/// A complaint about a box that is empty, too small or too large.
+pub(crate) fn corners(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &BoxSpec,
+    dimension: usize,
+) -> Result<(Vec<f64>, Vec<f64>), Diagnostic> {
+    let from = evaluator.point(&path.then("from"), &spec.from, dimension)?;
+    let to = evaluator.point(&path.then("to"), &spec.to, dimension)?;
+    for axis in 0..dimension {
+        if !(from[axis] < to[axis]) {
+            let (from, to) = (shown(from[axis]), shown(to[axis]));
+            let message = format!("the box ends at {to} and starts at {from}");
+            let diagnostic = evaluator.diagnostic(&path.then("to").then(axis), &message);
+            return Err(diagnostic.with_label("expected a number above that of `from`"));
+        }
+        // Squares of lengths appear in second derivatives, cubes in volumes.
+        let length = to[axis] - from[axis];
+        if !(SHORTEST..=LONGEST).contains(&length) {
+            let message = format!("the box is {} m long", shown(length));
+            let diagnostic = evaluator.diagnostic(&path.then("to").then(axis), &message);
+            let label = format!("expected a length from {SHORTEST:e} to {LONGEST:e}");
+            return Err(diagnostic.with_label(&label));
+        }
+    }
+    Ok((from, to))
 }

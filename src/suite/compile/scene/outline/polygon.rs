@@ -1,11 +1,9 @@
-//! Polygons, from words.
+//! Polygons.
 
 use crate::exact::{Outline, Polygon};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::scene::lengths::{LONGEST, SHORTEST};
-use crate::suite::compile::wording::shown;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
 /// Most corners of a polygon, for every part of a lattice is held against all of them.

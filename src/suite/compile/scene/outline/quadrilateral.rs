@@ -1,31 +1,29 @@
-//! Panels with four straight sides, from words.
+//! Panels with four straight sides.
 
 use super::polygon::corners;
 use crate::exact::{Outline, Polygon};
 use crate::mpm::{Quadrilateral, Vector};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::scene::scene_words::SceneWords;
-use crate::suite::grammar::QuadrilateralSpec;
-use crate::suite::model::scene::FACES;
-use crate::suite::yaml::Diagnostic;
+use crate::suite::evaluator::Evaluator;
+use crate::suite::grammar::{QuadrilateralSpec, SceneSpec};
+use crate::suite::scene::face::FACES;
+use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
-/// The panel that `words` at `path` describe, and its outline.
+/// The panel that `spec` at `path` describes, and its outline.
 ///
 /// # Errors
 /// A complaint about corners that are not those of a convex panel in the plane.
 pub(super) fn quadrilateral(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &QuadrilateralSpec,
+    spec: &QuadrilateralSpec,
 ) -> Result<(Arc<dyn Outline>, Quadrilateral), Diagnostic> {
     let path = path.then("corners");
-    if words.corners.len() != 4 {
-        let message = format!("a quadrilateral of {} corners", words.corners.len());
+    if spec.corners.len() != 4 {
+        let message = format!("a quadrilateral of {} corners", spec.corners.len());
         return Err(evaluator.diagnostic(&path, &message).with_label("expected four"));
     }
-    let corners = corners(evaluator, &path, &words.corners)?;
+    let corners = corners(evaluator, &path, &spec.corners)?;
     let to_the_right = |i: usize| {
         let message = format!("at corner {} the sides do not turn to the left", i + 1);
         let diagnostic = evaluator.diagnostic(&path.then(i), &message);
@@ -41,11 +39,11 @@ pub(super) fn quadrilateral(
 /// A face can be held or loaded where a whole side lies on it.
 ///
 /// # Errors
-/// A complaint about the first word that says something of another face.
+/// A diagnostic of the first condition or load on another face.
 pub(crate) fn faces_are_sides(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &SceneWords<'_>,
+    spec: &SceneSpec,
     panel: &Quadrilateral,
 ) -> Result<(), Diagnostic> {
     let is_side = |name: &str| {
@@ -62,7 +60,7 @@ pub(crate) fn faces_are_sides(
         };
         diagnostic.with_help("a face can be held or loaded where a whole side lies on it")
     };
-    for (face, hold) in words.boundary.as_slice() {
+    for (face, hold) in spec.boundary.as_slice() {
         let at = path.then("boundary").then(face.as_str());
         if hold.named().1.is_periodic() {
             return Err(
@@ -73,8 +71,8 @@ pub(crate) fn faces_are_sides(
             return Err(no_side(&at, face, true));
         }
     }
-    for (i, load) in words.loads.iter().enumerate() {
-        let Some(on) = load.words().face() else { continue };
+    for (i, load) in spec.loads.iter().enumerate() {
+        let Some(on) = load.keys().face() else { continue };
         if !is_side(on) {
             return Err(no_side(&load.path(i).then("on"), on, false));
         }

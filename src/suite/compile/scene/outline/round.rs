@@ -1,12 +1,10 @@
-//! Round bodies, from words.
+//! Round bodies.
 
 use crate::exact::{Outline, Round};
-use crate::suite::compile::evaluator::Evaluator;
-use crate::suite::compile::path::Path;
-use crate::suite::compile::scene::lengths::{LONGEST, SHORTEST};
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{AnnulusSpec, RoundSpec};
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
 /// The annulus at `path`.
@@ -36,11 +34,11 @@ pub(super) fn annulus(
 pub(super) fn filled(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    words: &RoundSpec,
+    spec: &RoundSpec,
     dimension: usize,
 ) -> Result<Arc<dyn Outline>, Diagnostic> {
-    let centre = evaluator.point(&path.then("centre"), &words.centre, dimension)?;
-    let outer = radius(evaluator, &path.then("radius"), &words.radius)?;
+    let centre = evaluator.point(&path.then("centre"), &spec.centre, dimension)?;
+    let outer = radius(evaluator, &path.then("radius"), &spec.radius)?;
     Ok(Arc::new(Round { centre, inner: 0.0, outer }))
 }
 

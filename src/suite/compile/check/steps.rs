@@ -1,0 +1,107 @@
+//! Time steps that runs can take.
+
+use super::size::LevelPaths;
+use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::suite::scene::grid_size::cell_size;
+use crate::suite::yaml::{Diagnostic, Path};
+use crate::verify::{Axis, Clock, STEP_TOLERANCE};
+
+/// Label of a level that is not finer than the one before.
+pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
+
+/// Whether every level, and the reference, has a usable time step, and a finer one where time is
+/// refined. Instants that are shared with a computed truth must not change it.
+pub(crate) fn refuse_unusable(
+    evaluator: &Evaluator<'_>,
+    plan: &ConvergencePlan,
+    places: &[LevelPaths],
+) -> Result<(), Diagnostic> {
+    for case in &plan.cases {
+        let mut coarser: Option<(f64, Clock)> = None;
+        for (level, place) in plan.refine.levels.iter().zip(places) {
+            let clock = case.clock(plan, level.dt);
+            let clock = usable(evaluator, &place.dt, clock, (level.cells, level.dt))?;
+            if plan.refine.axis == Axis::Time || plan.refine.steps.len() > 1 {
+                if let Some(coarser) = coarser {
+                    finer(evaluator, &place.dt, coarser, (level.dt, clock))?;
+                }
+                coarser = Some((level.dt, clock));
+            }
+            if case.against.is_computed() && plan.refine.rule.is_none() {
+                as_wanted(evaluator, &place.dt, case, (level.dt, clock))?;
+            }
+        }
+        if let Some(fine) = case.against.fine_grid() {
+            let path = Path::top("reference").then("same_method").then("cells");
+            let clock = usable(evaluator, &path, case.clock(plan, fine.dt), (fine.cells, fine.dt))?;
+            if plan.refine.rule.is_none() {
+                as_wanted(evaluator, &path, case, (fine.dt, clock))?;
+            }
+        }
+        if let Some(fine) = &plan.reference {
+            let path = Path::top("reference").then("fem").then("dt");
+            let dt = fine.dt.eval(&[cell_size(&plan.scene, fine.cells)]);
+            let clock = plan.clock(Against::Reference, case.until, dt);
+            usable(evaluator, &path, clock, (fine.cells, dt))?;
+        }
+    }
+    Ok(())
+}
+
+fn usable(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    clock: Option<Clock>,
+    (cells, dt): (u64, f64),
+) -> Result<Clock, Diagnostic> {
+    clock.ok_or_else(|| {
+        let message = format!("with {cells} cells the time step is {}", shown(dt));
+        let label = "expected a positive step, and at most 1e9 of them";
+        evaluator.diagnostic(path, &message).with_label(label)
+    })
+}
+
+/// Two wanted steps can become the same in a short run.
+fn finer(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    (coarse, coarse_clock): (f64, Clock),
+    (fine, fine_clock): (f64, Clock),
+) -> Result<(), Diagnostic> {
+    let (wide, narrow) = (shown(coarse), shown(fine));
+    if !(fine < coarse) {
+        let message = format!("a level with dt = {narrow} after one with {wide}");
+        return Err(evaluator.diagnostic(path, &message).with_label(COARSE_TO_FINE));
+    }
+    if fine_clock.steps > coarse_clock.steps {
+        return Ok(());
+    }
+    let message = format!("dt = {narrow} and {wide} both become {} s", shown(fine_clock.dt()));
+    let label = format!("both runs take {} steps", fine_clock.steps);
+    Err(evaluator.diagnostic(path, &message).with_label(&label))
+}
+
+/// Refuses instants that cut a step by more than the tolerance.
+fn as_wanted(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    case: &Case,
+    (wanted, clock): (f64, Clock),
+) -> Result<(), Diagnostic> {
+    let is_near = |clock: &Clock| (clock.dt() / wanted - 1.0).abs() <= STEP_TOLERANCE;
+    if is_near(&clock) {
+        return Ok(());
+    }
+    let (dt, instants) = (shown(clock.dt()), clock.instants);
+    let message = format!("dt = {} becomes {dt} s, to end at {instants} instants", shown(wanted));
+    let label = "expected a step that divides the time between instants to 1 %";
+    let fewer = (1..instants).rev().find(|instants| {
+        Clock::with_common_instants(case.until, wanted, *instants).is_some_and(|c| is_near(&c))
+    });
+    let help = fewer.map_or_else(
+        || format!("a run until {} s has no such step of this length", shown(case.until)),
+        |fewer| format!("`instants: {fewer}` keeps this step"),
+    );
+    Err(evaluator.diagnostic(path, &message).with_label(label).with_help(&help))
+}

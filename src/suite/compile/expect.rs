@@ -1,0 +1,311 @@
+//! Expectations: exactly one for each case, or none for any; and the accuracy that any method can
+//! reach.
+
+use crate::exact::Problem;
+use crate::subject::{HIGHEST_ORDER, PlaneState};
+use crate::suite::compile::check::check_drift;
+use crate::suite::compile::check::sums::refuse_law_without_energy;
+use crate::suite::evaluator::{Evaluator, shown, suggestion};
+use crate::suite::grammar::{AnyMethodSpec, CrossingsName, DriftSpec, ExpectSpec};
+use crate::suite::model::ConvergencePlan;
+use crate::suite::model::method::{AnyMethod, Method};
+use crate::suite::pattern;
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
+use crate::verify::{Conserved, Expectation, Limits, OrderHypothesis, Verdict};
+use std::str::FromStr;
+
+/// Expectation of a case, and of a full run if that differs.
+type CaseExpectation = (Expectation, Option<Expectation>);
+
+/// One expectation for each of the `cases`, in their order; none for any where the suite states
+/// nothing.
+pub(crate) fn expectations(
+    evaluator: &Evaluator<'_>,
+    spec: &[ExpectSpec],
+    plan: &ConvergencePlan,
+    cases: &[(&str, Method)],
+) -> Result<Vec<Option<CaseExpectation>>, Diagnostic> {
+    let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
+    let selectors: Vec<_> = spec.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, &selectors, &names)?;
+    let both = |(i, spec): (usize, &ExpectSpec)| {
+        let path = Path::top("expect").then(i);
+        Ok((expectation(evaluator, &path, spec, plan)?, in_full(evaluator, &path, spec, plan)?))
+    };
+    let parsed = spec.iter().enumerate().map(both).collect::<Result<Vec<CaseExpectation>, _>>()?;
+    for (owner, (_, method)) in owners.iter().zip(cases) {
+        let Some(owner) = *owner else { continue };
+        let path = Path::top("expect").then(owner);
+        check_drift(evaluator, &path, &parsed[owner].0.limits, *method)?;
+        if let Some(full) = &parsed[owner].1 {
+            check_drift(evaluator, &path.then("full"), &full.limits, *method)?;
+        }
+    }
+    Ok(owners.into_iter().map(|owner| Some(parsed[owner?].clone())).collect())
+}
+
+/// For each case the one entry of `expect` that speaks of it; none for any where there is no entry.
+pub(crate) fn assign(
+    evaluator: &Evaluator<'_>,
+    selectors: &[Option<&OneOrMany<String>>],
+    names: &[&str],
+) -> Result<Vec<Option<usize>>, Diagnostic> {
+    if selectors.is_empty() {
+        return Ok(vec![None; names.len()]);
+    }
+    let path = Path::top("expect");
+    let speaks = |i: usize, name: &str| {
+        selectors[i]
+            .is_none_or(|globs| globs.as_slice().iter().any(|glob| pattern::fits(glob, name)))
+    };
+    for (i, selector) in selectors.iter().enumerate() {
+        let Some(globs) = selector else { continue };
+        let idle = |glob: &String| !names.iter().any(|name| pattern::fits(glob, name));
+        if let Some(k) = globs.as_slice().iter().position(idle) {
+            let at = path.then(i).then("case").alternative(globs, k);
+            let message = format!("`{}` fits no case", globs.as_slice()[k]);
+            let diagnostic = evaluator.diagnostic(&at, &message);
+            return Err(diagnostic.with_help(&format!("cases: {}", names.join(", "))));
+        }
+    }
+    let owner = |name: &&str| {
+        let owners: Vec<usize> = (0..selectors.len()).filter(|i| speaks(*i, name)).collect();
+        match owners[..] {
+            [only] => Ok(Some(only)),
+            [] => {
+                let message = format!("nothing is expected of the case `{name}`");
+                Err(evaluator.diagnostic_at_key(&path, &message))
+            }
+            [_, second, ..] => {
+                let message = format!("a second expectation for the case `{name}`");
+                Err(evaluator.diagnostic(&path.then(second), &message))
+            }
+        }
+    };
+    names.iter().map(owner).collect()
+}
+
+/// Expectation of a full run, where an entry states that it differs.
+fn in_full(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &ExpectSpec,
+    plan: &ConvergencePlan,
+) -> Result<Option<Expectation>, Diagnostic> {
+    let Some(full) = &spec.full else { return Ok(None) };
+    let path = path.then("full");
+    for (key, given) in [("case", full.case.is_some()), ("full", full.full.is_some())] {
+        if given {
+            let message = format!("what is expected of a full run has no `{key}` of its own");
+            return Err(evaluator
+                .diagnostic_at_key(&path.then(key), &message)
+                .with_help("remove it"));
+        }
+    }
+    expectation(evaluator, &path, full, plan).map(Some)
+}
+
+fn expectation(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &ExpectSpec,
+    plan: &ConvergencePlan,
+) -> Result<Expectation, Diagnostic> {
+    let limits = limits(evaluator, path, spec, plan)?;
+    let verdict = match &spec.verdict {
+        Some(word) => Some(verdict(evaluator, &path.then("verdict"), word)?),
+        None if spec.order.is_some() => Some(Verdict::Converging),
+        None if !limits.is_empty() => None,
+        None => {
+            let diagnostic = evaluator
+                .diagnostic(path, "this expects neither an order nor a verdict nor a bound");
+            let help = "add `order: [1.9, 2.1]`, `verdict: divergent` or `error_below: 1e-12`";
+            return Err(diagnostic.with_help(help));
+        }
+    };
+    let because = evaluator.because(path, "an expectation", &spec.because)?;
+    let bounds = |key: &str, spec: &Option<Vec<NumberText>>| {
+        spec.as_ref().map(|pair| evaluator.interval(&path.then(key), pair)).transpose()
+    };
+    let order = bounds("order", &spec.order)?;
+    if let Some((low, high)) = order
+        && let Some(reason) = OrderHypothesis::within(low, low, high).diagnostic()
+    {
+        let diagnostic = evaluator.diagnostic(&path.then("order"), &reason);
+        return Err(diagnostic.with_label("expected positive orders, no more than 1 apart"));
+    }
+    Ok(Expectation {
+        verdict,
+        order,
+        finest_pair: bounds("finest_pair", &spec.finest_pair)?,
+        crossings: spec.crossings.map(|name| name == CrossingsName::Some),
+        floor: spec.floor,
+        limits,
+        because,
+    })
+}
+
+fn verdict(evaluator: &Evaluator<'_>, path: &Path, word: &str) -> Result<Verdict, Diagnostic> {
+    Verdict::from_str(word).map_err(|_| {
+        let known = Verdict::ALL.map(|verdict| verdict.name().replace([' ', '-'], "_"));
+        let known = known.each_ref().map(String::as_str);
+        let diagnostic = evaluator.diagnostic(path, &format!("`{word}` is not a verdict"));
+        diagnostic.with_help(&suggestion("verdicts", word, &known))
+    })
+}
+
+/// The limits of the expectation at `path`.
+fn limits(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &ExpectSpec,
+    plan: &ConvergencePlan,
+) -> Result<Limits, Diagnostic> {
+    let bound = |key: &str, text: &Option<NumberText>| {
+        text.as_ref().map(|text| evaluator.positive(&path.then(key), text, "a bound")).transpose()
+    };
+    let limits = Limits {
+        error_below: bound("error_below", &spec.error_below)?,
+        error_above: bound("error_above", &spec.error_above)?,
+        observed_within: bound("observed_within", &spec.observed_within)?,
+        rest_below: bound("rest_below", &spec.rest_below)?,
+        drift: match &spec.drift {
+            Some(spec) => drifts(evaluator, &path.then("drift"), spec, plan)?,
+            None => Vec::new(),
+        },
+        energy_rate: match &spec.energy_rate {
+            Some(spec) => {
+                let path = path.then("energy_rate");
+                refuse_law_without_energy(evaluator, &path, plan)?;
+                Some(evaluator.interval(&path, spec)?)
+            }
+            None => None,
+        },
+    };
+    if let (Some(most), Some(least)) = (limits.error_below, limits.error_above)
+        && most < least
+    {
+        let message = format!("no error is below {most:e} and above {least:e}");
+        return Err(evaluator.diagnostic(&path.then("error_above"), &message));
+    }
+    if limits.observed_within.is_some() && plan.observe.is_none() {
+        let diagnostic =
+            evaluator.diagnostic_at_key(&path.then("observed_within"), "nothing is observed");
+        return Err(diagnostic.with_help("add `observe: {at: [...]}` to the suite"));
+    }
+    if limits.rest_below.is_some() && !plan.exact.as_ref().is_some_and(|truth| truth.at_rest) {
+        let message = "the truth is no state of rest";
+        let diagnostic = evaluator.diagnostic_at_key(&path.then("rest_below"), message);
+        return Err(diagnostic.with_help("state it under `equilibrium`"));
+    }
+    Ok(limits)
+}
+
+fn drifts(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &DriftSpec,
+    plan: &ConvergencePlan,
+) -> Result<Vec<(Conserved, f64)>, Diagnostic> {
+    let mut drifts = Vec::new();
+    for &sum in Conserved::ALL {
+        let text = match sum {
+            Conserved::Mass => &spec.mass,
+            Conserved::Momentum => &spec.momentum,
+            Conserved::AngularMomentum => &spec.angular_momentum,
+            Conserved::KineticEnergy => &spec.kinetic_energy,
+            Conserved::KineticEnergyGain => &spec.kinetic_energy_gain,
+            Conserved::Energy => &spec.energy,
+        };
+        let Some(text) = text else { continue };
+        let path = path.then(sum.name());
+        if sum == Conserved::AngularMomentum && plan.scene.dimension() == 1 {
+            let message = "there is no angular momentum in 1-D";
+            return Err(evaluator.diagnostic_at_key(&path, message));
+        }
+        let is_revolved = plan.scene.plane == PlaneState::Axisymmetric;
+        if is_revolved && matches!(sum, Conserved::Momentum | Conserved::AngularMomentum) {
+            let message = "a sum over the meridian plane, which a body of revolution does not keep";
+            let diagnostic = evaluator.diagnostic_at_key(&path, message);
+            return Err(diagnostic.with_help("bound the drift of `mass` or of an energy"));
+        }
+        if sum == Conserved::Energy {
+            refuse_law_without_energy(evaluator, &path, plan)?;
+        }
+        drifts.push((sum, evaluator.positive(&path, text, "a bound")?));
+    }
+    if drifts.is_empty() {
+        let names: Vec<&str> = Conserved::ALL.iter().map(|sum| sum.name()).collect();
+        let diagnostic = evaluator.diagnostic(path, "this bounds no drift");
+        return Err(diagnostic.with_help(&format!("name some of: {}", names.join(", "))));
+    }
+    Ok(drifts)
+}
+
+/// Places along each axis, and instants, at which a motion is checked to be a translation.
+const PLACES: usize = 5;
+
+/// Largest entry of the displacement gradient of a translation, of formulas that round.
+const UNDEFORMED: f64 = 1e-14;
+
+/// The key `any_method` of a suite, checked.
+pub(crate) fn any_method(
+    evaluator: &Evaluator<'_>,
+    spec: &AnyMethodSpec,
+    plan: &ConvergencePlan,
+) -> Result<AnyMethod, Diagnostic> {
+    let path = Path::top("any_method");
+    let because = evaluator.because(&path, "the accuracy of any method", &spec.because)?;
+    let order = spec.order.as_ref().map(|text| {
+        let path = path.then("order");
+        let order = evaluator.positive(&path, text, "the order")?;
+        if order <= HIGHEST_ORDER {
+            return Ok(order);
+        }
+        let message = format!("the order is {}", shown(order));
+        let label = format!("expected an order up to {HIGHEST_ORDER}");
+        Err(evaluator.diagnostic(&path, &message).with_label(&label))
+    });
+    let error_below = spec
+        .error_below
+        .as_ref()
+        .map(|text| evaluator.positive(&path.then("error_below"), text, "the bound on errors"));
+    let (order, error_below) = (order.transpose()?, error_below.transpose()?);
+    let gated = spec.gated.unwrap_or(true);
+    let has_bounds = order.is_some() || error_below.is_some();
+    if gated && !has_bounds && !spec.any_law {
+        let diagnostic = evaluator.diagnostic(&path, "this states nothing that a method can reach");
+        let help = "add `order: 1`, `error_below: 1e-12`, `any_law: true` or `gated: false`";
+        return Err(diagnostic.with_help(help));
+    }
+    if !gated && has_bounds {
+        let message = "a suite that is not gated has no order and no bound for other methods";
+        let diagnostic = evaluator.diagnostic_at_key(&path.then("gated"), message);
+        return Err(diagnostic.with_help("remove `gated`, or `order` and `error_below`"));
+    }
+    if spec.any_law && !plan.exact.as_ref().is_some_and(is_translation) {
+        let message = "the law matters, because the solution is not a translation";
+        let diagnostic = evaluator.diagnostic(&path.then("any_law"), message);
+        return Err(diagnostic.with_help("remove `any_law`"));
+    }
+    Ok(AnyMethod { order, error_below, any_law: spec.any_law, gated, because })
+}
+
+/// Whether the motion neither strains nor rotates the body, which starts without stress.
+fn is_translation(problem: &Problem) -> bool {
+    let d = problem.dimension();
+    let along = |axis: usize, k: usize| {
+        let length = problem.to[axis] - problem.from[axis];
+        problem.from[axis] + length * (k as f64 + 0.5) / PLACES as f64
+    };
+    let place = |point: usize| -> Vec<f64> {
+        (0..d).map(|axis| along(axis, point / PLACES.pow(axis as u32) % PLACES)).collect()
+    };
+    let undeformed = |label: &[f64], t: f64| {
+        let gradient = problem.motion.derivatives(label, t).grad;
+        gradient.iter().flatten().all(|entry| entry.abs() <= UNDEFORMED)
+    };
+    let times = || (0..=PLACES).map(|k| problem.until * k as f64 / PLACES as f64);
+    problem.initial_stress.is_none()
+        && (0..PLACES.pow(d as u32)).map(place).all(|label| times().all(|t| undeformed(&label, t)))
+}

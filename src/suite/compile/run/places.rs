@@ -1,0 +1,89 @@
+//! Places that a suite states: of particles off their lattice, and the one that is observed.
+
+use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::grammar::{ConvergenceSpec, ObserveSpec, ScatterSpec};
+use crate::suite::model::Scene;
+use crate::suite::scene::lattice::LatticeOffsets;
+use crate::suite::scene::load::{ListedLoad, LoadTarget};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
+
+/// Share of the spacing by which a particle may be moved: the middle between two of them.
+const MOST: f64 = 0.5;
+
+/// The same of random moves where a face carries a load: up to there the particles of its layer are
+/// told from those of the next one.
+const MOST_AT_LOADS: f64 = 0.25;
+
+/// The seed of a suite that states none.
+const SEED: u64 = 1;
+
+/// Places of particles as the suite states them.
+pub(crate) fn scatter(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+) -> Result<LatticeOffsets, Diagnostic> {
+    let Some(ScatterSpec { shift, perturb, seed }) = &spec.particles else {
+        return Ok(LatticeOffsets::default());
+    };
+    let path = Path::top("particles");
+    if scene.each().iter().any(|body| body.outline.is_some()) {
+        let message = "particles are moved off the lattice of a box, and this body is none";
+        return Err(evaluator.diagnostic_at_key(&path, message));
+    }
+    let numbers =
+        |texts: &[NumberText]| evaluator.point(&path.then("shift"), texts, scene.dimension());
+    let shift = shift.as_deref().map(numbers).transpose()?.unwrap_or_default();
+    let at = path.then("perturb");
+    let number = |text: &NumberText| evaluator.positive(&at, text, "the share of the spacing");
+    let perturb = perturb.as_ref().map(number).transpose()?.unwrap_or(0.0);
+    let at = path.then("seed");
+    let count = |text: &NumberText| evaluator.count(&at, text, "the seed");
+    if seed.is_some() && perturb == 0.0 {
+        let diagnostic = evaluator.diagnostic_at_key(&at, "nothing here is random");
+        return Err(diagnostic.with_help("add `perturb: 0.2`, or remove the seed"));
+    }
+    let seed = seed.as_ref().map(count).transpose()?.unwrap_or(SEED);
+    let furthest = shift.iter().fold(0.0_f64, |most, share| most.max(share.abs())) + perturb;
+    if !(furthest <= MOST) {
+        let message = format!("particles are moved by up to {} of their spacing", shown(furthest));
+        let label = format!("expected at most {MOST}, so that they stay in the body and apart");
+        return Err(evaluator.diagnostic(&path, &message).with_label(&label));
+    }
+    let at_face = |load: &ListedLoad| matches!(load.target(), LoadTarget::Face(_));
+    if perturb > MOST_AT_LOADS && scene.loads.iter().any(at_face) {
+        let message = format!("particles are moved by up to {} of their spacing", shown(perturb));
+        let label = format!("expected at most {MOST_AT_LOADS} at a face with a load");
+        return Err(evaluator.diagnostic(&path.then("perturb"), &message).with_label(&label));
+    }
+    let scatter = LatticeOffsets { shift, perturb, seed };
+    if scatter.is_none() {
+        let diagnostic = evaluator.diagnostic_at_key(&path, "this moves no particle");
+        return Err(diagnostic.with_help("add `shift: [0.25]` or `perturb: 0.2`, or remove it"));
+    }
+    Ok(scatter)
+}
+
+/// The place that is watched: one in the body.
+pub(crate) fn observed(
+    evaluator: &Evaluator<'_>,
+    spec: &ObserveSpec,
+    scene: &Scene,
+) -> Result<Vec<f64>, Diagnostic> {
+    let path = Path::top("observe").then("at");
+    let place = evaluator.point(&path, &spec.at, scene.dimension())?;
+    for (axis, x) in place.iter().enumerate() {
+        let (from, to) = (scene.from[axis], scene.to[axis]);
+        if !(from..=to).contains(x) {
+            let message = format!("{} is outside the body", shown(*x));
+            let label = format!("expected a number from {} to {}", shown(from), shown(to));
+            return Err(evaluator.diagnostic(&path.then(axis), &message).with_label(&label));
+        }
+    }
+    let outside = scene.outline.as_ref().filter(|outline| !outline.holds(&place));
+    if let Some(kind) = outside.map(|outline| outline.kind()) {
+        let diagnostic = evaluator.diagnostic(&path, "this place is outside the body");
+        return Err(diagnostic.with_label(&format!("expected a place in the {kind}")));
+    }
+    Ok(place)
+}

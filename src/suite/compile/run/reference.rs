@@ -1,0 +1,173 @@
+//! Computations that serve as truth, from `reference`: by finite elements, or by the same method
+//! with a much shorter spacing.
+
+use super::refine::{STEP_OF_EACH_H, step_formula};
+use crate::suite::compile::check::size;
+use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::grammar::{ConvergenceSpec, ReferenceSpec};
+use crate::suite::model::refine_plan::{FINE_GRID, LevelPlan, RefinePlan};
+use crate::suite::model::{ReferencePlan, SameMethod, Scene};
+use crate::suite::scene::grid_size::cell_size;
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::verify::{Axis, Clock};
+
+/// The reference FEM, if that is what `spec` asks for.
+///
+/// # Errors
+/// A diagnostic of what is missing, or of a scene that is not one-dimensional.
+pub(crate) fn reference(
+    evaluator: &Evaluator<'_>,
+    spec: &ReferenceSpec,
+    dimension: usize,
+) -> Result<Option<ReferencePlan>, Diagnostic> {
+    let path = Path::top("reference");
+    let (equation, fem) = match (spec.equation, &spec.fem) {
+        (Some(equation), Some(fem)) => (equation, fem),
+        (None, None) if spec.same_method.is_some() => return Ok(None),
+        _ => {
+            let message =
+                "a reference is a `fem` computation of an `equation`, or the `same_method`";
+            return Err(evaluator.diagnostic_at_key(&path, message));
+        }
+    };
+    if dimension != 1 {
+        let message = format!("the reference FEM is 1-D, the scene {dimension}-D");
+        let diagnostic = evaluator.diagnostic_at_key(&path, &message);
+        return Err(diagnostic.with_help("give this scene an `exact` solution"));
+    }
+    let path = path.then("fem");
+    Ok(Some(ReferencePlan {
+        equation,
+        element: fem.element,
+        mass: fem.mass,
+        cells: evaluator.count(&path.then("cells"), &fem.cells, "the number of elements")?,
+        dt: evaluator.formula(&path.then("dt"), &fem.dt, &["h"])?,
+    }))
+}
+
+/// Ratio of the finest step to that of the same method that serves as truth. Its start is of second
+/// order, so that an error of second order on the finest level is known to 1/64.
+const SHORTER: f64 = 8.0;
+
+/// The same method with a shorter spacing, if the suite states one.
+pub(crate) fn same_method(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    (scene, refine): (&Scene, &RefinePlan),
+    until: &[(String, f64)],
+    instants: u64,
+) -> Result<Option<SameMethod>, Diagnostic> {
+    let same = spec.reference.as_ref().and_then(|reference| reference.same_method.as_ref());
+    let (Some(same), Some(finest)) = (same, refine.levels.last()) else { return Ok(None) };
+    let path = Path::top("reference").then("same_method");
+    let refused = |message, help| Err(evaluator.diagnostic_at_key(&path, message).with_help(help));
+    match (&same.dt, &same.cells) {
+        (Some(_), None) if refine.axis != Axis::Time => {
+            let message =
+                "the same method with shorter steps knows the error of the time step only";
+            refused(message, "list time steps under `dt` in `refine`, or give a fine grid `cells`")
+        }
+        (None, Some(_)) if refine.axis != Axis::Space => {
+            let message = "the same method on a fine grid knows the error of a grid";
+            refused(message, "list `cells` in `refine`, or give shorter steps `dt`")
+        }
+        (Some(dt), None) => {
+            let dt = shorter(evaluator, &path.then("dt"), dt, *finest, until, instants)?;
+            Ok(Some(SameMethod::ShorterSteps(dt)))
+        }
+        (None, Some(cells)) => {
+            one_lattice(evaluator, &path, spec, scene)?;
+            let path = path.then("cells");
+            let cells = evaluator.count(&path, cells, "the number of cells")?;
+            let level = LevelPlan { cells, ..*finest };
+            let level = with_step(evaluator, &path, spec, scene, level)?;
+            finer(evaluator, &path, *finest, level)?;
+            size::fine_grid(evaluator, &path, scene, level, instants)?;
+            Ok(Some(SameMethod::FineGrid(level)))
+        }
+        _ => {
+            let message =
+                "the same method differs by shorter steps (`dt`) or by a fine grid (`cells`)";
+            refused(message, "state one of them")
+        }
+    }
+}
+
+/// The shorter time step (s).
+fn shorter(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    dt: &NumberText,
+    finest: LevelPlan,
+    until: &[(String, f64)],
+    instants: u64,
+) -> Result<f64, Diagnostic> {
+    let dt = evaluator.formula(path, dt, &["h"])?.eval(&[finest.h]);
+    for (_, until) in until {
+        let clock = |dt| {
+            Clock::with_common_instants(*until, dt, instants)
+                .map_or(0.0, |clock| clock.steps as f64)
+        };
+        if !(clock(dt) >= SHORTER * clock(finest.dt)) {
+            let message =
+                format!("the time step is {}, the finest level's {}", shown(dt), shown(finest.dt));
+            let label = format!("expected at most 1/{SHORTER} of that, and at most 1e9 steps");
+            return Err(evaluator.diagnostic(path, &message).with_label(&label));
+        }
+    }
+    Ok(dt)
+}
+
+/// Refuses a grid whose own error is not small beside that of the finest level.
+fn finer(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    finest: LevelPlan,
+    fine: LevelPlan,
+) -> Result<(), Diagnostic> {
+    if fine.cells >= finest.cells.saturating_mul(FINE_GRID) {
+        return Ok(());
+    }
+    let message =
+        format!("the fine grid has {} cells, the finest level {}", fine.cells, finest.cells);
+    let label = format!("expected at least {FINE_GRID} times as many");
+    Err(evaluator.diagnostic(path, &message).with_label(&label))
+}
+
+/// `level` with the size and the step of its own cells.
+fn with_step(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+    level: LevelPlan,
+) -> Result<LevelPlan, Diagnostic> {
+    let Some(stated) = &spec.run.dt else {
+        let message = "`refine` lists a time step for each level, and none for the fine grid";
+        return Err(evaluator.diagnostic(path, message).with_help(STEP_OF_EACH_H));
+    };
+    let at_run = Path::top("run").then("dt");
+    let text = step_formula(evaluator, &at_run, stated, scene)?;
+    let h = cell_size(scene, level.cells);
+    let dt = evaluator.formula(&at_run, &text, &["h"])?.eval(&[h]);
+    Ok(LevelPlan { h, dt, ..level })
+}
+
+/// Refuses bodies whose particles are no lattice, in which alone their motion is interpolated.
+fn one_lattice(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+) -> Result<(), Diagnostic> {
+    let body = match &scene.outline {
+        _ if !scene.bodies.is_empty() => "several bodies",
+        Some(outline) => &format!("one of kind `{}`", outline.kind()),
+        None if spec.particles.is_some() => "one whose `particles` are moved",
+        None => return Ok(()),
+    };
+    let message =
+        format!("a fine grid is interpolated between the particles of a box, and this is {body}");
+    let diagnostic = evaluator.diagnostic_at_key(path, &message);
+    Err(diagnostic.with_help("give this scene an `exact` solution"))
+}

@@ -1,0 +1,298 @@
+//! From what a file says to numbers and formulas, with the place of whatever is wrong.
+
+mod cause;
+mod names;
+
+use crate::exact::formula::{Expr, Formula, FormulaError, Scope};
+use crate::nearest::nearest;
+use crate::suite::yaml::{
+    Diagnostic, InPlaceOfNumber, NumberOr, NumberText, Ordered, Path, Source,
+};
+use serde::Deserialize;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+
+/// Largest count that a suite may ask for (cells, particles per cell, instants).
+const MOST: f64 = 1e7;
+
+/// Names of the coordinates in formulas.
+pub(crate) const COORDINATES: [&str; 3] = ["X", "Y", "Z"];
+
+/// Names of the components of the displacement in loads.
+pub(crate) const DISPLACEMENTS: [&str; 3] = ["ux", "uy", "uz"];
+
+/// The coordinates of `dimension` dimensions, followed by t.
+pub(crate) fn coordinates_and_time(dimension: usize) -> Vec<&'static str> {
+    COORDINATES[..dimension].iter().copied().chain(["t"]).collect()
+}
+
+/// A number, a formula of the parameters above it, or a table.
+pub(crate) type ParameterSpec = NumberOr<TableSpec>;
+
+/// `{by: t, table: [[0, 0], [0.1, 1]]}`: values by another parameter or by a variable of formulas.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TableSpec {
+    /// A parameter, or a variable of formulas.
+    pub(crate) by: String,
+    /// Rows of a value of `by` and the parameter's value there.
+    pub(crate) table: Vec<Vec<NumberText>>,
+}
+
+impl InPlaceOfNumber for TableSpec {
+    const EXPECTED: &'static str = "a number, a formula, or `{by: t, table: [[0, 0], [0.1, 1]]}`";
+}
+
+/// A parameter: its name, what the file says, its value unless that is a table's.
+pub(crate) type DeclaredParameter = (String, String, Option<f64>);
+
+/// The names of a suite, and which of them have been used.
+pub(crate) struct Evaluator<'a> {
+    source: &'a Source,
+    scope: Scope,
+    used: RefCell<BTreeSet<String>>,
+    heads: Vec<String>,
+    /// Every parameter of the suite, also those that are not declared yet.
+    parameters: Vec<String>,
+}
+
+impl<'a> Evaluator<'a> {
+    /// Declares the functions and, in the order of the file, the parameters of a suite. Returns
+    /// the evaluator and each parameter's name, text and value.
+    pub(crate) fn new(
+        source: &'a Source,
+        parameters: &Ordered<ParameterSpec>,
+        functions: &Ordered<String>,
+    ) -> Result<(Self, Vec<DeclaredParameter>), Diagnostic> {
+        let scope = Scope::new();
+        let heads = functions.as_slice().iter().map(|(head, _)| head.clone()).collect();
+        let names = parameters.as_slice().iter().map(|(name, _)| name.clone()).collect();
+        let used = RefCell::default();
+        let mut evaluator = Self { source, scope, used, heads, parameters: names };
+        for (head, body) in functions.as_slice() {
+            evaluator.declare_function(head, body)?;
+        }
+        let mut values = Vec::new();
+        for (name, spec) in parameters.as_slice() {
+            let path = Path::top("parameters").then(name.as_str());
+            let (text, value) = match spec {
+                ParameterSpec::Number(text) => {
+                    let value = evaluator.number(&path, text)?;
+                    let declared = evaluator.scope.constant(name, value);
+                    declared.map_err(|error| evaluator.at_key(&path, &error))?;
+                    (text.to_string(), Some(value))
+                }
+                ParameterSpec::Map(spec) => evaluator.declare_table(&path, name, spec)?,
+            };
+            values.push((name.clone(), text, value));
+        }
+        Ok((evaluator, values))
+    }
+
+    /// `s(tau): "..."` declares the function s of one argument.
+    fn declare_function(&mut self, head: &str, body: &str) -> Result<(), Diagnostic> {
+        let path = Path::top("functions").then(head);
+        let (name, arguments) = head
+            .split_once('(')
+            .and_then(|(name, rest)| Some((name.trim(), rest.trim_end().strip_suffix(')')?)))
+            .ok_or_else(|| {
+                self.diagnostic_at_key(&path, &format!("`{head}` is not the head of a function"))
+                    .with_help("write the name and its arguments: `s(tau)`")
+            })?;
+        let arguments: Vec<String> = arguments.split(',').map(|a| a.trim().to_owned()).collect();
+        if name.is_empty() || arguments.iter().any(String::is_empty) {
+            let message = format!("`{head}` lacks a name or an argument");
+            let diagnostic = self.diagnostic_at_key(&path, &message);
+            return Err(diagnostic.with_help("write the name and its arguments: `s(tau)`"));
+        }
+        let body = Expr::parse(body).map_err(|error| self.in_text(&path, &error))?;
+        let declared = self.scope.function(name, &arguments, body);
+        declared.map_err(|error| match error.within {
+            Some(_) => self.in_text(&path, &error),
+            None => self.at_key(&path, &error),
+        })
+    }
+
+    /// Binds a formula of `variables`.
+    pub(crate) fn formula(
+        &self,
+        path: &Path,
+        text: &NumberText,
+        variables: &[&str],
+    ) -> Result<Formula, Diagnostic> {
+        self.refuse_taken(variables)?;
+        let bound = Expr::parse(&text.to_string())
+            .and_then(|expr| Formula::bind(&expr, &self.scope, variables));
+        let formula = bound.map_err(|error| self.in_text(path, &error))?;
+        self.used.borrow_mut().extend(formula.uses().iter().cloned());
+        Ok(formula)
+    }
+
+    /// Binds one formula for each of `dimension` components.
+    pub(crate) fn vector(
+        &self,
+        path: &Path,
+        texts: &[NumberText],
+        dimension: usize,
+        variables: &[&str],
+    ) -> Result<Vec<Formula>, Diagnostic> {
+        if texts.len() != dimension {
+            let (got, d) = (texts.len(), dimension);
+            let message = format!("{got} components in a scene of dimension {d}");
+            return Err(self.diagnostic(path, &message).with_label(&format!("expected {d}")));
+        }
+        let bind = |(i, text): (usize, &NumberText)| {
+            let path = path.then(i);
+            let formula = self.formula(&path, text, variables)?;
+            match formula.constant() {
+                Some(value) if !value.is_finite() => Err(self.not_finite(&path, text, value)),
+                _ => Ok(formula),
+            }
+        };
+        texts.iter().enumerate().map(bind).collect()
+    }
+
+    /// A finite number, given as such or by a formula of parameters.
+    pub(crate) fn number(&self, path: &Path, text: &NumberText) -> Result<f64, Diagnostic> {
+        let formula = self.formula(path, text, &[])?;
+        let value = formula.constant().unwrap_or(f64::NAN);
+        if value.is_finite() {
+            return Ok(value);
+        }
+        Err(self.not_finite(path, text, value))
+    }
+
+    /// A number above zero.
+    pub(crate) fn positive(
+        &self,
+        path: &Path,
+        text: &NumberText,
+        what: &str,
+    ) -> Result<f64, Diagnostic> {
+        let value = self.number(path, text)?;
+        if value > 0.0 {
+            return Ok(value);
+        }
+        let message = format!("{what} is {}, and must be above zero", shown(value));
+        Err(self.unusable(path, text, &message, "expected a positive number"))
+    }
+
+    /// A whole number from 1 on.
+    pub(crate) fn count(
+        &self,
+        path: &Path,
+        text: &NumberText,
+        what: &str,
+    ) -> Result<u64, Diagnostic> {
+        let value = self.number(path, text)?;
+        if (1.0..=MOST).contains(&value) && value.fract() == 0.0 {
+            return Ok(value as u64);
+        }
+        let message = format!("{what} is {}", shown(value));
+        let label = format!("expected a whole number from 1 to {MOST:e}");
+        Err(self.unusable(path, text, &message, &label))
+    }
+
+    /// One number for each of `dimension` axes.
+    pub(crate) fn point(
+        &self,
+        path: &Path,
+        texts: &[NumberText],
+        dimension: usize,
+    ) -> Result<Vec<f64>, Diagnostic> {
+        self.vector(path, texts, dimension, &[])?;
+        texts.iter().enumerate().map(|(i, text)| self.number(&path.then(i), text)).collect()
+    }
+
+    /// Two ends, the lower one first.
+    pub(crate) fn interval(
+        &self,
+        path: &Path,
+        pair: &[NumberText],
+    ) -> Result<(f64, f64), Diagnostic> {
+        let [low, high] = pair else {
+            let diagnostic = self.diagnostic(path, "an interval has two ends");
+            return Err(diagnostic.with_label("expected [low, high]"));
+        };
+        let low = self.number(&path.then(0), low)?;
+        let high = self.number(&path.then(1), high)?;
+        if low <= high {
+            return Ok((low, high));
+        }
+        let message = format!("the interval ends at {high} and starts at {low}");
+        Err(self.diagnostic(path, &message).with_label("expected [low, high]"))
+    }
+
+    /// The reason that stands at `path` for what is `stated` there; it must not be empty.
+    pub(crate) fn because(
+        &self,
+        path: &Path,
+        stated: &str,
+        text: &str,
+    ) -> Result<String, Diagnostic> {
+        let text = text.trim();
+        if !text.is_empty() {
+            return Ok(text.to_owned());
+        }
+        let message = format!("{stated} needs its reason");
+        let diagnostic = self.diagnostic(&path.then("because"), &message);
+        Err(diagnostic.with_label("expected words"))
+    }
+
+    /// A complaint about the value at `path`.
+    pub(crate) fn diagnostic(&self, path: &Path, message: &str) -> Diagnostic {
+        self.source.diagnostic_at(path.steps(), message)
+    }
+
+    /// A complaint about the key at `path`.
+    pub(crate) fn diagnostic_at_key(&self, path: &Path, message: &str) -> Diagnostic {
+        match self.source.key_at(path.steps()) {
+            Some(place) => self.source.diagnostic(place, message),
+            None => self.diagnostic(path, message),
+        }
+    }
+
+    /// A complaint about part of the formula at `path`, or of the function that it calls.
+    fn in_text(&self, path: &Path, error: &FormulaError) -> Diagnostic {
+        let function = error.within.as_ref().and_then(|name| self.head_of(name));
+        let path = function
+            .map_or_else(|| path.clone(), |head| Path::top("functions").then(head.as_str()));
+        let diagnostic = match self.source.within(path.steps(), error.span.clone()) {
+            Some(place) => self.source.diagnostic(place, &error.message),
+            None => self.diagnostic(&path, &error.message),
+        };
+        match error.unknown.as_deref().filter(|name| self.comes_later(name)) {
+            Some(name) => {
+                let line = self.line_of(name).map_or_else(String::new, |n| format!(" (line {n})"));
+                let help = format!("`{name}` is declared further down{line}: move it up");
+                diagnostic.with_help(&help)
+            }
+            None => with_help(diagnostic, error),
+        }
+    }
+
+    fn at_key(&self, path: &Path, error: &FormulaError) -> Diagnostic {
+        with_help(self.diagnostic_at_key(path, &error.message), error)
+    }
+}
+
+fn with_help(diagnostic: Diagnostic, error: &FormulaError) -> Diagnostic {
+    match &error.help {
+        Some(help) => diagnostic.with_help(help),
+        None => diagnostic,
+    }
+}
+
+/// A number as an author would write it: 1e300 rather than a one and 300 zeros.
+pub(crate) fn shown(value: f64) -> String {
+    NumberText::Number(value).to_string()
+}
+
+/// The name that was most likely meant, or all `known` ones.
+pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
+    match nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("known {kind}: {}", known.join(", ")),
+    }
+}

@@ -1,0 +1,128 @@
+//! The names that a suite declares: tables, names that are taken, unused, or declared too late.
+
+use super::{Evaluator, ParameterSpec, TableSpec, shown, with_help};
+use crate::exact::formula::Scope;
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
+
+impl Evaluator<'_> {
+    /// Refuses a declared name that formulas need for one of their `variables`.
+    pub(crate) fn refuse_taken(&self, variables: &[&str]) -> Result<(), Diagnostic> {
+        let diagnostic = |path: &Path, name: &str| {
+            let message = format!("`{name}` is a variable of formulas and cannot be declared");
+            let help = format!("rename it; the variables are {}", variables.join(", "));
+            Err(self.diagnostic_at_key(path, &message).with_help(&help))
+        };
+        for name in variables {
+            let declared = self.scope.constants().map(|(known, _)| known);
+            if declared.chain(self.scope.tables()).any(|known| known == *name) {
+                return diagnostic(&Path::top("parameters").then(*name), name);
+            }
+            if let Some(head) = self.head_of(name) {
+                return diagnostic(&Path::top("functions").then(head.as_str()), name);
+            }
+        }
+        Ok(())
+    }
+
+    /// Complains of the first parameter or function that nothing uses.
+    pub(crate) fn refuse_unused(
+        &self,
+        parameters: &Ordered<ParameterSpec>,
+        functions: &Ordered<String>,
+    ) -> Result<(), Diagnostic> {
+        let used = self.used.borrow();
+        for (name, _) in parameters.as_slice() {
+            if !used.contains(name) {
+                let path = Path::top("parameters").then(name.as_str());
+                let message = format!("the parameter `{name}` is never used");
+                return Err(self
+                    .diagnostic_at_key(&path, &message)
+                    .with_help("remove it, or use it"));
+            }
+        }
+        for (head, _) in functions.as_slice() {
+            let name = name_in(head);
+            if !used.contains(name) {
+                let path = Path::top("functions").then(head.as_str());
+                let message = format!("the function `{name}` is never used");
+                return Err(self
+                    .diagnostic_at_key(&path, &message)
+                    .with_help("remove it, or use it"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a name is that of a parameter whose value is not known yet.
+    pub(super) fn comes_later(&self, name: &str) -> bool {
+        self.parameters.iter().any(|known| known == name)
+            && !self.scope.constants().any(|(known, _)| known == name)
+            && !self.scope.tables().any(|known| known == name)
+    }
+
+    /// The head under which the file declares `function`.
+    pub(super) fn head_of(&self, function: &str) -> Option<&String> {
+        self.heads.iter().find(|head| name_in(head) == function)
+    }
+}
+
+/// `s` in `s(tau)`.
+fn name_in(head: &str) -> &str {
+    head.split('(').next().unwrap_or(head).trim()
+}
+
+impl Evaluator<'_> {
+    /// Declares the table `name`. Returns its text and, where it is read by a parameter, its value.
+    pub(super) fn declare_table(
+        &mut self,
+        path: &Path,
+        name: &str,
+        spec: &TableSpec,
+    ) -> Result<(String, Option<f64>), Diagnostic> {
+        let rows = self.rows(&path.then("table"), spec)?;
+        let (by, by_path) = (&spec.by, path.then("by"));
+        Scope::named(by)
+            .map_err(|error| with_help(self.diagnostic(&by_path, &error.message), &error))?;
+        if by == name {
+            return Err(self.diagnostic(&by_path, &format!("`{name}` is a table by itself")));
+        }
+        let by_parameter = self.parameters.contains(by);
+        if by_parameter {
+            self.number(&by_path, &NumberText::Formula(by.clone()))?;
+        }
+        let declared = self.scope.table(name, by, &rows);
+        declared.map_err(|error| self.at_key(path, &error))?;
+        let of_name = || self.number(path, &NumberText::Formula(name.to_owned()));
+        let value = by_parameter.then(of_name).transpose()?;
+        if value.is_some() {
+            self.used.borrow_mut().remove(name);
+        }
+        let written = spec.table.iter().map(|row| format!("{} at {by} = {}", row[1], row[0]));
+        Ok((format!("({})", written.collect::<Vec<_>>().join(", ")), value))
+    }
+
+    /// The rows of a table: at least two, in ascending order.
+    fn rows(&self, path: &Path, spec: &TableSpec) -> Result<Vec<(f64, f64)>, Diagnostic> {
+        let mut rows: Vec<(f64, f64)> = Vec::new();
+        for (i, row) in spec.table.iter().enumerate() {
+            let path = path.then(i);
+            let [at, value] = row.as_slice() else {
+                let diagnostic = self.diagnostic(&path, "this row does not have two numbers");
+                let label = format!("expected a value of `{}`, and the parameter's there", spec.by);
+                return Err(diagnostic.with_label(&label));
+            };
+            let row = (self.number(&path.then(0), at)?, self.number(&path.then(1), value)?);
+            if let Some((before, _)) = rows.last().filter(|(before, _)| !(*before < row.0)) {
+                let message = format!("{} follows {}", shown(row.0), shown(*before));
+                let label = "expected rows in ascending order";
+                return Err(self.diagnostic(&path.then(0), &message).with_label(label));
+            }
+            rows.push(row);
+        }
+        if rows.len() < 2 {
+            let diagnostic = self.diagnostic(path, "a table has at least two rows");
+            return Err(diagnostic.with_help("a parameter of one value is a number"));
+        }
+        Ok(rows)
+    }
+}

@@ -1,0 +1,157 @@
+//! Conditions on the faces of a body: the keys in a suite, and the checked condition.
+
+use crate::dimension::in_every_dimension;
+use crate::exact::Condition;
+use crate::exact::formula::Formula;
+use crate::mpm::{BasisName, Boundary, Grid, Side};
+use crate::suite::evaluator::{Evaluator, coordinates_and_time};
+use crate::suite::scene::numbers::LoadNumbers;
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use std::sync::Arc;
+
+/// Keys of the condition on a face, as suites write them.
+pub(crate) trait BoundaryKeys {
+    /// The condition, checked, with every number computed.
+    ///
+    /// # Errors
+    /// The first mistake in its keys.
+    fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic>;
+
+    /// Whether the face is one and the same with the opposite one.
+    fn is_periodic(&self) -> bool {
+        false
+    }
+}
+
+/// A condition without parameters is its own specification.
+impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
+    fn compile(&self, _: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
+        Ok(Arc::new(*self))
+    }
+
+    fn is_periodic(&self) -> bool {
+        BoundaryCondition::is_periodic(self)
+    }
+}
+
+/// Where a condition on a face is compiled: its place in the file, and the dimension of the scene.
+pub(crate) struct FaceEntry<'a> {
+    pub(crate) evaluator: &'a Evaluator<'a>,
+    /// Of its value.
+    pub(crate) path: Path,
+    /// Number of space dimensions.
+    pub(crate) dimension: usize,
+}
+
+impl FaceEntry<'_> {
+    /// A formula of the coordinates and t, at `path`.
+    pub(crate) fn scalar(&self, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
+        self.evaluator.formula(path, text, &coordinates_and_time(self.dimension))
+    }
+
+    /// One formula of the coordinates and t for each component, at its place.
+    pub(crate) fn vector(&self, texts: &[NumberText]) -> Result<Vec<Formula>, Diagnostic> {
+        let variables = coordinates_and_time(self.dimension);
+        self.evaluator.vector(&self.path, texts, self.dimension, &variables)
+    }
+}
+
+/// A face of a grid in D dimensions that gets its condition.
+pub(crate) struct FaceSite<'a, const D: usize> {
+    pub(crate) grid: &'a Grid<D>,
+    pub(crate) basis: BasisName,
+    /// Axis of the normal, and the end of that axis.
+    pub(crate) at: (usize, Side),
+}
+
+/// A condition of a scene as one of the solver.
+pub(crate) trait BuildBoundary<const D: usize> {
+    /// The condition on the nodes of the face at `site`; none where they are not held.
+    fn build(&self, _site: &FaceSite<'_, D>) -> Option<Box<dyn Boundary<D>>> {
+        None
+    }
+}
+
+in_every_dimension! {
+    /// A condition of a scene as one of the solver in any dimension.
+    BuildBoundaries: BuildBoundary
+}
+
+/// Condition on the motion of one face of the body, with every number computed.
+pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
+    /// Its name, as suites write it.
+    fn name(&self) -> &'static str;
+
+    /// Numbers for solvers of other programs; empty for a condition that its name describes.
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::default()
+    }
+
+    /// Its verb, which follows "the left face" in messages.
+    fn verb(&self) -> &'static str;
+
+    /// Value of its row in reports; empty: no row.
+    fn row(&self) -> String {
+        self.name().to_owned()
+    }
+
+    /// Where faces share a node the stronger condition wins: a wall that drives a body does not
+    /// tear it from one that holds it.
+    fn strength(&self) -> u8 {
+        0
+    }
+
+    /// Whether nothing holds the face: it may carry a traction.
+    fn is_free(&self) -> bool {
+        false
+    }
+
+    /// Whether the face is one and the same with the opposite one.
+    fn is_periodic(&self) -> bool {
+        false
+    }
+
+    /// Whether nodes on the face are held.
+    fn is_held(&self) -> bool {
+        !(self.is_free() || self.is_periodic())
+    }
+
+    /// Whether the face has a velocity of its own.
+    fn is_driven(&self) -> bool {
+        false
+    }
+
+    /// Whether the face can but stay where the grid ends.
+    fn stays(&self) -> bool {
+        false
+    }
+
+    /// Whether it holds the motion along the face as well as that along its normal.
+    fn holds_all_components(&self) -> bool {
+        false
+    }
+
+    /// Whether the reference FEM does not know it.
+    fn is_lacked_by_fem(&self) -> bool {
+        false
+    }
+
+    /// Why it cannot hold a scene of several bodies, if it cannot.
+    fn against_several_bodies(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Why no consistent mass matrix can be solved with it, if none can.
+    fn against_consistent_mass(&self) -> Option<&'static str> {
+        None
+    }
+}
+
+/// The condition in D dimensions on the nodes of the face at `site`.
+pub(crate) fn build<const D: usize>(
+    condition: &Arc<dyn BoundaryCondition>,
+    site: &FaceSite<'_, D>,
+) -> Option<Box<dyn Boundary<D>>> {
+    let condition: Arc<dyn BuildBoundaries> = condition.clone();
+    condition.in_dimension::<D>()?.build(site)
+}

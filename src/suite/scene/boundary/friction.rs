@@ -1,0 +1,84 @@
+//! A wall that presses, does not pull, and resists sliding.
+
+use super::contract::{BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry, FaceSite};
+use crate::exact::{Condition, FacePoint, Violation};
+use crate::mpm::{Boundary, Friction};
+use crate::suite::evaluator::shown;
+use crate::suite::scene::numbers::LoadNumbers;
+use crate::suite::yaml::{Diagnostic, NumberText};
+use std::sync::Arc;
+
+/// Coefficient of friction.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub(crate) struct FrictionSpec(NumberText);
+
+impl BoundaryKeys for FrictionSpec {
+    fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
+        let FaceEntry { evaluator, path, .. } = entry;
+        let coefficient = evaluator.number(path, &self.0)?;
+        if coefficient >= 0.0 {
+            return Ok(Arc::new(FrictionFace(coefficient)));
+        }
+        let message = format!("the coefficient of friction is {}", shown(coefficient));
+        Err(evaluator.diagnostic(path, &message).with_label("expected zero or a positive number"))
+    }
+}
+
+/// The coefficient mu.
+#[derive(Debug)]
+struct FrictionFace(f64);
+
+impl Condition for FrictionFace {
+    fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
+        point.friction(self.0)
+    }
+}
+
+impl BoundaryCondition for FrictionFace {
+    fn name(&self) -> &'static str {
+        "friction"
+    }
+
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::constants(&[("coefficient", self.0)])
+    }
+
+    fn verb(&self) -> &'static str {
+        "has friction"
+    }
+
+    fn row(&self) -> String {
+        format!("wall that does not pull, coefficient of friction {:.4}", self.0)
+    }
+
+    fn strength(&self) -> u8 {
+        2
+    }
+
+    fn is_lacked_by_fem(&self) -> bool {
+        true
+    }
+
+    fn against_several_bodies(&self) -> Option<&'static str> {
+        Some(
+            "friction is measured by what a wall takes from one body, and what other bodies push \
+             comes after it",
+        )
+    }
+
+    fn against_consistent_mass(&self) -> Option<&'static str> {
+        Some(
+            "friction is measured by what a held node would do, of which a consistent mass matrix \
+             has no row",
+        )
+    }
+}
+
+impl<const D: usize> BuildBoundary<D> for FrictionFace {
+    fn build(&self, site: &FaceSite<'_, D>) -> Option<Box<dyn Boundary<D>>> {
+        let (axis, side) = site.at;
+        Some(Box::new(Friction::face(site.grid, axis, side, self.0)))
+    }
+}

@@ -1,0 +1,34 @@
+//! A face that is one and the same with the opposite one. The grid has no end there.
+
+use super::contract::{BoundaryCondition, BuildBoundary};
+use crate::exact::{Condition, FacePoint, Violation};
+
+/// The state of the opposite face, one period away.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PeriodicFace;
+
+impl Condition for PeriodicFace {
+    fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
+        point.continues_on_opposite_face()
+    }
+}
+
+impl BoundaryCondition for PeriodicFace {
+    fn name(&self) -> &'static str {
+        "periodic"
+    }
+
+    fn verb(&self) -> &'static str {
+        "is periodic"
+    }
+
+    fn is_periodic(&self) -> bool {
+        true
+    }
+
+    fn is_lacked_by_fem(&self) -> bool {
+        true
+    }
+}
+
+impl<const D: usize> BuildBoundary<D> for PeriodicFace {}

@@ -1,0 +1,63 @@
+//! A face through which heat is exchanged with surroundings: Newton's law of cooling.
+
+use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
+use crate::exact::Violation;
+use crate::exact::formula::Formula;
+use crate::exact::heat::{HeatFacePoint, ThermalCondition};
+use crate::mpm::Thermal;
+use crate::suite::scene::boundary::FaceEntry;
+use crate::suite::scene::numbers::scalar;
+use crate::suite::yaml::{Diagnostic, NumberText};
+use std::sync::Arc;
+
+/// Heat transfer; the temperature of the surroundings is a formula of the coordinates and t.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ConvectionSpec {
+    /// Heat transfer coefficient (W/(K m^(D-1))).
+    coefficient: NumberText,
+    /// Temperature of the surroundings (K).
+    ambient: NumberText,
+}
+
+impl ThermalKeys for ConvectionSpec {
+    fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic> {
+        let (at, what) = (entry.path.then("coefficient"), "the coefficient of convection");
+        let coefficient = entry.evaluator.positive(&at, &self.coefficient, what)?;
+        let ambient = entry.scalar(&entry.path.then("ambient"), &self.ambient)?;
+        Ok(Arc::new(Convection { coefficient, ambient }))
+    }
+}
+
+/// `-Q . n = coefficient (ambient - T)`, per reference area.
+#[derive(Debug)]
+struct Convection {
+    /// W/(K m^(D-1)).
+    coefficient: f64,
+    /// K.
+    ambient: Formula,
+}
+
+impl ThermalCondition for Convection {
+    fn check(&self, point: &dyn HeatFacePoint) -> Result<(), Violation> {
+        let ambient = point.value(&self.ambient);
+        let given = self.coefficient * (ambient - point.temperature());
+        let size = self.coefficient * point.largest_temperature().max(ambient.abs());
+        point.lets_in("is cooled by convection, heat that enters", given, size)
+    }
+}
+
+impl HeatCondition for Convection {
+    fn row(&self) -> Option<String> {
+        let Self { coefficient, ambient } = self;
+        Some(format!("convection, {coefficient} W/(m2 K) from {} K", ambient.source()))
+    }
+}
+
+impl<const D: usize> BuildThermal<D> for Convection {
+    fn build(&self) -> Option<Thermal<D>> {
+        let (coefficient, ambient) = (self.coefficient, scalar(&self.ambient));
+        Some(Thermal::Inflow(Box::new(move |x, t, value| coefficient * (ambient(x, t) - value))))
+    }
+}

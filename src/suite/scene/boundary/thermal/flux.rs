@@ -1,0 +1,47 @@
+//! A face with a given flux of heat.
+
+use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
+use crate::exact::Violation;
+use crate::exact::formula::Formula;
+use crate::exact::heat::{HeatFacePoint, ThermalCondition};
+use crate::mpm::Thermal;
+use crate::suite::scene::boundary::FaceEntry;
+use crate::suite::scene::numbers::scalar;
+use crate::suite::yaml::{Diagnostic, NumberText};
+use std::sync::Arc;
+
+/// Heat that enters (W/m^(D-1)), a formula of the coordinates and t.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub(crate) struct FluxSpec(NumberText);
+
+impl ThermalKeys for FluxSpec {
+    fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic> {
+        Ok(Arc::new(GivenFlux(entry.scalar(&entry.path, &self.0)?)))
+    }
+}
+
+/// `-Q . n = value`, per reference area.
+#[derive(Debug)]
+struct GivenFlux(Formula);
+
+impl ThermalCondition for GivenFlux {
+    fn check(&self, point: &dyn HeatFacePoint) -> Result<(), Violation> {
+        let given = point.value(&self.0);
+        point.lets_in("has a given flux", given, given.abs())
+    }
+}
+
+impl HeatCondition for GivenFlux {
+    fn row(&self) -> Option<String> {
+        Some(format!("heat enters, {} W/m2", self.0.source()))
+    }
+}
+
+impl<const D: usize> BuildThermal<D> for GivenFlux {
+    fn build(&self) -> Option<Thermal<D>> {
+        let value = scalar(&self.0);
+        Some(Thermal::Inflow(Box::new(move |x, t, _| value(x, t))))
+    }
+}

@@ -1,0 +1,55 @@
+//! Faces that no heat enters from outside: insulated, or continued on the opposite face of a
+//! periodic body.
+
+use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
+use crate::exact::Violation;
+use crate::exact::heat::{HeatFacePoint, ThermalCondition};
+use crate::suite::scene::boundary::FaceEntry;
+use crate::suite::yaml::Diagnostic;
+use std::sync::Arc;
+
+/// `Q . n = 0`.
+#[derive(Debug)]
+pub(crate) struct Insulated;
+
+impl ThermalKeys for Insulated {
+    fn compile(&self, _: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic> {
+        Ok(Arc::new(Self))
+    }
+
+    fn lets_heat_in(&self) -> bool {
+        false
+    }
+}
+
+impl ThermalCondition for Insulated {
+    fn check(&self, point: &dyn HeatFacePoint) -> Result<(), Violation> {
+        point.lets_in("is insulated, heat that enters", 0.0, 0.0)
+    }
+}
+
+impl HeatCondition for Insulated {
+    fn row(&self) -> Option<String> {
+        Some("insulated".to_owned())
+    }
+}
+
+impl<const D: usize> BuildThermal<D> for Insulated {}
+
+/// The temperature, and the flow of heat, of the opposite face.
+#[derive(Debug)]
+pub(crate) struct PeriodicTemperature;
+
+impl ThermalCondition for PeriodicTemperature {
+    fn check(&self, point: &dyn HeatFacePoint) -> Result<(), Violation> {
+        point.continues_on_opposite_face()
+    }
+}
+
+impl HeatCondition for PeriodicTemperature {
+    fn row(&self) -> Option<String> {
+        None
+    }
+}
+
+impl<const D: usize> BuildThermal<D> for PeriodicTemperature {}

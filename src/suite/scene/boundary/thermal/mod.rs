@@ -1,0 +1,27 @@
+//! Thermal conditions on the faces of a body in which heat flows: the family. A member is one file
+//! and one line below (and the `mod` that Rust wants).
+
+mod contract;
+mod convection;
+mod flux;
+mod insulated;
+mod temperature;
+
+pub use contract::SceneHeat;
+pub(crate) use contract::{HeatCondition, ThermalFace, ThermalKeys, build};
+pub(crate) use insulated::{Insulated, PeriodicTemperature};
+
+use super::conditions;
+
+conditions! {
+    /// Thermal condition on a face; a face that is not named is insulated.
+    ThermalSpec: ThermalKeys;
+    /// No heat flows.
+    Insulated = "insulated" is insulated::Insulated;
+    /// The temperature (K).
+    Temperature = "temperature" of temperature::TemperatureSpec;
+    /// Heat that enters (W/m^(D-1)).
+    Flux = "flux" of flux::FluxSpec;
+    /// Heat that enters in proportion to a difference of temperatures.
+    Convection = "convection" of convection::ConvectionSpec;
+}

@@ -1,0 +1,70 @@
+//! A face with a given velocity.
+
+use super::contract::{BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry, FaceSite};
+use crate::exact::formula::Formula;
+use crate::exact::{Condition, FacePoint, Violation};
+use crate::mpm::{Boundary, Prescribed};
+use crate::suite::scene::numbers::{LoadNumbers, of_place_and_time, sources};
+use crate::suite::yaml::{Diagnostic, NumberText};
+use std::sync::Arc;
+
+/// Velocity (m/s), formulas of the coordinates and t.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub(crate) struct VelocitySpec(Vec<NumberText>);
+
+impl BoundaryKeys for VelocitySpec {
+    fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
+        Ok(Arc::new(MovingFace(entry.vector(&self.0)?)))
+    }
+}
+
+/// A velocity (m/s), one formula of the coordinates and t for each component.
+#[derive(Debug)]
+struct MovingFace(Vec<Formula>);
+
+/// `u_t = v(X, t)`.
+impl Condition for MovingFace {
+    fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
+        (0..point.dimension()).try_for_each(|i| point.velocity(i, point.value(&self.0[i])))
+    }
+}
+
+impl BoundaryCondition for MovingFace {
+    fn name(&self) -> &'static str {
+        "velocity"
+    }
+
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::vector("velocity", &self.0)
+    }
+
+    fn verb(&self) -> &'static str {
+        "has a given velocity"
+    }
+
+    fn row(&self) -> String {
+        format!("velocity {} m/s", sources(&self.0))
+    }
+
+    fn is_driven(&self) -> bool {
+        true
+    }
+
+    fn is_lacked_by_fem(&self) -> bool {
+        true
+    }
+
+    fn against_consistent_mass(&self) -> Option<&'static str> {
+        Some("the consistent mass matrix is solved for walls at rest, and a face is driven")
+    }
+}
+
+impl<const D: usize> BuildBoundary<D> for MovingFace {
+    fn build(&self, site: &FaceSite<'_, D>) -> Option<Box<dyn Boundary<D>>> {
+        let (axis, side) = site.at;
+        let value = of_place_and_time(&self.0);
+        Some(Box::new(Prescribed::face(site.grid, site.basis, axis, side, value)))
+    }
+}

@@ -1,0 +1,66 @@
+//! Faces of a body, and their names.
+
+use super::boundary::BoundaryCondition;
+use crate::suite::evaluator::{Evaluator, suggestion};
+use crate::suite::yaml::{Diagnostic, Path};
+use std::sync::Arc;
+
+/// Names of the faces: low and high, axis by axis.
+pub(crate) const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
+
+/// One face of the body.
+#[derive(Debug, Clone)]
+pub struct SceneFace {
+    /// Name that suites give it.
+    pub name: &'static str,
+    /// Axis of its normal.
+    pub axis: usize,
+    /// Whether it is the face with the larger coordinate.
+    pub high: bool,
+    /// Condition on its motion.
+    pub(crate) hold: Arc<dyn BoundaryCondition>,
+}
+
+impl SceneFace {
+    /// Name of the condition on its motion, as suites write it.
+    pub fn condition(&self) -> &'static str {
+        self.hold.name()
+    }
+}
+
+/// Number of the face that a suite calls `name`; the name is a key or a value of the file.
+pub(crate) fn face(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    name: &str,
+    dimension: usize,
+    is_key: bool,
+) -> Result<usize, Diagnostic> {
+    let known = &FACES[..2 * dimension];
+    known.iter().position(|face| *face == name).ok_or_else(|| {
+        let message = format!("a body of dimension {dimension} has no face `{name}`");
+        let diagnostic = if is_key {
+            evaluator.diagnostic_at_key(path, &message)
+        } else {
+            evaluator.diagnostic(path, &message)
+        };
+        diagnostic.with_help(&suggestion("faces", name, known))
+    })
+}
+
+/// Schema of the name of a face.
+#[cfg(feature = "schemas")]
+pub(crate) fn face_name(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    schemars::json_schema!({"type": "string", "enum": FACES})
+}
+
+/// Schema of a map from names of faces.
+#[cfg(feature = "schemas")]
+pub(crate) fn by_face<T: schemars::JsonSchema>(
+    all: &mut schemars::SchemaGenerator,
+) -> schemars::Schema {
+    let one = all.subschema_for::<T>().to_value();
+    let faces: serde_json::Map<String, serde_json::Value> =
+        FACES.iter().map(|face| ((*face).to_owned(), one.clone())).collect();
+    schemars::json_schema!({"type": "object", "properties": faces, "additionalProperties": false})
+}

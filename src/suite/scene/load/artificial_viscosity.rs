@@ -1,0 +1,96 @@
+//! Artificial viscosity: a pressure against compression, for shocks.
+
+use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::entry::{LoadEntry, LoadKeys};
+use crate::exact::Term;
+use crate::mpm::{ArtificialViscosity, Effect};
+use crate::subject::PlaneState;
+use crate::suite::evaluator::shown;
+use crate::suite::scene::numbers::LoadNumbers;
+use crate::suite::yaml::{Diagnostic, NumberText};
+use std::sync::Arc;
+
+/// Coefficients of the artificial viscosity.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ViscositySpec {
+    /// Coefficient c1 of `rho h abs(tr D) c1 c`.
+    linear: NumberText,
+    /// Coefficient c2 of `rho h^2 (tr D)^2 c2`.
+    quadratic: NumberText,
+}
+
+impl LoadKeys for ViscositySpec {
+    fn example(_: &str) -> String {
+        "{linear: s, quadratic: s}".to_owned()
+    }
+
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        entry.refuse_second("artificial viscosity")?;
+        let coefficient = |key: &str, text: &NumberText| {
+            let path = entry.path.then(key);
+            let value = entry.evaluator.number(&path, text)?;
+            if value >= 0.0 {
+                return Ok(value);
+            }
+            let message = format!("a coefficient of viscosity is {}", shown(value));
+            let label = "expected zero or a positive number";
+            Err(entry.evaluator.diagnostic(&path, &message).with_label(label))
+        };
+        Ok(Arc::new(ViscosityLoad {
+            linear: coefficient("linear", &self.linear)?,
+            quadratic: coefficient("quadratic", &self.quadratic)?,
+            speed: entry.scene.wave_speed(),
+        }))
+    }
+
+    fn against_plane(&self, plane: PlaneState) -> Option<&'static str> {
+        let reason = "an artificial viscosity is a pressure on all axes";
+        (plane != PlaneState::Strain).then_some(reason)
+    }
+
+    fn lacked_by_fem(&self) -> Option<&'static str> {
+        Some("artificial viscosity")
+    }
+}
+
+/// Coefficients of the linear and of the quadratic term, and the wave speed at rest (m/s).
+#[derive(Debug)]
+struct ViscosityLoad {
+    linear: f64,
+    quadratic: f64,
+    speed: f64,
+}
+
+/// An error of the method, not a part of the problem.
+impl Term for ViscosityLoad {}
+
+impl SceneLoad for ViscosityLoad {
+    fn numbers(&self) -> LoadNumbers {
+        let Self { linear, quadratic, speed } = *self;
+        LoadNumbers::constants(&[
+            ("linear", linear),
+            ("quadratic", quadratic),
+            ("wave_speed", speed),
+        ])
+    }
+
+    fn rows(&self) -> Vec<(String, String)> {
+        let Self { linear, quadratic, .. } = self;
+        let text = format!("artificial, linear {linear}, quadratic {quadratic}");
+        vec![("viscosity".to_owned(), text)]
+    }
+
+    fn disturbs_rest(&self) -> bool {
+        false
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for ViscosityLoad {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        let Self { linear, quadratic, speed } = *self;
+        let length = site.grid.h;
+        Ok(Box::new(ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() }))
+    }
+}

@@ -1,0 +1,80 @@
+//! Damping in proportion to mass: velocities decay at a rate.
+
+use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::entry::{LoadEntry, LoadKeys, StudyFacts};
+use crate::exact::Term;
+use crate::exact::formula::Formula;
+use crate::mpm::{Damping, Effect};
+use crate::suite::evaluator::shown;
+use crate::suite::scene::numbers::LoadNumbers;
+use crate::suite::yaml::{Diagnostic, NumberText};
+use std::sync::Arc;
+
+/// Times of a run at which the sign of the rate is checked.
+const TIMES: u32 = 1000;
+
+/// Rate (1/s) at which velocities decay, a formula of t.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub(crate) struct DampingSpec(NumberText);
+
+impl LoadKeys for DampingSpec {
+    fn example(_: &str) -> String {
+        "s*(1 + t)".to_owned()
+    }
+
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        entry.refuse_second("damping")?;
+        Ok(Arc::new(DampingLoad(entry.evaluator.formula(&entry.path, &self.0, &["t"])?)))
+    }
+
+    /// The rate is never negative.
+    fn check(&self, entry: &LoadEntry<'_>, study: &StudyFacts) -> Result<(), Diagnostic> {
+        let LoadEntry { evaluator, path, .. } = entry;
+        let rate = evaluator.formula(path, &self.0, &["t"])?;
+        for k in 0..=TIMES {
+            let t = study.until * f64::from(k) / f64::from(TIMES);
+            let alpha = rate.eval(&[t]);
+            if !(alpha >= 0.0 && alpha.is_finite()) {
+                let message =
+                    format!("the rate of damping is {} at t = {}", shown(alpha), shown(t));
+                let label = "expected zero or a positive number (1/s)";
+                return Err(evaluator.diagnostic(path, &message).with_label(label));
+            }
+        }
+        Ok(())
+    }
+
+    fn lacked_by_fem(&self) -> Option<&'static str> {
+        Some("damping")
+    }
+}
+
+/// The rate alpha(t) (1/s).
+#[derive(Debug)]
+struct DampingLoad(Formula);
+
+/// `-alpha u_t`.
+impl Term for DampingLoad {
+    fn resistance(&self, t: f64, velocity: f64, _: &dyn Fn() -> f64) -> f64 {
+        -self.0.eval(&[t]) * velocity
+    }
+}
+
+impl SceneLoad for DampingLoad {
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::scalar("rate", &self.0)
+    }
+
+    fn rows(&self) -> Vec<(String, String)> {
+        vec![("damping".to_owned(), format!("{} 1/s", self.0.source()))]
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for DampingLoad {
+    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        let rate = self.0.clone();
+        Ok(Box::new(Damping(Box::new(move |t| rate.eval(&[t])))))
+    }
+}

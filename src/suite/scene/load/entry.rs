@@ -1,0 +1,252 @@
+//! The keys of a load, and the part of a suite that they are compiled with.
+
+use super::contract::{EffectName, LoadTarget, SceneLoad};
+use crate::exact::Region;
+use crate::exact::formula::{Expr, Formula};
+use crate::mpm::{Particles, Placement, Side};
+use crate::subject::PlaneState;
+use crate::suite::evaluator::{DISPLACEMENTS, Evaluator, coordinates_and_time, suggestion};
+use crate::suite::scene::Scene;
+use crate::suite::scene::face::face;
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use std::sync::Arc;
+
+/// Facts of a convergence study that a load is checked against.
+pub(crate) struct StudyFacts {
+    /// Whether a force is manufactured.
+    pub(crate) manufactured: bool,
+    /// End of the longest run (s).
+    pub(crate) until: f64,
+}
+
+/// One entry of `loads`: what suites write for a load.
+pub(crate) trait LoadKeys {
+    /// Example of the keys of a load with strength `s` (zero: no effect) and the vector value
+    /// `vector`, on the face `right` or the set `some`. The laws of the family test it.
+    fn example(vector: &str) -> String
+    where
+        Self: Sized;
+
+    /// The load, checked, with every number computed.
+    ///
+    /// # Errors
+    /// The first mistake in its keys.
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic>;
+
+    /// Refuses a convergence study that the load does not go with.
+    ///
+    /// # Errors
+    /// The first such part of the study.
+    fn check(&self, _: &LoadEntry<'_>, _: &StudyFacts) -> Result<(), Diagnostic> {
+        Ok(())
+    }
+
+    /// The name of the part of it that the reference FEM lacks.
+    fn lacked_by_fem(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Why the load does not go with a body in this state across its plane, if it does not.
+    fn against_plane(&self, _: PlaneState) -> Option<&'static str> {
+        None
+    }
+
+    /// The name of the face that the load acts on.
+    fn face(&self) -> Option<&str> {
+        None
+    }
+
+    /// Whether the load is that of one body, and makes no sense beside several.
+    fn is_of_one_body(&self) -> bool {
+        self.face().is_some()
+    }
+
+    /// Whether the load makes sense in a body that does not move at all.
+    fn acts_at_rest(&self) -> bool {
+        false
+    }
+}
+
+/// Where a load is compiled: its place in the file, and the scene with the loads before it.
+pub(crate) struct LoadEntry<'a> {
+    pub(crate) evaluator: &'a Evaluator<'a>,
+    pub(crate) effect: EffectName,
+    /// Of its value.
+    pub(crate) path: Path,
+    pub(crate) scene: &'a Scene,
+}
+
+impl LoadEntry<'_> {
+    /// Number of space dimensions.
+    pub(crate) fn dimension(&self) -> usize {
+        self.scene.dimension()
+    }
+
+    /// Refuses a second load of the same kind, which messages call `title`.
+    pub(crate) fn refuse_second(&self, title: &str) -> Result<(), Diagnostic> {
+        if self.scene.lists(self.effect) {
+            return Err(self.evaluator.diagnostic(&self.path, &format!("{title} appears twice")));
+        }
+        Ok(())
+    }
+
+    /// One formula of t for each component.
+    pub(crate) fn of_time(
+        &self,
+        path: &Path,
+        texts: &[NumberText],
+    ) -> Result<Vec<Formula>, Diagnostic> {
+        self.evaluator.vector(path, texts, self.dimension(), &["t"])
+    }
+
+    /// One formula of the coordinates and t for each component.
+    pub(crate) fn of_place_and_time(
+        &self,
+        path: &Path,
+        texts: &[NumberText],
+    ) -> Result<Vec<Formula>, Diagnostic> {
+        let d = self.dimension();
+        self.evaluator.vector(path, texts, d, &coordinates_and_time(d))
+    }
+
+    /// One formula of the coordinates, t and, if one of them names it, the displacement for each
+    /// component.
+    pub(crate) fn of_displacement(
+        &self,
+        path: &Path,
+        texts: &[NumberText],
+    ) -> Result<Vec<Formula>, Diagnostic> {
+        let d = self.dimension();
+        let u = &DISPLACEMENTS[..d];
+        let names_it = |expr: Expr| expr.names().iter().any(|(name, _)| u.contains(&name.as_str()));
+        let is_of_u = |text: &NumberText| Expr::parse(&text.to_string()).is_ok_and(names_it);
+        if !texts.iter().any(is_of_u) {
+            return self.of_place_and_time(path, texts);
+        }
+        self.evaluator.vector(path, texts, d, &[&coordinates_and_time(d)[..], u].concat())
+    }
+
+    /// One formula of the coordinates and t.
+    pub(crate) fn scalar(&self, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
+        self.evaluator.formula(path, text, &coordinates_and_time(self.dimension()))
+    }
+
+    /// The face called `name`, which is free and takes the load.
+    pub(crate) fn free_face(&self, name: &str) -> Result<LoadedFace, Diagnostic> {
+        let Self { evaluator, scene, .. } = self;
+        let path = self.path.then("on");
+        refuse_surface_load(evaluator, &path, self.effect.name(), name, &scene.sets)?;
+        let number = face(evaluator, &path, name, self.dimension(), false)?;
+        let hold = &scene.faces[number].hold;
+        let taken = scene.loads_on(LoadTarget::Face(number)).next();
+        let has = match taken {
+            _ if !hold.is_free() => hold.verb().to_owned(),
+            Some(other) => format!("has a {} already", other.effect.name()),
+            None => return Ok(LoadedFace { number, name: scene.faces[number].name }),
+        };
+        Err(evaluator.diagnostic(&path, &format!("the face `{name}` {has}")))
+    }
+
+    /// The set called `name`, on which nothing acts yet.
+    pub(crate) fn free_set(&self, name: &str) -> Result<LoadedSet, Diagnostic> {
+        let path = self.path.then("on");
+        let number = set_number(self.evaluator, &path, name, &self.scene.sets)?;
+        match self.scene.loads_on(LoadTarget::Set(number)).next() {
+            None => Ok(LoadedSet { number, region: self.scene.sets[number].clone() }),
+            Some(other) => {
+                let message = format!("the set `{name}` has a {} already", other.effect.name());
+                Err(self.evaluator.diagnostic(&path, &message))
+            }
+        }
+    }
+}
+
+/// A face that carries a load.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LoadedFace {
+    /// Low and high, axis by axis.
+    pub(crate) number: usize,
+    pub(crate) name: &'static str,
+}
+
+impl LoadedFace {
+    /// The load that it carries, as a row for reports.
+    pub(crate) fn row(self, load: &str, placement: Placement) -> (String, String) {
+        let place = match placement {
+            Placement::Particles => "",
+            Placement::Surface => ", put at the surface",
+        };
+        (self.name.to_owned(), format!("{load}{place}"))
+    }
+
+    /// The axis of its normal, and the end of that axis.
+    pub(crate) fn place(self) -> (usize, Side) {
+        (self.number / 2, if self.number % 2 == 1 { Side::High } else { Side::Low })
+    }
+}
+
+/// A set of particles that carries a load.
+#[derive(Debug, Clone)]
+pub(crate) struct LoadedSet {
+    /// In the order of the suite.
+    pub(crate) number: usize,
+    pub(crate) region: Region,
+}
+
+impl LoadedSet {
+    /// The set and what acts on it, as a row for reports.
+    pub(crate) fn row(&self, load: &str) -> (String, String) {
+        let Region { name, from, to } = &self.region;
+        let corner = |c: &[f64]| c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        (format!("set {name}"), format!("({}) to ({}) m, {load}", corner(from), corner(to)))
+    }
+
+    /// The particles of the set.
+    ///
+    /// # Errors
+    /// One line that says that there are none.
+    pub(crate) fn members<const D: usize>(
+        &self,
+        particles: &Particles<D>,
+    ) -> Result<Vec<usize>, String> {
+        let inside = |p: &usize| self.region.holds(particles.x0[*p].as_slice());
+        let members: Vec<usize> = (0..particles.len()).filter(inside).collect();
+        if members.is_empty() {
+            return Err(format!("the set `{}` holds no particle", self.region.name));
+        }
+        Ok(members)
+    }
+}
+
+/// Tractions and pressures are forces per area, which a set does not have.
+fn refuse_surface_load(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    load: &str,
+    name: &str,
+    sets: &[Region],
+) -> Result<(), Diagnostic> {
+    if sets.iter().all(|set| set.name != name) {
+        return Ok(());
+    }
+    let message = format!("`{name}` is a set, and a {load} acts on a face");
+    let help = format!("give the total force: `force: {{on: {name}, value: [...]}}`");
+    Err(evaluator.diagnostic(path, &message).with_help(&help))
+}
+
+/// Number of the set that a suite calls `name`.
+fn set_number(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    name: &str,
+    sets: &[Region],
+) -> Result<usize, Diagnostic> {
+    sets.iter().position(|set| set.name == name).ok_or_else(|| {
+        let diagnostic = evaluator.diagnostic(path, &format!("there is no set `{name}`"));
+        let known: Vec<&str> = sets.iter().map(|set| set.name.as_str()).collect();
+        diagnostic.with_help(&match known[..] {
+            [] => format!("declare it: `sets: {{{name}: {{box: {{from: [...], to: [...]}}}}}}`"),
+            _ => suggestion("sets", name, &known),
+        })
+    })
+}

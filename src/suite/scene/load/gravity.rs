@@ -1,0 +1,61 @@
+//! Gravity: a uniform acceleration, constant or a function of time.
+
+use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::entry::{LoadEntry, LoadKeys};
+use crate::exact::Term;
+use crate::exact::formula::Formula;
+use crate::mpm::{Effect, Gravity};
+use crate::suite::scene::numbers::{LoadNumbers, of_time, sources};
+use crate::suite::yaml::{Diagnostic, NumberText};
+use std::sync::Arc;
+
+/// Uniform acceleration (m/s2), formulas of t.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub(crate) struct GravitySpec(Vec<NumberText>);
+
+impl LoadKeys for GravitySpec {
+    fn example(vector: &str) -> String {
+        vector.to_owned()
+    }
+
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        entry.refuse_second("gravity")?;
+        Ok(Arc::new(GravityLoad(entry.of_time(&entry.path, &self.0)?)))
+    }
+}
+
+/// Uniform acceleration (m/s2), one formula of t for each component.
+#[derive(Debug)]
+struct GravityLoad(Vec<Formula>);
+
+impl Term for GravityLoad {
+    fn stated(&self, i: usize, _: &[f64], t: f64, _: &[f64; 3]) -> f64 {
+        self.0.get(i).map_or(0.0, |formula| formula.eval(&[t]))
+    }
+
+    fn is_uniform(&self) -> bool {
+        true
+    }
+
+    fn is_constant(&self) -> bool {
+        self.0.iter().all(|formula| formula.constant().is_some())
+    }
+}
+
+impl SceneLoad for GravityLoad {
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::vector("acceleration", &self.0)
+    }
+
+    fn rows(&self) -> Vec<(String, String)> {
+        vec![("gravity".to_owned(), format!("{} m/s2", sources(&self.0)))]
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for GravityLoad {
+    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        Ok(Box::new(Gravity(of_time(&self.0))))
+    }
+}

@@ -1,0 +1,232 @@
+//! Conduction of heat.
+
+use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::entry::{LoadEntry, LoadKeys};
+use crate::exact::Term;
+use crate::exact::formula::{Expr, Formula};
+use crate::exact::heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives, source_at};
+use crate::mpm::{Effect, Heat, HeatSource, Particles, Side, ThermalBoundary, Vector};
+use crate::subject::PlaneState;
+use crate::suite::evaluator::coordinates_and_time;
+use crate::suite::scene::SceneFace;
+use crate::suite::scene::boundary::FaceEntry;
+use crate::suite::scene::boundary::thermal::{
+    HeatCondition, Insulated, PeriodicTemperature, SceneHeat, ThermalFace, ThermalSpec,
+    build as build_condition,
+};
+#[cfg(feature = "schemas")]
+use crate::suite::scene::face::by_face;
+use crate::suite::scene::face::face;
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
+use std::sync::Arc;
+
+/// Name of the temperature in a source.
+const TEMPERATURE: &str = "T";
+
+/// Conduction of heat, and the conditions on the faces.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HeatSpec {
+    /// Conductivity (W/(m K)).
+    conductivity: NumberText,
+    /// Heat capacity (J/(kg K)).
+    capacity: NumberText,
+    /// Source (W/kg), a formula of the coordinates, t and T.
+    source: Option<NumberText>,
+    /// Initial temperature (K), a formula of the coordinates.
+    initial: Option<NumberText>,
+    /// Conditions on faces; one that is not named is insulated.
+    #[serde(default)]
+    #[cfg_attr(feature = "schemas", schemars(schema_with = "by_face::<ThermalSpec>"))]
+    boundary: Ordered<ThermalSpec>,
+}
+
+impl LoadKeys for HeatSpec {
+    fn example(_: &str) -> String {
+        "{conductivity: 0.1, capacity: 1, initial: s*X}".to_owned()
+    }
+
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        let LoadEntry { evaluator, path, scene, .. } = entry;
+        if let Some(outline) = &scene.outline {
+            let kind = outline.kind();
+            let message = format!("heat flows in a `box`, and the body is of kind `{kind}`");
+            return Err(evaluator.diagnostic_at_key(path, &message));
+        }
+        if scene.heat().is_some() {
+            return Err(evaluator.diagnostic_at_key(path, "heat appears twice"));
+        }
+        let source = self.source.as_ref().map(|text| source(entry, &path.then("source"), text));
+        let initial = self.initial.as_ref().map(|text| entry.scalar(&path.then("initial"), text));
+        let number =
+            |key: &str, text: &NumberText, what| evaluator.positive(&path.then(key), text, what);
+        Ok(Arc::new(SceneHeat {
+            conductivity: number("conductivity", &self.conductivity, "the conductivity")?,
+            capacity: number("capacity", &self.capacity, "the heat capacity")?,
+            source: source.transpose()?,
+            initial: initial.transpose()?,
+            faces: faces(entry, &self.boundary)?,
+        }))
+    }
+
+    fn against_plane(&self, plane: PlaneState) -> Option<&'static str> {
+        (plane != PlaneState::Strain).then_some("heat flows in bodies in plane strain only")
+    }
+
+    fn is_of_one_body(&self) -> bool {
+        true
+    }
+
+    fn acts_at_rest(&self) -> bool {
+        true
+    }
+}
+
+/// The source. A suite may declare a `T` of its own as long as the source does not name it.
+fn source(entry: &LoadEntry<'_>, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
+    let evaluator = entry.evaluator;
+    let mut variables = coordinates_and_time(entry.dimension());
+    let names_it = |expr: Expr| expr.names().iter().any(|(name, _)| name == TEMPERATURE);
+    if evaluator.refuse_taken(&[TEMPERATURE]).is_ok()
+        || Expr::parse(&text.to_string()).is_ok_and(names_it)
+    {
+        variables.push(TEMPERATURE);
+    }
+    evaluator.formula(path, text, &variables)
+}
+
+/// No force.
+impl Term for SceneHeat {}
+
+impl SceneLoad for SceneHeat {
+    fn rows(&self) -> Vec<(String, String)> {
+        let (k, c) = (self.conductivity, self.capacity);
+        let mut texts = vec![format!("conductivity {k} W/(m K), capacity {c} J/(kg K)")];
+        texts.extend(self.source.iter().map(|source| format!("source {} W/kg", source.source())));
+        texts.extend(self.initial.iter().map(|initial| format!("from {} K on", initial.source())));
+        let faces = self
+            .faces
+            .iter()
+            .filter_map(|face| Some((format!("heat {}", face.name), face.condition.row()?)));
+        [("heat".to_owned(), texts.join(", "))].into_iter().chain(faces).collect()
+    }
+
+    fn heat(&self) -> Option<&SceneHeat> {
+        Some(self)
+    }
+
+    fn disturbs_rest(&self) -> bool {
+        false
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for SceneHeat {
+    /// The particles get their temperature here.
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        let start = initial::<D>(site.heat, self.initial.as_ref());
+        let heat = Heat::new((self.conductivity, self.capacity), site.particles, |x0| {
+            let TemperatureDerivatives { value, grad, .. } = start(x0.as_slice());
+            (value, Vector::from_fn(|axis, _| grad[axis]))
+        });
+        let heat = heat.with_faces(build_faces(&self.faces, site));
+        let made = site.heat.filter(|problem| problem.manufactured);
+        let source = match (made, &self.source) {
+            (Some(made), _) => manufactured(made, site.particles),
+            (None, Some(formula)) => stated(formula),
+            (None, None) => return Ok(Box::new(heat)),
+        };
+        Ok(Box::new(heat.with_source(source)))
+    }
+}
+
+/// The temperature at the start: what the scene states, or else that of the truth.
+fn initial<const D: usize>(
+    problem: Option<&Conduction>,
+    stated: Option<&Formula>,
+) -> impl Fn(&[f64]) -> TemperatureDerivatives + use<D> {
+    let stated = stated.map(|formula| Temperature::new(formula.clone(), D));
+    let field = stated.or_else(|| Some(problem?.temperature.clone()));
+    move |label| {
+        field
+            .as_ref()
+            .map_or_else(TemperatureDerivatives::default, |field| field.derivatives(label, 0.0))
+    }
+}
+
+/// The source as the scene states it.
+fn stated<const D: usize>(formula: &Formula) -> HeatSource<D> {
+    let formula = formula.clone();
+    Box::new(move |t, particles, into| {
+        let places = particles.x0.iter().zip(&particles.temperature);
+        for (into, (label, temperature)) in into.iter_mut().zip(places) {
+            *into = source_at(&formula, label.as_slice(), t, *temperature);
+        }
+    })
+}
+
+/// The source that follows from the temperature.
+fn manufactured<const D: usize>(made: &Conduction, particles: &Particles<D>) -> HeatSource<D> {
+    let mut forcing = HeatForcing::new(made, particles.x0.iter().map(Vector::as_slice));
+    Box::new(move |t, _, into| forcing.at(t, into))
+}
+
+/// Every face of the body; a face that the keys do not name is insulated.
+fn faces(
+    entry: &LoadEntry<'_>,
+    spec: &Ordered<ThermalSpec>,
+) -> Result<Vec<ThermalFace>, Diagnostic> {
+    let (evaluator, dimension) = (entry.evaluator, entry.dimension());
+    let unnamed = |face: &SceneFace| {
+        let SceneFace { name, axis, high, .. } = *face;
+        let periodic = face.hold.is_periodic();
+        let condition: Arc<dyn HeatCondition> =
+            if periodic { Arc::new(PeriodicTemperature) } else { Arc::new(Insulated) };
+        ThermalFace { name, axis, high, condition }
+    };
+    let path = entry.path.then("boundary");
+    let mut faces: Vec<ThermalFace> = entry.scene.faces.iter().map(unnamed).collect();
+    for (name, spec) in spec.as_slice() {
+        let at = path.then(name.as_str());
+        let i = face(evaluator, &at, name, dimension, true)?;
+        let (condition, spec) = spec.named();
+        on_grid(entry, &at, spec.lets_heat_in(), &entry.scene.faces[i])?;
+        let entry = FaceEntry { evaluator, path: at.then(condition), dimension };
+        faces[i].condition = spec.compile(&entry)?;
+    }
+    Ok(faces)
+}
+
+/// Temperatures are held, and heat enters, at the nodes of the grid's face: the body must end
+/// there, and stay.
+fn on_grid(
+    entry: &LoadEntry<'_>,
+    path: &Path,
+    lets_heat_in: bool,
+    face: &SceneFace,
+) -> Result<(), Diagnostic> {
+    let (name, verb) = (face.name, face.hold.verb());
+    if face.hold.is_periodic() {
+        let message = format!("the {name} face {verb}, and has no temperature of its own");
+        return Err(entry.evaluator.diagnostic_at_key(path, &message));
+    }
+    if face.hold.stays() || !lets_heat_in {
+        return Ok(());
+    }
+    let message = format!("the {name} face {verb}, and heat enters at the face of the grid");
+    let diagnostic = entry.evaluator.diagnostic_at_key(path, &message);
+    Err(diagnostic.with_help("hold it (`fixed` or `roller`), or leave it insulated"))
+}
+
+/// The conditions for the solver.
+fn build_faces<const D: usize>(
+    faces: &[ThermalFace],
+    site: &BodySite<'_, D>,
+) -> Vec<ThermalBoundary<D>> {
+    let build = |face: &ThermalFace| {
+        let at = (face.axis, if face.high { Side::High } else { Side::Low });
+        let condition = build_condition(&face.condition)?;
+        Some(ThermalBoundary::new((site.grid, site.basis), site.particles, at, condition))
+    };
+    faces.iter().filter_map(build).collect()
+}

@@ -1,0 +1,84 @@
+//! Local damping: a share of the force out of balance, against the motion.
+
+use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::entry::{LoadEntry, LoadKeys, StudyFacts};
+use crate::exact::Term;
+use crate::mpm::{Effect, LocalDamping};
+use crate::suite::evaluator::shown;
+use crate::suite::scene::numbers::LoadNumbers;
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use std::sync::Arc;
+
+/// Share of the force out of balance that opposes the motion, node by node.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub(crate) struct LocalDampingSpec(NumberText);
+
+impl LoadKeys for LocalDampingSpec {
+    fn example(_: &str) -> String {
+        "s".to_owned()
+    }
+
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        entry.refuse_second("local damping")?;
+        let share = entry.evaluator.number(&entry.path, &self.0)?;
+        if !(0.0..1.0).contains(&share) {
+            let message = format!("the share of local damping is {}", shown(share));
+            let label = "expected zero or a number below 1";
+            return Err(entry.evaluator.diagnostic(&entry.path, &message).with_label(label));
+        }
+        Ok(Arc::new(LocalDampingLoad(share)))
+    }
+
+    /// It would oppose a manufactured force too.
+    fn check(&self, entry: &LoadEntry<'_>, study: &StudyFacts) -> Result<(), Diagnostic> {
+        if !study.manufactured {
+            return Ok(());
+        }
+        let message = "local damping opposes the whole force, and a part of it is manufactured";
+        let diagnostic = entry.evaluator.diagnostic_at_key(&Path::top("manufactured"), message);
+        Err(diagnostic.with_help("state the motion under `exact`, or use `damping`"))
+    }
+
+    fn lacked_by_fem(&self) -> Option<&'static str> {
+        Some("damping")
+    }
+}
+
+/// The share zeta.
+#[derive(Debug)]
+struct LocalDampingLoad(f64);
+
+/// `-zeta |Div P / rho0 + b| sign(u_t)`, component by component (Cundall 1987).
+impl Term for LocalDampingLoad {
+    fn resistance(&self, _: f64, velocity: f64, unbalanced: &dyn Fn() -> f64) -> f64 {
+        let sign = if velocity == 0.0 { 0.0 } else { velocity.signum() };
+        -self.0 * unbalanced().abs() * sign
+    }
+
+    fn resists_imbalance(&self) -> bool {
+        true
+    }
+}
+
+impl SceneLoad for LocalDampingLoad {
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::constants(&[("share", self.0)])
+    }
+
+    fn rows(&self) -> Vec<(String, String)> {
+        let text = format!("{} of the force out of balance", shown(self.0));
+        vec![("local damping".to_owned(), text)]
+    }
+
+    fn disturbs_rest(&self) -> bool {
+        false
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for LocalDampingLoad {
+    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        Ok(Box::new(LocalDamping(self.0)))
+    }
+}

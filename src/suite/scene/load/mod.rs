@@ -1,0 +1,98 @@
+//! Loads and effects of a scene: the family. A member is one file and one line of `members`, and an
+//! effect with physics of its own is a file of the solver's family besides.
+
+mod contract;
+mod entry;
+
+pub use contract::EffectName;
+pub(crate) use contract::{BodySite, ListedLoad, LoadTarget, build};
+pub(crate) use entry::{LoadEntry, LoadKeys, StudyFacts};
+
+use crate::members::each_effect;
+use crate::suite::evaluator::Evaluator;
+use crate::suite::scene::Scene;
+use crate::suite::yaml::{Diagnostic, Path};
+
+/// Declares the family of loads, from the lines of [`each_effect`](crate::members). The type of the
+/// keys implements [`LoadKeys`].
+macro_rules! loads {
+    ($(
+        $(#[$meta:meta])*
+        $member:ident = $text:literal => $file:ident::$spec:ident
+        $(, effect $effect_file:ident::$effect:ident)?
+        $(, needs [$($need:ident),+])?;
+    )+) => {
+        $(mod $file;)+
+
+        /// One entry of `loads`.
+        #[derive(Debug, Clone, serde::Deserialize)]
+        #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+        pub(crate) enum LoadSpec {
+            $($(#[$meta])* #[serde(rename = $text)] $member($file::$spec),)+
+        }
+
+        impl EffectName {
+            /// An entry of `loads` with this effect, of strength `s`, on a body in `dimension`
+            /// dimensions: on its face `right` or its set `some`, if not on the whole body.
+            pub fn example(self, dimension: usize) -> String {
+                let vector = vec!["s*(1 + t)"; dimension].join(", ");
+                let vector = format!("[{vector}]");
+                let keys = match self {
+                    $(Self::$member => $file::$spec::example(&vector),)+
+                };
+                format!("{}: {keys}", self.name())
+            }
+        }
+
+        impl LoadSpec {
+            /// The effect that the entry asks for.
+            pub(crate) fn effect(&self) -> EffectName {
+                match self {
+                    $(Self::$member(_) => EffectName::$member,)+
+                }
+            }
+
+            /// The keys under its name.
+            pub(crate) fn keys(&self) -> &dyn LoadKeys {
+                match self {
+                    $(Self::$member(keys) => keys,)+
+                }
+            }
+        }
+    };
+}
+
+each_effect!(loads);
+
+impl LoadSpec {
+    /// Path of the value of the entry with this `number` in the list of loads.
+    pub(crate) fn path(&self, number: usize) -> Path {
+        Path::top("scene").then("loads").then(number).then(self.effect().name())
+    }
+}
+
+/// Refuses effects without those that they need.
+fn refuse_incomplete(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<(), Diagnostic> {
+    let listed: Vec<EffectName> = loads.iter().map(LoadSpec::effect).collect();
+    EffectName::combine(&listed).map_err(|(effect, message)| {
+        let at = listed.iter().position(|listed| *listed == effect).unwrap_or(0);
+        evaluator.diagnostic_at_key(&loads[at].path(at), &message)
+    })
+}
+
+/// Adds the loads to a scene that has none, in the order in which solvers apply them.
+pub(crate) fn add(
+    evaluator: &Evaluator<'_>,
+    spec: &[LoadSpec],
+    scene: &mut Scene,
+) -> Result<(), Diagnostic> {
+    refuse_incomplete(evaluator, spec)?;
+    for (i, load) in spec.iter().enumerate() {
+        let effect = load.effect();
+        let entry = LoadEntry { evaluator, effect, path: load.path(i), scene };
+        let load = load.keys().compile(&entry)?;
+        scene.loads.push(ListedLoad { effect, load });
+    }
+    scene.loads.sort_by_key(|load| (load.target(), load.effect));
+    Ok(())
+}

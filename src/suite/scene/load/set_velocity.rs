@@ -1,0 +1,72 @@
+//! A prescribed velocity of a set of particles.
+
+use super::contract::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use super::entry::{LoadEntry, LoadKeys, LoadedSet};
+use crate::exact::formula::Formula;
+use crate::exact::{Region, Term};
+use crate::mpm::{Effect, PrescribedVelocity};
+use crate::suite::scene::numbers::{LoadNumbers, of_place_and_time, sources};
+use crate::suite::yaml::{Diagnostic, NumberText};
+use std::sync::Arc;
+
+/// Velocity of a set (m/s), formulas of the coordinates and t.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SetVelocitySpec {
+    /// Name of the set.
+    on: String,
+    /// Velocity (m/s), formulas of the coordinates and `t`.
+    value: Vec<NumberText>,
+}
+
+impl LoadKeys for SetVelocitySpec {
+    fn example(vector: &str) -> String {
+        format!("{{on: some, value: {vector}}}")
+    }
+
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        Ok(Arc::new(SetVelocityLoad {
+            set: entry.free_set(&self.on)?,
+            value: entry.of_place_and_time(&entry.path.then("value"), &self.value)?,
+        }))
+    }
+}
+
+/// A velocity (m/s), one formula of the coordinates and t for each component.
+#[derive(Debug)]
+struct SetVelocityLoad {
+    set: LoadedSet,
+    value: Vec<Formula>,
+}
+
+impl Term for SetVelocityLoad {
+    fn driven(&self) -> Option<(&Region, &[Formula])> {
+        Some((&self.set.region, &self.value))
+    }
+}
+
+impl SceneLoad for SetVelocityLoad {
+    fn target(&self) -> LoadTarget {
+        LoadTarget::Set(self.set.number)
+    }
+
+    fn numbers(&self) -> LoadNumbers {
+        LoadNumbers::vector("velocity", &self.value).on(&self.set.region)
+    }
+
+    fn rows(&self) -> Vec<(String, String)> {
+        vec![self.set.row(&format!("velocity {} m/s", sources(&self.value)))]
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for SetVelocityLoad {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        let members = self.set.members(site.particles)?;
+        Ok(Box::new(PrescribedVelocity::on(
+            site.particles,
+            &members,
+            of_place_and_time(&self.value),
+        )))
+    }
+}

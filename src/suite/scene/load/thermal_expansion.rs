@@ -1,0 +1,108 @@
+//! Thermal expansion: strain that temperature makes.
+
+use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::entry::{LoadEntry, LoadKeys};
+use crate::exact::{Expansion, Term};
+use crate::mpm::{Effect, ThermalExpansion};
+use crate::suite::yaml::{Diagnostic, NumberText};
+use std::sync::Arc;
+
+/// Coefficients of the expansion.
+#[derive(Debug, Clone, serde::Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ExpansionSpec {
+    /// alpha (1/K).
+    coefficient: NumberText,
+    /// Temperature (K) at which a body that is not deformed is free of stress.
+    reference: NumberText,
+}
+
+impl LoadKeys for ExpansionSpec {
+    fn example(_: &str) -> String {
+        "{coefficient: 0.1, reference: 0}".to_owned()
+    }
+
+    fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
+        let LoadEntry { evaluator, path, .. } = entry;
+        if entry.scene.lists(entry.effect) {
+            return Err(evaluator.diagnostic_at_key(path, "thermal expansion appears twice"));
+        }
+        if !entry.scene.initial_stress.is_none() {
+            let message = "a body has an initial stress or expands by heat, not both: whether that \
+                           stress is one before or after the expansion is not known";
+            return Err(evaluator.diagnostic_at_key(path, message));
+        }
+        let rate_form = rate_form(entry)?;
+        let at = path.then("coefficient");
+        let coefficient = evaluator.positive(&at, &self.coefficient, "the coefficient")?;
+        let reference = evaluator.number(&path.then("reference"), &self.reference)?;
+        Ok(Arc::new(ExpansionLoad(Expansion { coefficient, reference }, rate_form)))
+    }
+
+    fn is_of_one_body(&self) -> bool {
+        true
+    }
+}
+
+/// Young's modulus (Pa) and Poisson's ratio of a law in rate form; none of a law of the whole
+/// deformation.
+///
+/// # Errors
+/// A complaint about a material whose heated stress is not known in the dimension of the scene.
+fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
+    let LoadEntry { evaluator, path, scene, .. } = entry;
+    let (name, d) = (scene.material.name(), scene.dimension());
+    let law = scene.material.properties();
+    if !law.is_elastic() {
+        let message = format!("the stress of a heated `{name}` body is not known");
+        let diagnostic = evaluator.diagnostic_at_key(path, &message);
+        return Err(diagnostic.with_help("materials: `linear_elastic`, `neo_hookean`, `hencky`"));
+    }
+    let elasticity = scene.material.elasticity();
+    if law.depends_on_deformation_alone().is_err() {
+        return Ok(elasticity);
+    }
+    let poisson = elasticity.map_or(0.0, |(_, poisson)| poisson);
+    if d < 3 && poisson != 0.0 {
+        let message = format!(
+            "in {d}-D a heated `{name}` body would be held along the axes that are left out, and its \
+             Poisson's ratio is {poisson}"
+        );
+        let diagnostic = evaluator.diagnostic_at_key(path, &message);
+        return Err(diagnostic.with_help("set `poisson: 0`, choose `linear_elastic`, or use 3-D"));
+    }
+    Ok(None)
+}
+
+/// The expansion, and Young's modulus (Pa) and Poisson's ratio of a law in rate form.
+#[derive(Debug)]
+struct ExpansionLoad(Expansion, Option<(f64, f64)>);
+
+impl Term for ExpansionLoad {
+    fn expansion(&self) -> Option<Expansion> {
+        Some(self.0)
+    }
+}
+
+impl SceneLoad for ExpansionLoad {
+    fn rows(&self) -> Vec<(String, String)> {
+        let Expansion { coefficient, reference } = self.0;
+        let text = format!("{coefficient} 1/K, none at {reference} K");
+        vec![("thermal expansion".to_owned(), text)]
+    }
+
+    fn disturbs_rest(&self) -> bool {
+        false
+    }
+}
+
+impl<const D: usize> BuildEffect<D> for ExpansionLoad {
+    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+        let Self(Expansion { coefficient, reference }, rate_form) = *self;
+        Ok(Box::new(match rate_form {
+            None => ThermalExpansion::of_deformation(coefficient, reference),
+            Some(elasticity) => ThermalExpansion::in_rate_form(coefficient, reference, elasticity),
+        }))
+    }
+}

@@ -1,0 +1,162 @@
+//! Formulas and numbers of loads and boundary conditions: as functions for the solver, and as
+//! numbers for external solvers.
+
+use crate::exact::formula::{Formula, Number};
+use crate::exact::{Region, variables};
+use crate::mpm::{ScalarField, Vector, VelocityField};
+
+/// The numbers of a load or of a condition on a face.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct LoadNumbers {
+    /// Constants by their keys (SI units).
+    pub(crate) constants: Vec<(&'static str, f64)>,
+    /// The quantity that formulas give.
+    pub(crate) field: Option<NumberField>,
+    /// The part of the bodies that the load acts on, if it acts on a set.
+    pub(crate) region: Option<Region>,
+}
+
+/// A quantity given by formulas of t, of the coordinates and t, or of these and the displacement.
+#[derive(Debug, Clone)]
+pub(crate) struct NumberField {
+    /// Key of the quantity.
+    pub(crate) key: &'static str,
+    /// Whether it is a vector with D components.
+    pub(crate) is_vector: bool,
+    formulas: Vec<Formula>,
+}
+
+impl LoadNumbers {
+    /// Constants by their keys (SI units).
+    pub(crate) fn constants(constants: &[(&'static str, f64)]) -> Self {
+        Self { constants: constants.to_vec(), ..Self::default() }
+    }
+
+    /// A vector with one formula for each component.
+    pub(crate) fn vector(key: &'static str, formulas: &[Formula]) -> Self {
+        let field = NumberField { key, is_vector: true, formulas: formulas.to_vec() };
+        Self { field: Some(field), ..Self::default() }
+    }
+
+    /// A scalar.
+    pub(crate) fn scalar(key: &'static str, formula: &Formula) -> Self {
+        let field = NumberField { key, is_vector: false, formulas: vec![formula.clone()] };
+        Self { field: Some(field), ..Self::default() }
+    }
+
+    /// The same numbers on a part of the bodies.
+    pub(crate) fn on(self, region: &Region) -> Self {
+        Self { region: Some(region.clone()), ..self }
+    }
+
+    /// Whether there is no number.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.constants.is_empty() && self.field.is_none()
+    }
+}
+
+impl NumberField {
+    /// The value, if it is the same at all places and times.
+    pub(crate) fn constant(&self) -> Option<Vec<f64>> {
+        self.formulas.iter().map(Formula::constant).collect()
+    }
+
+    /// Whether the value depends on the coordinates, on time and on the displacement, in `d`
+    /// dimensions.
+    pub(crate) fn depends_on(&self, d: usize) -> [bool; 3] {
+        let reads = |from: usize, to: usize| {
+            let mut formulas = self.formulas.iter();
+            formulas.any(|formula| (from..to.min(formula.variables())).any(|i| formula.reads(i)))
+        };
+        if self.formulas.iter().all(|formula| formula.variables() == 1) {
+            return [false, reads(0, 1), false];
+        }
+        [reads(0, d), reads(d, d + 1), reads(d + 1, 2 * d + 1)]
+    }
+
+    /// The value at the place `label` (m, D numbers) and time `t` (s), where the displacement is
+    /// `u` (m).
+    pub(crate) fn at(&self, label: &[f64], t: f64, u: &[f64]) -> Vec<f64> {
+        let mut all = label.to_vec();
+        all.push(t);
+        all.extend(label.iter().enumerate().map(|(i, _)| u.get(i).copied().unwrap_or(0.0)));
+        let value = |formula: &Formula| match formula.variables() {
+            1 => formula.eval(&[t]),
+            count => formula.eval(&all[..count]),
+        };
+        self.formulas.iter().map(value).collect()
+    }
+}
+
+/// Formulas of t, one for each component.
+pub(crate) fn of_time<const D: usize>(
+    formulas: &[Formula],
+) -> Box<dyn Fn(f64) -> Vector<D> + Send> {
+    let formulas = formulas.to_vec();
+    Box::new(move |t| Vector::from_fn(|i, _| formulas[i].eval(&[t])))
+}
+
+/// Formulas of the coordinates and t, one for each component.
+pub(crate) fn of_place_and_time<const D: usize>(formulas: &[Formula]) -> VelocityField<D> {
+    let formulas = formulas.to_vec();
+    Box::new(move |x: &Vector<D>, t| {
+        let variables = variables(x.as_slice(), t);
+        Vector::from_fn(|i, _| formulas[i].eval(&variables[..=D]))
+    })
+}
+
+/// A formula of the coordinates and t.
+pub(crate) fn scalar<const D: usize>(formula: &Formula) -> ScalarField<D> {
+    let formula = formula.clone();
+    Box::new(move |x: &Vector<D>, t| formula.eval(&variables(x.as_slice(), t)[..=D]))
+}
+
+/// A formula of the coordinates, t and, where it was bound to that too, the displacement, at the
+/// place `label` (m) with the displacement `u` (m).
+pub(crate) fn of_displacement<T: Number>(
+    formula: &Formula,
+    (label, t): (&[f64], f64),
+    u: &[T; 3],
+) -> T {
+    let (d, place) = (label.len(), variables(label, t));
+    let mut all = [T::from(0.0); 7];
+    for (value, known) in all.iter_mut().zip(place) {
+        *value = T::from(known);
+    }
+    all[d + 1..][..d].copy_from_slice(&u[..d]);
+    formula.eval(&all[..formula.variables()])
+}
+
+/// The formulas as the suite writes them.
+pub(crate) fn sources(formulas: &[Formula]) -> String {
+    formulas.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::formula::{Expr, Scope};
+    use rstest::rstest;
+
+    fn formula(text: &str, variables: &[&str]) -> Formula {
+        Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), variables).unwrap()
+    }
+
+    #[rstest]
+    #[case::constant("3", &["t"], [false; 3], 3.0)]
+    #[case::of_time("2*t", &["t"], [false, true, false], 1.0)]
+    #[case::of_time_alone("2*t", &["X", "Y", "t"], [false, true, false], 1.0)]
+    #[case::of_place("Y", &["X", "Y", "t"], [true, false, false], 5.0)]
+    #[case::of_displacement("uy - t", &["X", "Y", "t", "ux", "uy"], [false, true, true], 6.5)]
+    fn a_field_names_what_it_depends_on(
+        #[case] text: &str,
+        #[case] variables: &[&str],
+        #[case] depends: [bool; 3],
+        #[case] value: f64,
+    ) {
+        let field = LoadNumbers::scalar("rate", &formula(text, variables)).field.unwrap();
+        assert_eq!(field.depends_on(2), depends);
+        assert_eq!(field.at(&[4.0, 5.0], 0.5, &[6.0, 7.0]), [value]);
+        assert_eq!(field.constant().is_some(), depends == [false; 3]);
+    }
+}

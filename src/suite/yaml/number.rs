@@ -1,0 +1,184 @@
+//! A number, the text of a formula, or a map in the place of a number.
+
+use super::shape::finite;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{self, Deserialize, Deserializer, Error, IntoDeserializer, MapAccess, Visitor};
+use std::fmt;
+use std::marker::PhantomData;
+
+/// A number in a suite, or a formula for one: `25`, `1e-3` or `"pi/(2*L)"`.
+///
+/// Formulas are not parsed here; `Display` gives the text to parse, for a number the shortest
+/// that reads back as the same number.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NumberText {
+    /// A finite number.
+    Number(f64),
+    /// The text of a formula, as YAML understands it: without quotes, escapes resolved.
+    Formula(String),
+}
+
+/// Zero: what an optional number is that a suite does not give.
+impl Default for NumberText {
+    fn default() -> Self {
+        Self::Number(0.0)
+    }
+}
+
+impl fmt::Display for NumberText {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Formula(text) => f.write_str(text),
+            // Without an exponent, 1e300 would be a one and 300 zeros.
+            Self::Number(value) if *value != 0.0 && !(1e-5..1e16).contains(&value.abs()) => {
+                write!(f, "{value:e}")
+            }
+            Self::Number(value) => write!(f, "{value}"),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for NumberText {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NumberOrFormula)
+    }
+}
+
+#[cfg(feature = "schemas")]
+impl schemars::JsonSchema for NumberText {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "NumberText".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({"type": ["number", "string"]})
+    }
+}
+
+struct NumberOrFormula;
+
+impl Visitor<'_> for NumberOrFormula {
+    type Value = NumberText;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a finite number or a formula")
+    }
+
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<NumberText, E> {
+        Ok(NumberText::Number(value as f64))
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<NumberText, E> {
+        Ok(NumberText::Number(value as f64))
+    }
+
+    fn visit_u128<E: de::Error>(self, value: u128) -> Result<NumberText, E> {
+        Ok(NumberText::Number(value as f64))
+    }
+
+    fn visit_i128<E: de::Error>(self, value: i128) -> Result<NumberText, E> {
+        Ok(NumberText::Number(value as f64))
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<NumberText, E> {
+        finite(value, "a finite number or a formula").map(NumberText::Number)
+    }
+
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<NumberText, E> {
+        Ok(NumberText::Formula(text.to_owned()))
+    }
+}
+
+/// A number or formula, or a map that says where a number comes from: `1e-3`, `{courant: 0.5}`.
+#[derive(Clone, Debug)]
+pub(crate) enum NumberOr<T> {
+    /// A number, or the text of a formula.
+    Number(NumberText),
+    /// A map.
+    Map(T),
+}
+
+/// A map that may stand in the place of a number.
+pub(crate) trait InPlaceOfNumber {
+    /// Phrase for messages of all that may stand there.
+    const EXPECTED: &'static str;
+}
+
+impl<'de, T: Deserialize<'de> + InPlaceOfNumber> Deserialize<'de> for NumberOr<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(EitherOf(PhantomData))
+    }
+}
+
+#[cfg(feature = "schemas")]
+impl<T: schemars::JsonSchema> schemars::JsonSchema for NumberOr<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        format!("NumberOr_{}", T::schema_name()).into()
+    }
+
+    fn json_schema(all: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let (number, map) = (all.subschema_for::<NumberText>(), all.subschema_for::<T>());
+        schemars::json_schema!({"anyOf": [number, map]})
+    }
+}
+
+struct EitherOf<T>(PhantomData<T>);
+
+fn number<'de, T, E: Error>(value: impl IntoDeserializer<'de, E>) -> Result<NumberOr<T>, E> {
+    NumberText::deserialize(value.into_deserializer()).map(NumberOr::Number)
+}
+
+impl<'de, T: Deserialize<'de> + InPlaceOfNumber> Visitor<'de> for EitherOf<T> {
+    type Value = NumberOr<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(T::EXPECTED)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<NumberOr<T>, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(map)).map(NumberOr::Map)
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<NumberOr<T>, E> {
+        number(text)
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<NumberOr<T>, E> {
+        number(value)
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<NumberOr<T>, E> {
+        number(value)
+    }
+
+    fn visit_i128<E: Error>(self, value: i128) -> Result<NumberOr<T>, E> {
+        number(value as f64)
+    }
+
+    fn visit_u128<E: Error>(self, value: u128) -> Result<NumberOr<T>, E> {
+        number(value as f64)
+    }
+
+    fn visit_f64<E: Error>(self, value: f64) -> Result<NumberOr<T>, E> {
+        number(value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_text_of_a_number_reads_back(value in any::<f64>().prop_filter("finite", |v| v.is_finite())) {
+            let text = NumberText::Number(value).to_string();
+            prop_assert_eq!(text.parse::<f64>().unwrap().to_bits(), value.to_bits());
+            prop_assert!(text.len() < 30);
+        }
+    }
+}
