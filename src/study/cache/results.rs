@@ -123,17 +123,18 @@ fn read<T: DeserializeOwned>(text: &str, key: &str) -> Option<T> {
 mod tests {
     use super::*;
     use crate::subject::{RunCounters, Totals};
-    use crate::verify::{ConservationError, ErrorField, History, Interval, Norms, RunResult};
+    use crate::verify::{
+        ConservationError, ErrorField, History, Interval, Norms, RunErrors, RunResult,
+    };
     use proptest::prelude::*;
 
     fn some(x: f64, failure: Option<String>) -> RunResult {
         let norms = Norms { rms: x, l1: -x, l2: 0.1 * x, linf: f64::NAN };
+        let errors = RunErrors { at_end: Norms::NONE, largest: norms };
         let totals = Totals { kinetic_energy: x, strain_energy: Some(x), ..Totals::default() };
         RunResult {
-            errors: norms,
-            max_rms: x,
-            at_end: Norms::NONE,
-            largest: norms,
+            errors,
+            displacement_errors: Some(RunErrors { at_end: norms, ..errors }),
             drift: Some(ConservationError::NONE),
             account: vec![(0.0, totals), (x, Totals { strain_energy: None, ..totals })],
             energy_rate: Some(Interval { value: x, low: -x, high: f64::INFINITY }),

@@ -1,7 +1,6 @@
 //! Runs of one case: what they share, and their budget.
 
 use crate::external::SolverFactory;
-use crate::study::convergence::outcome::to_judge;
 use crate::study::kind::{RunContext, Storage, Study};
 use crate::study::preflight::cost::estimate_of;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
@@ -87,7 +86,7 @@ impl<'a> Session<'a> {
         levels: impl IntoIterator<Item = &'b LevelOutcome>,
         axis: Axis,
     ) -> Judgement {
-        let levels: Vec<Level> = levels.into_iter().map(to_judge).collect();
+        let levels: Vec<Level> = levels.into_iter().map(LevelOutcome::to_level).collect();
         let p = self.formal_order;
         judge(&levels, &OrderHypothesis::within(p, p - NEAR, p + ABOVE).over(axis))
     }

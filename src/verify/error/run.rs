@@ -4,7 +4,7 @@ use super::checkpoint_store::{CheckpointStore, NoCheckpoints, keep_if_due, resum
 use super::clock::Clock;
 use super::error_field::ErrorField;
 use super::judged_sum::{JudgedSum, over_instants};
-use super::norm::{Norms, larger, largest_length};
+use super::norm::{Norms, RunErrors, larger, largest_length};
 use super::observer::{History, displacement_at};
 use super::quantity::Quantity;
 use super::run_result::RunResult;
@@ -27,6 +27,13 @@ pub struct Comparison<'a> {
     pub at_rest: Option<f64>,
     /// Whether the errors over the body are kept.
     pub keeps_field: bool,
+}
+
+impl Comparison<'_> {
+    /// Whether another quantity than the displacement is compared.
+    fn is_of_another(&self) -> bool {
+        self.sum.is_some() || self.of != Quantity::default()
+    }
 }
 
 /// The share of a run, at its end, in which a body must be at rest. An instant would not do: a
@@ -84,10 +91,8 @@ struct RunMonitor<'a> {
     truth: &'a dyn Truth,
     comparison: &'a Comparison<'a>,
     samples: Samples,
-    errors: Norms,
-    max_rms: f64,
-    at_end: Norms,
-    largest: Norms,
+    errors: RunErrors,
+    displacement_errors: Option<RunErrors>,
     sum_errors: Vec<[f64; 3]>,
     balance: Option<Balance>,
     account: Vec<(f64, Totals)>,
@@ -108,10 +113,8 @@ impl<'a> RunMonitor<'a> {
             truth,
             comparison,
             samples,
-            errors: Norms::NONE,
-            max_rms: 0.0,
-            at_end: Norms::NONE,
-            largest: Norms::ZERO,
+            errors: RunErrors::START,
+            displacement_errors: comparison.is_of_another().then_some(RunErrors::START),
             sum_errors: Vec::new(),
             balance: subject.totals().map(Balance::start),
             account: subject.totals().map(|totals| (0.0, totals)).into_iter().collect(),
@@ -146,22 +149,20 @@ impl<'a> RunMonitor<'a> {
                 return;
             }
         }
-        self.errors = errors(&self.samples, self.truth, t);
-        self.max_rms = larger(self.max_rms, self.errors.rms);
+        if let Some(displacement) = &mut self.displacement_errors {
+            displacement.add(errors(&self.samples, self.truth, t));
+        }
         if let Some(sum) = self.comparison.sum {
             self.sum_errors.push(sum.error(subject, t));
             return;
         }
-        let of = self.comparison.of;
-        let is_known = of == Quantity::default();
-        self.at_end = if is_known { self.errors } else { of.errors(&self.samples, self.truth, t) };
-        self.largest = self.largest.larger(self.at_end);
+        self.errors.add(self.comparison.of.errors(&self.samples, self.truth, t));
     }
 
     fn finished(mut self, subject: &dyn Subject, clock: &Clock) -> RunResult {
         if self.comparison.sum.is_some() {
-            self.at_end = over_instants(&self.sum_errors);
-            self.largest = self.at_end;
+            let errors = over_instants(&self.sum_errors);
+            self.errors = RunErrors { at_end: errors, largest: errors };
         }
         let place = self.comparison.observe;
         let displacement = place.and_then(|place| displacement_at(&self.samples, place));
@@ -173,9 +174,7 @@ impl<'a> RunMonitor<'a> {
         let field = self.field(clock.until);
         RunResult {
             errors: self.errors,
-            max_rms: self.max_rms,
-            at_end: self.at_end,
-            largest: self.largest,
+            displacement_errors: self.displacement_errors,
             drift: self.balance.as_ref().map(Balance::drift),
             energy_rate: energy_rate(&self.account),
             account: self.account,
@@ -202,10 +201,8 @@ impl<'a> RunMonitor<'a> {
         let field = self.field(t);
         RunResult {
             field,
-            errors: Norms::NONE,
-            max_rms: f64::NAN,
-            at_end: Norms::NONE,
-            largest: Norms::NONE,
+            errors: RunErrors::NONE,
+            displacement_errors: self.displacement_errors.map(|_| RunErrors::NONE),
             drift: self.balance.map(|_| ConservationError::NONE),
             energy_rate: None,
             account: self.account,
@@ -228,19 +225,17 @@ impl Memory for RunMonitor<'_> {
             comparison: _,
             samples: _,
             errors,
-            max_rms,
-            at_end,
-            largest,
+            displacement_errors,
             sum_errors,
             balance,
             account,
             residual_speed,
             history,
         } = self;
-        for norms in [errors, at_end, largest] {
-            checkpoint.visit(norms);
+        checkpoint.visit(errors);
+        if let Some(displacement) = displacement_errors {
+            checkpoint.visit(displacement);
         }
-        checkpoint.visit(max_rms);
         checkpoint.visit(sum_errors);
         if let Some(balance) = balance {
             checkpoint.visit(balance);
@@ -311,8 +306,8 @@ mod tests {
             libm::cos(0.9 * until) / 2.0,
             max_relative = 1e-9
         );
-        assert_relative_eq!(found.max_rms, 1.0 / (1.0 + until), max_relative = 1e-12);
+        assert_relative_eq!(found.errors.largest.rms, 1.0 / (1.0 + until), max_relative = 1e-12);
         let moving = run(&mut Swing(0.0), &AtRest, &clock, &Comparison::default());
-        assert_eq!((moving.residual_speed, moving.max_rms > 0.9), (None, true));
+        assert_eq!((moving.residual_speed, moving.errors.largest.rms > 0.9), (None, true));
     }
 }
