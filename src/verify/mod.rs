@@ -3,7 +3,6 @@
 //! | module | holds |
 //! |---|---|
 //! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
-//! | [`checkpoint_store`](CheckpointStore) | a run that is interrupted and goes on |
 //! | [`conservation`](ConservationError) | conserved sums of a free motion over a run |
 //! | [`level`](Level), [`hypothesis`](OrderHypothesis) | the errors, and the order to test |
 //! | [`axis`](Axis) | which spacing is refined |
@@ -48,7 +47,6 @@ pub use cost::{
     PredictedError, Ranked, Ranking, Reach, Sample, TARGETS, TimedSuite, Timing, Unpredicted,
     Workload, by_transfers, pareto_front, rankings,
 };
-pub use error::checkpoint_store::{CheckpointStore, NoCheckpoints};
 pub(crate) use error::clock::is_instant;
 pub use error::clock::{Clock, MOST_STEPS, STEP_TOLERANCE};
 pub(crate) use error::declaration::SumNeed;
@@ -59,7 +57,7 @@ pub(crate) use error::norm::larger;
 pub use error::norm::{NormName, Norms, RunErrors};
 pub use error::observer::{History, displacement_at};
 pub use error::quantity::Quantity;
-pub use error::run::{Comparison, errors, resume, run};
+pub use error::run::{Comparison, errors, run};
 pub use error::run_result::RunResult;
 pub use expectation::gate::{Acceptance, GateResult, Gating, Requirement};
 pub use expectation::limits::{Limits, Measured};
@@ -81,8 +79,8 @@ pub use rerun::{Reruns, RoundingSizes};
 pub(crate) use stability::is_looked_at;
 pub use stability::{
     Critical, FigureBounds, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
-    StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, resume_trial,
-    spectral_radius, stability_limit, trial,
+    StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, spectral_radius,
+    stability_limit, trial,
 };
 pub use study_results::StudyResults;
 pub use verdict::diagnosis::{Cause, ChangedRun, Diagnosis, Evidence, KnownCause, KnownCauseKind};

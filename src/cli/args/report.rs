@@ -1,6 +1,6 @@
 //! The words of `run`, `merge` and `list`.
 
-use super::shared::{FormatArgs, SolverArgs, Targets, count, seconds};
+use super::shared::{FormatArgs, SolverArgs, Targets, count};
 use clap::Args;
 use mpm_verify::study::Shard;
 use std::path::PathBuf;
@@ -56,13 +56,10 @@ pub(in crate::cli) struct RunArgs {
     /// that the parts keep with `--resume`
     #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
     pub(in crate::cli) shard: Option<Shard>,
-    /// Keep finished levels and the states of running ones in this folder, and take from it those
-    /// that are there: an interrupted run goes on where it was
+    /// Keep finished levels in this folder, and take from it those that are there: an interrupted
+    /// run goes on with the levels that are not done
     #[arg(long, value_name = "DIR")]
     pub(in crate::cli) resume: Option<PathBuf>,
-    /// How often the state of a running level is kept in the folder of `--resume` [default: 10s]
-    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, requires = "resume")]
-    pub(in crate::cli) checkpoint_every: Option<f64>,
     /// Write particles and grid over time into this folder, as files for ParaView, of the cases
     /// that did not come as expected, or of those that `--case` chooses: on the first level that
     /// broke, or on the finest

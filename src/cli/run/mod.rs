@@ -21,7 +21,6 @@ use mpm_verify::verify::SuiteOutcome;
 use printing::Printing;
 use series::Series;
 use std::path::Path;
-use std::time::Duration;
 
 /// Runs suites, once or whenever their files change.
 pub(super) fn run(args: &RunArgs) -> u8 {
@@ -37,7 +36,7 @@ pub(super) fn run(args: &RunArgs) -> u8 {
 
 /// The suites that `args` choose, with the cache and the solver of the run.
 fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging), String> {
-    let kept = args.resume.as_deref().map(|folder| open(folder, args)).transpose()?;
+    let kept = args.resume.as_deref().map(open).transpose()?;
     let all = args.case.is_some();
     let series = args.vtu.as_deref().map(|folder| Series::prepare(folder, all)).transpose()?;
     let solver = solver::greeted(&args.judged.program)?;
@@ -225,20 +224,13 @@ fn one(
         let note = "expects nothing, and is no gate; `mpm-verify propose` writes expectations";
         bar.suspend(|| output::complain(&format!("note: {name} {note}")));
     }
-    for line in kept.map(ResultCache::take_lines).unwrap_or_default() {
-        bar.suspend(|| output::complain(&format!("note: {line}")));
-    }
     outcome
 }
 
 /// Opens the folder of `--resume`.
-fn open(folder: &Path, args: &RunArgs) -> Result<ResultCache, String> {
-    let kept = ResultCache::open(folder)
-        .map_err(|error| format!("error: --resume {}: {error}", folder.display()))?;
-    let Some(every) = args.checkpoint_every else { return Ok(kept) };
-    let every = Duration::try_from_secs_f64(every)
-        .map_err(|error| format!("error: --checkpoint-every: {error}"))?;
-    Ok(kept.with_checkpoints_every(every))
+fn open(folder: &Path) -> Result<ResultCache, String> {
+    ResultCache::open(folder)
+        .map_err(|error| format!("error: --resume {}: {error}", folder.display()))
 }
 
 /// The first name that two suites have.

@@ -21,8 +21,8 @@ use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify;
 use crate::verify::{
-    Axis, CaseOutcome, CheckpointStore, Comparison, Convergence, Expectation, Gating, JudgePlan,
-    LevelOutcome, LevelSizes, Reruns, RoundingSizes, RunResult, judge_case,
+    Axis, CaseOutcome, Comparison, Convergence, Expectation, Gating, JudgePlan, LevelOutcome,
+    LevelSizes, Reruns, RoundingSizes, RunResult, judge_case,
 };
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -247,9 +247,9 @@ impl CaseRuns<'_, '_> {
         let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
         let (sum, observe) = (plan.sum.as_deref(), plan.observe.as_deref());
         let comparison = Comparison { of: plan.of, sum, observe, at_rest, keeps_field };
-        let run = |store: &mut dyn CheckpointStore| {
-            let make = || subject_under(solver, suite, plan, case, level);
-            verify::resume(make, self.truth, &clock, &comparison, store)
+        let run = || {
+            let mut subject = subject_under(solver, suite, plan, case, level)?;
+            Ok(verify::run(subject.as_mut(), self.truth, &clock, &comparison))
         };
         let broken = |run: &RunResult| run.failure.is_some();
         let run = self.runner.context.cached(&key, &name, broken, run)?;

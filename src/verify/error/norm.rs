@@ -13,7 +13,6 @@
 //! Squares are taken of `|e_p| / linf`, so that they neither overflow nor vanish.
 
 use crate::named::named;
-use crate::subject::{Checkpoint, Memory};
 use serde::{Deserialize, Serialize};
 
 named! {
@@ -59,15 +58,6 @@ pub struct Norms {
     pub l2: f64,
     /// Largest length.
     pub linf: f64,
-}
-
-impl Memory for Norms {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self { rms, l1, l2, linf } = self;
-        for norm in [rms, l1, l2, linf] {
-            checkpoint.visit(norm);
-        }
-    }
 }
 
 impl Norms {
@@ -156,14 +146,6 @@ impl RunErrors {
             NormName::MaxL2 => self.largest.l2,
             NormName::MaxLinf => self.largest.linf,
         }
-    }
-}
-
-impl Memory for RunErrors {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self { at_end, largest } = self;
-        checkpoint.visit(at_end);
-        checkpoint.visit(largest);
     }
 }
 

@@ -1,6 +1,5 @@
 //! One subject on one level, held against the truth.
 
-use super::checkpoint_store::{CheckpointStore, NoCheckpoints, keep_if_due, resumed};
 use super::clock::Clock;
 use super::error_field::ErrorField;
 use super::judged_sum::{JudgedSum, over_instants};
@@ -9,7 +8,7 @@ use super::observer::{History, displacement_at};
 use super::quantity::Quantity;
 use super::run_result::RunResult;
 use crate::exact::Truth;
-use crate::subject::{Checkpoint, Failure, Memory, Samples, Subject, Totals};
+use crate::subject::{Failure, Samples, Subject, Totals};
 use crate::verify::conservation::{Balance, ConservationError};
 use crate::verify::energy_rate::energy_rate;
 
@@ -48,40 +47,12 @@ pub fn run(
     clock: &Clock,
     comparison: &Comparison<'_>,
 ) -> RunResult {
-    let monitor = RunMonitor::new(subject, truth, comparison);
-    go(subject, monitor, clock, 0, &mut NoCheckpoints)
-}
-
-/// The same run of a subject that `make` makes, from where `keeper` has something that was left of
-/// it.
-///
-/// # Errors
-/// Those of `make`.
-pub fn resume<E>(
-    make: impl FnMut() -> Result<Box<dyn Subject>, E>,
-    truth: &dyn Truth,
-    clock: &Clock,
-    comparison: &Comparison<'_>,
-    store: &mut dyn CheckpointStore,
-) -> Result<RunResult, E> {
-    let monitor = |subject: &dyn Subject| RunMonitor::new(subject, truth, comparison);
-    let (mut subject, monitor, done) = resumed(make, monitor, clock.steps, store)?;
-    Ok(go(subject.as_mut(), monitor, clock, done, store))
-}
-
-fn go(
-    subject: &mut dyn Subject,
-    mut monitor: RunMonitor<'_>,
-    clock: &Clock,
-    done: u64,
-    store: &mut dyn CheckpointStore,
-) -> RunResult {
-    for step in done + 1..=clock.steps {
+    let mut monitor = RunMonitor::new(subject, truth, comparison);
+    for step in 1..=clock.steps {
         if let Err(failure) = subject.step(clock.dt()) {
             return monitor.failed(subject, step, clock.time(step), &failure);
         }
         monitor.look(subject, clock, step);
-        keep_if_due(store, (step, clock.steps), &mut monitor, subject);
     }
     monitor.finished(subject, clock)
 }
@@ -213,37 +184,6 @@ impl<'a> RunMonitor<'a> {
             displacement: None,
             observed_error: None,
             residual_speed: self.residual_speed.map(|_| f64::NAN),
-        }
-    }
-}
-
-/// Samples are no part of it: each instant takes them anew, and the last step ends at an instant.
-impl Memory for RunMonitor<'_> {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self {
-            truth: _,
-            comparison: _,
-            samples: _,
-            errors,
-            displacement_errors,
-            sum_errors,
-            balance,
-            account,
-            residual_speed,
-            history,
-        } = self;
-        checkpoint.visit(errors);
-        if let Some(displacement) = displacement_errors {
-            checkpoint.visit(displacement);
-        }
-        checkpoint.visit(sum_errors);
-        if let Some(balance) = balance {
-            checkpoint.visit(balance);
-        }
-        checkpoint.visit(account);
-        checkpoint.visit(residual_speed);
-        if let Some((_, history)) = history {
-            checkpoint.visit(&mut history.velocity);
         }
     }
 }
