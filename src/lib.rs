@@ -97,7 +97,7 @@
 //!         let mut subject = Leapfrog { u: 0.0, v: 1.0, steps: 0 };
 //!         let clock = Clock::new(1.0, dt, 10).expect("a usable step");
 //!         let found = run(&mut subject, &Sine, &clock, &Comparison::default());
-//!         Level::new(clock.dt(), found.errors.rms)
+//!         Level::new(clock.dt(), found.errors.at_end.rms)
 //!     })
 //!     .into();
 //! let found = judge(&levels, &OrderHypothesis::formal(2.0));

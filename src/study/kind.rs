@@ -1,6 +1,6 @@
 //! Kinds of study: the interface of each, and the list of all.
 
-use super::cache::results::ResultCache;
+use super::cache::ResultCache;
 use super::describe::profiles::Dispensable;
 use super::describe::statement::{Rows, head};
 use crate::exact::Truth;
@@ -10,7 +10,7 @@ use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::stability::StabilityPlan;
 use crate::suite::model::study_plan::StudyPlan;
 use crate::suite::model::{ConvergencePlan, ForcePlan, Suite};
-use crate::verify::{CaseOutcome, CheckpointStore, NoCheckpoints};
+use crate::verify::CaseOutcome;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::any::Any;
@@ -90,18 +90,6 @@ pub(crate) trait CaseRunner: Send + Sync {
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome;
 }
 
-/// Makes the store of checkpoints of each run.
-pub type CheckpointStores<'a> = &'a (dyn Fn() -> Box<dyn CheckpointStore + 'a> + Sync);
-
-/// Where results and checkpoints are kept.
-#[derive(Clone, Copy)]
-pub(crate) enum Storage<'a> {
-    Nowhere,
-    Cache(&'a ResultCache),
-    /// Checkpoints only.
-    Stores(CheckpointStores<'a>),
-}
-
 /// All that runs of a suite depend on besides its plan.
 #[derive(Clone, Copy)]
 pub(crate) struct RunContext<'a> {
@@ -111,53 +99,41 @@ pub(crate) struct RunContext<'a> {
     pub(crate) fingerprint: u64,
     /// Levels that run.
     pub(crate) extent: Extent,
-    /// Results and checkpoints of earlier runs.
-    pub(crate) storage: Storage<'a>,
+    /// Results of earlier runs.
+    pub(crate) cache: Option<&'a ResultCache>,
     /// The solver of cases whose method is not of this crate.
     pub(crate) solver: Option<&'a dyn SolverFactory>,
 }
 
 impl RunContext<'_> {
     /// The cached result of `key`, which messages call `name`, or that of `run`, which is cached.
-    /// A result that is `broken` is not, of a solver that is not of this crate: one that breaks, or
-    /// says nothing for too long, may do better the next time.
+    /// A result of an external solver is not cached if it is `broken`: a solver that breaks, or
+    /// does not answer in time, may do better the next time.
     pub(crate) fn cached<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
         name: &str,
         broken: impl FnOnce(&T) -> bool,
-        run: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, String>,
+        run: impl FnOnce() -> Result<T, String>,
     ) -> Result<T, String> {
-        let mut left = None;
-        let run = |store: &mut dyn CheckpointStore| {
-            let found = run(store)?;
-            if self.solver.is_none() || !broken(&found) {
-                return Ok(found);
-            }
-            left = Some(found);
-            Err(String::new())
-        };
-        let found = self.stored(key, name, run);
-        left.map_or(found, Ok)
-    }
-
-    fn stored<T: Serialize + DeserializeOwned>(
-        &self,
-        key: &str,
-        name: &str,
-        run: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, String>,
-    ) -> Result<T, String> {
+        let Some(cache) = self.cache else { return run() };
         let solver = match self.solver.map(SolverFactory::identity) {
             None => String::new(),
             Some(Some(identity)) => format!(" {identity:016x}"),
-            // Of a solver that may be another one the next time nothing is kept.
-            Some(None) => return run(&mut NoCheckpoints),
+            // A solver without an identity may be another one the next time.
+            Some(None) => return run(),
         };
-        match self.storage {
-            Storage::Nowhere => run(&mut NoCheckpoints),
-            Storage::Cache(cache) => cache.level(&format!("{key}{solver}"), name, run),
-            Storage::Stores(make) => run(make().as_mut()),
-        }
+        let mut uncached = None;
+        let run = || {
+            let result = run()?;
+            if self.solver.is_none() || !broken(&result) {
+                return Ok(result);
+            }
+            uncached = Some(result);
+            Err(String::new())
+        };
+        let result = cache.level(&format!("{key}{solver}"), name, run);
+        uncached.map_or(result, Ok)
     }
 }
 

@@ -6,7 +6,7 @@
 //! internal_force   the internal force on a node while a particle crosses it
 //! stability        runs watched for growth, limits by bisection
 //! cost             seconds of every level, and what they buy
-//! cache            results and checkpoints kept on disk
+//! cache            results of finished levels kept on disk
 //! describe         the rows that state a problem in reports
 //! diagnosis        why an order is not that of theory, by runs that change one thing
 //! handover         a level as a problem that any solver can be handed
@@ -32,12 +32,12 @@ pub(crate) mod time_series;
 
 pub use build::dispatch::subject;
 pub use build::setup::effects;
-pub use cache::results::ResultCache;
+pub use cache::ResultCache;
 pub use convergence::time_steps::{TimeStep, time_steps};
 pub use describe::linearisation::{Linearisation, linearisation};
 pub use diagnosis::diagnose;
 pub use handover::{exact_state, lacking, level_problem, needs, under, under_on};
-pub use kind::{CheckpointStores, Progress, StepWarning, profile, statement};
+pub use kind::{Progress, StepWarning, profile, statement};
 pub use preflight::{Estimate, estimate, estimates, preflight, unit_seconds};
 pub use runner::Runner;
 pub use shard::Shard;

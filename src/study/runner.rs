@@ -1,9 +1,7 @@
 //! Running a suite, of whatever kind of study.
 
-use super::cache::results::ResultCache;
-use super::kind::{
-    CaseRunner, CheckpointStores, Progress, RunContext, StepWarning, Storage, statement, study,
-};
+use super::cache::ResultCache;
+use super::kind::{CaseRunner, Progress, RunContext, StepWarning, statement, study};
 use super::time_series::{SeriesFile, time_series};
 use crate::external::SolverFactory;
 use crate::suite::model::Suite;
@@ -28,8 +26,8 @@ impl<'a> Runner<'a> {
     /// A runner of so many levels.
     pub fn over(suite: &'a Suite, extent: Extent) -> Self {
         let (name, fingerprint) = (suite.name.as_str(), suite.fingerprint);
-        let (storage, solver) = (Storage::Nowhere, None);
-        Self::with(suite, RunContext { suite: name, fingerprint, extent, storage, solver })
+        let (cache, solver) = (None, None);
+        Self::with(suite, RunContext { suite: name, fingerprint, extent, cache, solver })
     }
 
     /// The solver of the cases of [`Suite::of_external`].
@@ -41,14 +39,7 @@ impl<'a> Runner<'a> {
     /// Stores finished levels in a cache, and takes them from it.
     #[must_use]
     pub fn keeping(self, cache: Option<&'a ResultCache>) -> Self {
-        let storage = cache.map_or(Storage::Nowhere, Storage::Cache);
-        Self::with(self.suite, RunContext { storage, ..self.context })
-    }
-
-    /// Keeps checkpoints of running levels in stores of the caller's, and no results.
-    #[must_use]
-    pub fn checkpointing(self, stores: CheckpointStores<'a>) -> Self {
-        Self::with(self.suite, RunContext { storage: Storage::Stores(stores), ..self.context })
+        Self::with(self.suite, RunContext { cache, ..self.context })
     }
 
     fn with(suite: &'a Suite, context: RunContext<'a>) -> Self {

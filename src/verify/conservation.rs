@@ -6,7 +6,7 @@
 
 use super::error::norm::larger;
 use crate::named::named;
-use crate::subject::{Checkpoint, Memory, Totals};
+use crate::subject::Totals;
 use serde::{Deserialize, Serialize};
 
 named! {
@@ -77,15 +77,6 @@ pub(super) struct Balance {
     start: Totals,
     change: [f64; Conserved::ALL.len()],
     size: [f64; Conserved::ALL.len()],
-}
-
-impl Memory for Balance {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self { start, change, size } = self;
-        checkpoint.visit(start);
-        checkpoint.visit(change);
-        checkpoint.visit(size);
-    }
 }
 
 impl Balance {

@@ -2,12 +2,14 @@
 
 use super::conservation::Conserved;
 use super::error::error_scale::ErrorScale;
+use super::error::norm::NormName;
 use super::error::observer::History;
 use super::error::quantity::Quantity;
 use super::error::run_result::RunResult;
 use super::expectation::gate::Acceptance;
 use super::order::axis::Axis;
 use super::order::format_number::format_number;
+use super::order::level::Level;
 use super::order::richardson::Richardson;
 use super::study_results::StudyResults;
 use super::verdict::floor::Floor;
@@ -23,8 +25,8 @@ pub struct Convergence {
     /// Order that theory gives the method on a smooth solution; for particles per cell, where it
     /// gives none in general, that of the midpoint rule.
     pub formal_order: f64,
-    /// Name of the error that was judged.
-    pub norm: &'static str,
+    /// Norm of the error that was judged.
+    pub norm: NormName,
     /// The judged quantity.
     pub of: Quantity,
     /// Divisor of the error, if any.
@@ -96,6 +98,15 @@ impl LevelOutcome {
         self.stable_time_step.is_some_and(|stable| self.dt > stable)
     }
 
+    /// The level as the judge takes it, with its failure, whether or not it may count.
+    pub(crate) fn to_level(&self) -> Level {
+        let judged = Level::new(self.spacing, self.error);
+        match &self.run.failure {
+            Some(reason) => judged.failing(reason.clone()),
+            None => judged,
+        }
+    }
+
     /// Name of the level among those of its study: `64 cells`, `dt = 1e-3 s`.
     pub fn name(&self, axis: Axis) -> String {
         match (axis, self.ppc) {
@@ -134,7 +145,8 @@ impl Convergence {
 
     /// The judged error in words, with its unit.
     pub fn judged(&self) -> String {
-        let (norm, name, unit) = (self.norm.replace('_', " "), self.of.words(), self.of.unit());
+        let (norm, name, unit) =
+            (self.norm.name().replace('_', " "), self.of.words(), self.of.unit());
         match self.scale.map(|scale| self.of.shown_scale(scale)) {
             Some(scale) => {
                 format!("{norm} error of {name} over {scale} {unit}").trim_end().to_owned()
@@ -154,9 +166,8 @@ impl Convergence {
 pub(in crate::verify) mod tests {
     use super::*;
     use crate::subject::RunCounters;
-    use crate::verify::error::norm::Norms;
+    use crate::verify::error::norm::RunErrors;
     use crate::verify::order::hypothesis::OrderHypothesis;
-    use crate::verify::order::level::Level;
     use crate::verify::verdict::judge::judge;
     use rstest::rstest;
 
@@ -180,7 +191,7 @@ pub(in crate::verify) mod tests {
         Convergence {
             axis: Axis::Space,
             formal_order: 2.0,
-            norm: "rms",
+            norm: NormName::Rms,
             of: Quantity::Displacement,
             scale: None,
             error_scale: ErrorScale { problem: String::new(), size: 1.0, growth: 2.0 },
@@ -199,10 +210,8 @@ pub(in crate::verify) mod tests {
 
     fn result() -> RunResult {
         RunResult {
-            errors: Norms::NONE,
-            max_rms: f64::NAN,
-            at_end: Norms::NONE,
-            largest: Norms::NONE,
+            errors: RunErrors::NONE,
+            displacement_errors: None,
             drift: None,
             account: Vec::new(),
             energy_rate: None,

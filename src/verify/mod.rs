@@ -3,7 +3,6 @@
 //! | module | holds |
 //! |---|---|
 //! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
-//! | [`checkpoint_store`](CheckpointStore) | a run that is interrupted and goes on |
 //! | [`conservation`](ConservationError) | conserved sums of a free motion over a run |
 //! | [`level`](Level), [`hypothesis`](OrderHypothesis) | the errors, and the order to test |
 //! | [`axis`](Axis) | which spacing is refined |
@@ -12,6 +11,8 @@
 //! | `window` | which levels are asymptotic |
 //! | `error_trend` | floor, divergence, oscillation |
 //! | [`judge`](judge()) | the questions, and the verdict |
+//! | [`case`](judge_case) | the judgement of a case: all that a report shows about its levels |
+//! | [`judge_plan`](JudgePlan), [`rerun`](Reruns) | what it depends on, and levels that run again |
 //! | [`floor`](Floor) | whose error a floor is |
 //! | [`richardson`](Richardson) | order and limit from three values |
 //! | [`cost`](Ranking) | cost of accuracy, in transfers or seconds |
@@ -22,6 +23,7 @@
 //! asked (`error <= tolerance`), never its opposite. And shapes are told by ratios, never by
 //! absolute numbers, so that no unit of error or spacing changes a verdict.
 
+mod case;
 mod conservation;
 mod convergence;
 mod cost;
@@ -29,12 +31,15 @@ mod energy_rate;
 pub(crate) mod error;
 mod expectation;
 mod internal_force;
+mod judge_plan;
 pub(crate) mod order;
 mod outcome;
+mod rerun;
 mod stability;
 mod study_results;
 pub(crate) mod verdict;
 
+pub use case::{CaseJudgement, judge_case};
 pub use conservation::{ConservationError, Conserved};
 pub use convergence::{Convergence, LevelOutcome};
 pub use cost::{
@@ -42,24 +47,24 @@ pub use cost::{
     PredictedError, Ranked, Ranking, Reach, Sample, TARGETS, TimedSuite, Timing, Unpredicted,
     Workload, by_transfers, pareto_front, rankings,
 };
-pub use error::checkpoint_store::{CheckpointStore, NoCheckpoints};
 pub(crate) use error::clock::is_instant;
 pub use error::clock::{Clock, MOST_STEPS, STEP_TOLERANCE};
 pub(crate) use error::declaration::SumNeed;
 pub use error::error_field::ErrorField;
 pub use error::error_scale::ErrorScale;
 pub use error::judged_sum::JudgedSum;
-pub use error::norm::Norms;
 pub(crate) use error::norm::larger;
+pub use error::norm::{NormName, Norms, RunErrors};
 pub use error::observer::{History, displacement_at};
 pub use error::quantity::Quantity;
-pub use error::run::{Comparison, errors, resume, run};
+pub use error::run::{Comparison, errors, run};
 pub use error::run_result::RunResult;
 pub use expectation::gate::{Acceptance, GateResult, Gating, Requirement};
 pub use expectation::limits::{Limits, Measured};
 pub use expectation::proposal::{Ground, Proposal, ProposedKey, propose};
 pub use expectation::{Bounds, CaseFindings, Expectation};
 pub use internal_force::{ForceRow, InternalForce};
+pub use judge_plan::{JudgePlan, LevelSizes};
 pub use order::axis::Axis;
 pub use order::fit::Interval;
 pub(crate) use order::format_number::{format_number, rounded};
@@ -70,11 +75,12 @@ pub use order::richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
 pub use order::t_quantile::two_sided_95;
 pub(crate) use order::window::FEWEST_LEVELS;
 pub use outcome::{CaseOutcome, Exemption, SuiteOutcome};
+pub use rerun::{Reruns, RoundingSizes};
 pub(crate) use stability::is_looked_at;
 pub use stability::{
     Critical, FigureBounds, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
-    StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, resume_trial,
-    spectral_radius, stability_limit, trial,
+    StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, spectral_radius,
+    stability_limit, trial,
 };
 pub use study_results::StudyResults;
 pub use verdict::diagnosis::{Cause, ChangedRun, Diagnosis, Evidence, KnownCause, KnownCauseKind};

@@ -1,5 +1,6 @@
 //! The results of a suite: all that reports are made of.
 
+use super::case::CaseJudgement;
 use super::convergence::Convergence;
 use super::study_results::StudyResults;
 use crate::subject::Profile;
@@ -138,6 +139,17 @@ impl CaseOutcome {
     pub(crate) fn not_gated(self, reason: &str) -> Self {
         let reason = format!("{reason}; {}", self.reason);
         Self { reason, exemption: Some(Exemption::NotGated), ..self }
+    }
+
+    /// The outcome of a case whose levels have run.
+    #[must_use]
+    pub(crate) fn judged(self, judgement: CaseJudgement) -> Self {
+        let CaseJudgement { verdict, reason, unmet, exemption, study } = judgement;
+        let outcome = Self { verdict, reason, unmet, study: Some(Arc::new(study)), ..self };
+        match exemption {
+            Some(reason) => outcome.not_gated(&reason),
+            None => outcome,
+        }
     }
 
     /// The outcome of a case that its solver's author excepts from the gate.

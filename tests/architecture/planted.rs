@@ -17,7 +17,7 @@ fn places(breaches: &[Breach]) -> Vec<String> {
 
 #[rstest]
 #[case::a_type("/// x\npub(crate) struct Census;", &["src/a.rs:2"])]
-#[case::a_trait("pub trait Keeper<T> {}", &["src/a.rs:1"])]
+#[case::a_trait("pub trait Touch<T> {}", &["src/a.rs:1"])]
 #[case::a_function("fn f() {\n    solver.safe_step()\n}", &["src/a.rs:2"])]
 #[case::a_variant("enum Wall { Hold }", &[])]
 #[case::a_string("const A: &str = \"Census, safe_step\";", &[])]

@@ -15,10 +15,7 @@ pub(crate) const LONGEST_COMMENT: usize = 100;
 pub(crate) const OLD_TYPES: &[(&str, &str)] = &[
     ("Whereabouts", "CellTracker"),
     ("Touch", "ContactState"),
-    ("Keeper", "CheckpointStore"),
-    ("Nobody", "NoCheckpoints"),
     ("Kept", "ResultCache"),
-    ("Notes", "CacheLog"),
     ("Shown", "ParticleField"),
     ("Sight", "ParticleBatches"),
     ("Seen", "NodeWeight"),
@@ -117,8 +114,7 @@ pub(crate) const OLD_PHRASES: &[(&str, &str)] = &[
 pub(crate) const OLD_FILES: &[(&str, &str)] = &[
     ("whereabouts", "cell_tracker"),
     ("touch", "contact_state"),
-    ("keeper", "checkpoint_store"),
-    ("kept", "results"),
+    ("kept", "cache"),
     ("shown", "run_result"),
     ("moved", "changes"),
     ("visits", "schedule"),

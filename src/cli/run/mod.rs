@@ -20,7 +20,6 @@ use mpm_verify::verify::SuiteOutcome;
 use printing::Printing;
 use progress::RunProgress;
 use std::path::Path;
-use std::time::Duration;
 
 /// Runs suites and judges them.
 pub(super) fn run(args: &RunArgs) -> Result<Status, CommandError> {
@@ -38,7 +37,7 @@ pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
 
 /// The suites that `args` choose, with the cache and the solver of the run.
 fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging), CommandError> {
-    let kept = args.resume.as_deref().map(|folder| open(folder, args)).transpose()?;
+    let kept = args.resume.as_deref().map(open).transpose()?;
     let all = args.case.is_some();
     let series = args.vtu.as_deref().map(|folder| Series::prepare(folder, all)).transpose()?;
     let solver = solver::greeted(&args.judged.program)?;
@@ -211,20 +210,13 @@ fn one(
         let note = "expects nothing, and is no gate; `mpm-verify propose` writes expectations";
         bar.suspend(|| output::complain(&format!("note: {name} {note}")));
     }
-    for line in kept.map(ResultCache::take_lines).unwrap_or_default() {
-        bar.suspend(|| output::complain(&format!("note: {line}")));
-    }
     outcome
 }
 
 /// Opens the folder of `--resume`.
-fn open(folder: &Path, args: &RunArgs) -> Result<ResultCache, CommandError> {
-    let kept = ResultCache::open(folder)
-        .map_err(|error| CommandError::option("--resume", folder.display(), error))?;
-    let Some(every) = args.checkpoint_every else { return Ok(kept) };
-    let every = Duration::try_from_secs_f64(every)
-        .map_err(|error| CommandError::about("--checkpoint-every", error))?;
-    Ok(kept.with_checkpoints_every(every))
+fn open(folder: &Path) -> Result<ResultCache, CommandError> {
+    ResultCache::open(folder)
+        .map_err(|error| CommandError::option("--resume", folder.display(), error))
 }
 
 /// The first name that two suites have.

@@ -3,7 +3,7 @@
 use super::{Cell, TableColumn, decimals, json_object, scientific};
 use crate::report::json::number::number;
 use crate::verify::{
-    Axis, Conserved, Convergence, History, Interval, Level, LevelOutcome, RunResult, observed_order,
+    Axis, Conserved, Convergence, History, Interval, Level, LevelOutcome, RunErrors, observed_order,
 };
 use serde_json::Value;
 
@@ -72,17 +72,17 @@ pub(crate) fn order<'a>() -> LevelColumn<'a> {
 
 /// Norms of the error at the end, of the displacement (m).
 fn norms<'a>() -> [LevelColumn<'a>; 5] {
-    let column = |key: &'static str, about: &'static str, norm: fn(&RunResult) -> f64| {
+    let column = |key: &'static str, about: &'static str, norm: fn(&RunErrors) -> f64| {
         LevelColumn::json(key, about, move |row| {
-            row.study.compared.then(|| number(norm(&row.level.run)))
+            row.study.compared.then(|| number(norm(row.level.run.errors_of_displacement())))
         })
     };
     [
-        column("errors.rms", "root of the mean square error", |run| run.errors.rms),
-        column("errors.l1", "weighted mean error", |run| run.errors.l1),
-        column("errors.l2", "root of the weighted mean square error", |run| run.errors.l2),
-        column("errors.linf", "largest error", |run| run.errors.linf),
-        column("errors.max_rms", "largest rms over the instants", |run| run.max_rms),
+        column("errors.rms", "root of the mean square error", |of| of.at_end.rms),
+        column("errors.l1", "weighted mean error", |of| of.at_end.l1),
+        column("errors.l2", "root of the weighted mean square error", |of| of.at_end.l2),
+        column("errors.linf", "largest error", |of| of.at_end.linf),
+        column("errors.max_rms", "largest rms over the instants", |of| of.largest.rms),
     ]
 }
 
@@ -243,7 +243,9 @@ impl LevelRow<'_> {
     /// The largest error at the end, of the primary unknown of the study.
     fn linf(&self) -> f64 {
         let run = &self.level.run;
-        if self.study.of.is_primary() { run.at_end.linf } else { run.errors.linf }
+        let errors =
+            if self.study.of.is_primary() { &run.errors } else { run.errors_of_displacement() };
+        errors.at_end.linf
     }
 
     /// A figure of which one digit says enough; a dash also on a failed level that has none.

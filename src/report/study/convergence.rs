@@ -60,7 +60,7 @@ fn remarks(study: &Convergence) -> Vec<String> {
 
 /// Quantity and norm of the judged errors, and what they are divided by.
 fn judge(study: &Convergence) -> Value {
-    json!({"of": study.of.name(), "norm": study.norm, "scale": study.scale.map(number)})
+    json!({"of": study.of.name(), "norm": study.norm.name(), "scale": study.scale.map(number)})
 }
 
 fn floor(floor: &Floor) -> Value {

@@ -1,15 +1,13 @@
 //! Running a convergence study: every level of every case, judged.
 
 use super::described::{described, not_applicable, refused};
-use super::error_scale::error_scale;
 use super::fine_grid_reference::FineGrid;
-use super::level_run::{level_of, run_of};
-use super::outcome::{CaseBinding, judge_levels, judged};
+use super::judge_plan::{judge_plan, rounding_sizes};
 use super::reference::Reference;
 use super::small_step_reference::FineSteps;
 use super::stable_step::StableSteps;
-use super::{gate, probe, statement};
-use crate::exact::Truth;
+use super::statement;
+use crate::exact::{Problem, Truth};
 use crate::external::ProblemNeeds;
 use crate::study::describe::profiles;
 use crate::study::describe::profiles::Dispensable;
@@ -17,11 +15,14 @@ use crate::study::describe::statement::Rows;
 use crate::study::handover::{needs, subject_under};
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, ShownRun, StepWarning, Study};
 use crate::subject::Profile;
+use crate::suite::compile::check::size;
 use crate::suite::compile::truth::conservation_only::Unknown;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
+use crate::verify;
 use crate::verify::{
-    CaseOutcome, CheckpointStore, Convergence, Expectation, Gating, LevelOutcome, RunResult,
+    Axis, CaseOutcome, Comparison, Convergence, Expectation, Gating, JudgePlan, LevelOutcome,
+    LevelSizes, Reruns, RoundingSizes, RunResult, judge_case,
 };
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -175,59 +176,24 @@ impl<'a> ConvergenceRunner<'a> {
         } else {
             self.truth(case)?
         };
+        let judging = judge_plan(plan, case, expectation, truth);
+        let runs = CaseRuns { runner: self, case, truth, judging: &judging };
         let all = plan.refine.levels(self.context.extent);
         let count = all.len();
         let levels: Result<Vec<LevelOutcome>, String> = all
             .par_iter()
             .enumerate()
             .map(|(index, level)| {
-                let shown = index + 1 == count && case.against != Against::Nothing;
+                let is_shown = index + 1 == count && case.against != Against::Nothing;
                 let level = self.steps.of(plan, case, *level).and_then(|(level, limit)| {
-                    let outcome = self.level(case, truth, level, shown)?;
+                    let outcome = runs.level(level, is_shown)?;
                     Ok(LevelOutcome { stable_time_step: limit, ..outcome })
                 });
                 progress();
                 level
             })
             .collect();
-        let levels = levels?;
-        let judgement = judge_levels(plan, case, expectation, &levels);
-        let again = |level| self.level(case, truth, level, false);
-        let floor = probe::floor(plan, case, expectation, &judgement, &levels, again);
-        let error_scale = error_scale(plan, case, truth);
-        let exemption = gate::exemption(case, &levels);
-        let gate = match exemption {
-            Some(_) => None,
-            None => gate::result((plan, case), (&levels, &judgement), truth, again),
-        };
-        let binding = CaseBinding { expectation, gate: gate.as_ref() };
-        let outcome = judged(plan, case, binding, levels, judgement, floor, error_scale);
-        Ok(match exemption {
-            Some(reason) => outcome.not_gated(&reason),
-            None => outcome,
-        })
-    }
-
-    /// One level of a case against `truth`, which keeps its errors over the body or not.
-    fn level(
-        &self,
-        case: &Case,
-        truth: &dyn Truth,
-        level: LevelPlan,
-        keeps_field: bool,
-    ) -> Result<LevelOutcome, String> {
-        let plan = &self.plan;
-        let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
-        let RunContext { suite, fingerprint, .. } = self.context;
-        let name = format!("{suite}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
-        let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
-        let run = |store: &mut dyn CheckpointStore| {
-            let make = || subject_under(self.context.solver, suite, plan, case, level);
-            run_of(plan, truth, (&clock, store), keeps_field, make)
-        };
-        let broken = |found: &RunResult| found.failure.is_some();
-        let found = self.context.cached(&key, &name, broken, run)?;
-        Ok(level_of(plan, level, clock.dt(), found))
+        Ok(described(plan, case, expectation).judged(judge_case(&judging, levels?, &runs)))
     }
 
     /// The same method with a shorter spacing, run for this case.
@@ -259,5 +225,68 @@ impl<'a> ConvergenceRunner<'a> {
             Ok(reference) => Ok(reference),
             Err(reason) => Err(reason.clone()),
         }
+    }
+}
+
+/// Runs the levels of one case.
+struct CaseRuns<'r, 'a> {
+    runner: &'r ConvergenceRunner<'a>,
+    case: &'r Case,
+    truth: &'r dyn Truth,
+    judging: &'r JudgePlan<'r>,
+}
+
+impl CaseRuns<'_, '_> {
+    /// One level, which keeps its errors over the body or not.
+    fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, String> {
+        let (plan, case) = (&self.runner.plan, self.case);
+        let RunContext { suite, fingerprint, solver, .. } = self.runner.context;
+        let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
+        let name = format!("{suite}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
+        let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
+        let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
+        let (sum, observe) = (plan.sum.as_deref(), plan.observe.as_deref());
+        let comparison = Comparison { of: plan.of, sum, observe, at_rest, keeps_field };
+        let run = || {
+            let mut subject = subject_under(solver, suite, plan, case, level)?;
+            Ok(verify::run(subject.as_mut(), self.truth, &clock, &comparison))
+        };
+        let broken = |run: &RunResult| run.failure.is_some();
+        let run = self.runner.context.cached(&key, &name, broken, run)?;
+        let particle_spacing = level.particle_spacing(plan.scene.dimension());
+        let LevelPlan { cells, h, ppc, .. } = level;
+        let sizes = LevelSizes { cells, h, dt: clock.dt(), ppc, particle_spacing };
+        Ok(self.judging.level(sizes, run))
+    }
+}
+
+/// The sizes of a level with the step that was taken.
+fn taken(level: &LevelOutcome) -> LevelPlan {
+    let LevelOutcome { cells, h, dt, ppc, .. } = *level;
+    LevelPlan { cells, h, dt, ppc }
+}
+
+impl Reruns for CaseRuns<'_, '_> {
+    type Error = String;
+
+    fn can_halve(&self) -> bool {
+        !matches!(self.case.against, Against::SameMethod(_))
+    }
+
+    fn run_halved(&self, level: &LevelOutcome, axis: Axis) -> Option<Result<LevelOutcome, String>> {
+        let scene = &self.runner.plan.scene;
+        let halved = taken(level).halved(axis, scene.dimension())?;
+        Some(match size::too_large(scene, halved) {
+            Some((what, amount)) => Err(format!("{amount:.1e} {what} are too many")),
+            None => self.level(halved, false),
+        })
+    }
+
+    fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, String> {
+        self.level(LevelPlan { dt, ..taken(level) }, false)
+    }
+
+    fn rounding(&self) -> Option<RoundingSizes> {
+        rounding_sizes(&self.runner.plan, self.case, self.truth)
     }
 }

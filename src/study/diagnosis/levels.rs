@@ -4,7 +4,6 @@
 use super::jumps::sizes;
 use super::session::Known;
 use crate::study::convergence::error_scale::largest_exact;
-use crate::study::convergence::outcome::to_judge;
 use crate::study::preflight::extremes::Extremes;
 use crate::study::preflight::undamped;
 use crate::suite::model::method::Method;
@@ -82,7 +81,7 @@ pub(super) fn coarse(known: &Known<'_>) -> Option<KnownCause> {
 fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
     let order = |pair: &[&LevelOutcome]| {
         let [coarse, fine] = pair else { return None };
-        observed_order(&to_judge(coarse), &to_judge(fine))
+        observed_order(&coarse.to_level(), &fine.to_level())
     };
     let first = order(levels.get(..2)?)?;
     let last = order(&levels[levels.len() - 2..])?;

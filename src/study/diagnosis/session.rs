@@ -1,8 +1,7 @@
 //! Runs of one case: what they share, and their budget.
 
 use crate::external::SolverFactory;
-use crate::study::convergence::outcome::to_judge;
-use crate::study::kind::{RunContext, Storage, Study};
+use crate::study::kind::{RunContext, Study};
 use crate::study::preflight::cost::estimate_of;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan};
@@ -75,8 +74,7 @@ impl<'a> Session<'a> {
 
     fn run(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
         let (suite, extent, solver) = (self.suite, Extent::Usual, self.solver);
-        let storage = Storage::Nowhere;
-        let context = RunContext { suite, fingerprint: 0, extent, storage, solver };
+        let context = RunContext { suite, fingerprint: 0, extent, cache: None, solver };
         let outcome = plan.runner(context).case(0, &|| ());
         outcome.convergence().cloned().ok_or(outcome.reason)
     }
@@ -87,7 +85,7 @@ impl<'a> Session<'a> {
         levels: impl IntoIterator<Item = &'b LevelOutcome>,
         axis: Axis,
     ) -> Judgement {
-        let levels: Vec<Level> = levels.into_iter().map(to_judge).collect();
+        let levels: Vec<Level> = levels.into_iter().map(LevelOutcome::to_level).collect();
         let p = self.formal_order;
         judge(&levels, &OrderHypothesis::within(p, p - NEAR, p + ABOVE).over(axis))
     }

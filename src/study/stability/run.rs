@@ -12,8 +12,8 @@ use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::stability::{StabilityCase, StabilityPlan};
 use crate::verify::{
-    CheckpointStore, Critical, Prediction, Scales, Stability, StabilityLimit, StabilityRow, Trial,
-    amplification, resume_trial, spectral_radius, stability_limit,
+    Critical, Prediction, Scales, Stability, StabilityLimit, StabilityRow, Trial, amplification,
+    spectral_radius, stability_limit, trial,
 };
 
 /// Values at which a limit is looked for before the first unstable interval is halved.
@@ -90,22 +90,17 @@ impl CaseRun<'_> {
 
     /// The run with these values of the parameters.
     fn run(&self, values: &ParameterValues<'_>) -> Result<Trial, String> {
-        let run = |keeper: &mut dyn CheckpointStore| self.run_keeping(values, keeper);
+        let run = || {
+            let setup = self.setup(values)?;
+            let mut subject = self.started(&setup)?;
+            Ok(trial(subject.as_mut(), &setup.dt, setup.steps, &setup.scales))
+        };
         let RunContext { suite, fingerprint, extent, .. } = self.context;
         let case = &self.case.name;
         let name = format!("{suite}::{case}, {}", said(values));
         let key = format!("{suite} {fingerprint:016x} {case} {extent:?} {values:?}");
         let broken = |trial: &Trial| trial.verdict == Stability::Failed;
         self.context.cached(&key, &name, broken, run)
-    }
-
-    fn run_keeping(
-        &self,
-        values: &ParameterValues<'_>,
-        keeper: &mut dyn CheckpointStore,
-    ) -> Result<Trial, String> {
-        let setup = self.setup(values)?;
-        resume_trial(|| self.started(&setup), &setup.dt, setup.steps, &setup.scales, keeper)
     }
 
     /// The subject of a run, at its start.

@@ -135,37 +135,6 @@ pub(crate) struct JudgeSpec {
 }
 
 named! {
-    /// The error that is judged.
-    #[derive(Default)]
-    pub enum NormName {
-        /// RMS over labels at the end: the measure of the talk.
-        #[default]
-        Rms = "rms",
-        /// Mean, weighted by volume, at the end.
-        L1 = "l1",
-        /// RMS, weighted by volume, at the end.
-        L2 = "l2",
-        /// Largest at the end.
-        Linf = "linf",
-        /// Largest RMS over the instants.
-        MaxRms = "max_rms",
-        /// Largest L1 over the instants.
-        MaxL1 = "max_l1",
-        /// Largest L2 over the instants.
-        MaxL2 = "max_l2",
-        /// Largest over labels and instants.
-        MaxLinf = "max_linf",
-    }
-}
-
-impl NormName {
-    /// Whether it is the largest over the instants of another norm.
-    pub(crate) fn is_over_instants(self) -> bool {
-        matches!(self, Self::MaxRms | Self::MaxL1 | Self::MaxL2 | Self::MaxLinf)
-    }
-}
-
-named! {
     /// Whether levels on which particles changed their cell may count.
     #[derive(Default)]
     pub enum CrossingLevels {

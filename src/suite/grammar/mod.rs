@@ -16,7 +16,8 @@ pub(crate) use super::evaluator::ParameterSpec;
 pub(crate) use convergence::{
     ConvergenceSpec, ObserveSpec, ReferenceSpec, RefineSpec, ScatterSpec,
 };
-pub use convergence::{CrossingLevels, NormName};
+pub use crate::verify::NormName;
+pub use convergence::CrossingLevels;
 pub use expect::WarningName;
 pub(crate) use expect::{AcknowledgeSpec, AnyMethodSpec, CrossingsName, DriftSpec, ExpectSpec};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};

@@ -1,6 +1,5 @@
 //! The error of one level: quantities, norms, and the run that yields them.
 
-pub(crate) mod checkpoint_store;
 pub(crate) mod clock;
 pub(crate) mod declaration;
 pub(crate) mod error_field;

@@ -12,8 +12,39 @@
 //!
 //! Squares are taken of `|e_p| / linf`, so that they neither overflow nor vanish.
 
-use crate::subject::{Checkpoint, Memory};
+use crate::named::named;
 use serde::{Deserialize, Serialize};
+
+named! {
+    /// The error that is judged.
+    #[derive(Default)]
+    pub enum NormName {
+        /// RMS over labels at the end: the measure of the talk.
+        #[default]
+        Rms = "rms",
+        /// Mean, weighted by volume, at the end.
+        L1 = "l1",
+        /// RMS, weighted by volume, at the end.
+        L2 = "l2",
+        /// Largest at the end.
+        Linf = "linf",
+        /// Largest RMS over the instants.
+        MaxRms = "max_rms",
+        /// Largest L1 over the instants.
+        MaxL1 = "max_l1",
+        /// Largest L2 over the instants.
+        MaxL2 = "max_l2",
+        /// Largest over labels and instants.
+        MaxLinf = "max_linf",
+    }
+}
+
+impl NormName {
+    /// Whether it is the largest over the instants of another norm.
+    pub(crate) fn is_over_instants(self) -> bool {
+        matches!(self, Self::MaxRms | Self::MaxL1 | Self::MaxL2 | Self::MaxLinf)
+    }
+}
 
 /// Norms of one field of errors. All are NaN where there is nothing to measure: an empty field
 /// has no error of zero.
@@ -27,15 +58,6 @@ pub struct Norms {
     pub l2: f64,
     /// Largest length.
     pub linf: f64,
-}
-
-impl Memory for Norms {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self { rms, l1, l2, linf } = self;
-        for norm in [rms, l1, l2, linf] {
-            checkpoint.visit(norm);
-        }
-    }
 }
 
 impl Norms {
@@ -86,6 +108,43 @@ impl Norms {
             l1: linf * (moment / total),
             l2: linf * (weighted_squares / total).sqrt(),
             linf,
+        }
+    }
+}
+
+/// Errors of one quantity in a run, one for each norm and time. All are NaN if the run failed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunErrors {
+    /// Errors at the end; errors of a sum over the body are norms over the instants.
+    pub at_end: Norms,
+    /// Largest errors over the instants, norm by norm.
+    pub largest: Norms,
+}
+
+impl RunErrors {
+    /// Errors of a run that failed.
+    pub const NONE: Self = Self { at_end: Norms::NONE, largest: Norms::NONE };
+
+    /// Errors before the first instant.
+    pub(super) const START: Self = Self { at_end: Norms::NONE, largest: Norms::ZERO };
+
+    /// Adds the errors at an instant.
+    pub(super) fn add(&mut self, now: Norms) {
+        self.at_end = now;
+        self.largest = self.largest.larger(now);
+    }
+
+    /// The error in one norm.
+    pub fn in_norm(&self, norm: NormName) -> f64 {
+        match norm {
+            NormName::Rms => self.at_end.rms,
+            NormName::L1 => self.at_end.l1,
+            NormName::L2 => self.at_end.l2,
+            NormName::Linf => self.at_end.linf,
+            NormName::MaxRms => self.largest.rms,
+            NormName::MaxL1 => self.largest.l1,
+            NormName::MaxL2 => self.largest.l2,
+            NormName::MaxLinf => self.largest.linf,
         }
     }
 }

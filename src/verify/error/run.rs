@@ -1,15 +1,14 @@
 //! One subject on one level, held against the truth.
 
-use super::checkpoint_store::{CheckpointStore, NoCheckpoints, keep_if_due, resumed};
 use super::clock::Clock;
 use super::error_field::ErrorField;
 use super::judged_sum::{JudgedSum, over_instants};
-use super::norm::{Norms, larger, largest_length};
+use super::norm::{Norms, RunErrors, larger, largest_length};
 use super::observer::{History, displacement_at};
 use super::quantity::Quantity;
 use super::run_result::RunResult;
 use crate::exact::Truth;
-use crate::subject::{Checkpoint, Failure, Memory, Samples, Subject, Totals};
+use crate::subject::{Failure, Samples, Subject, Totals};
 use crate::verify::conservation::{Balance, ConservationError};
 use crate::verify::energy_rate::energy_rate;
 
@@ -29,6 +28,13 @@ pub struct Comparison<'a> {
     pub keeps_field: bool,
 }
 
+impl Comparison<'_> {
+    /// Whether another quantity than the displacement is compared.
+    fn is_of_another(&self) -> bool {
+        self.sum.is_some() || self.of != Quantity::default()
+    }
+}
+
 /// The share of a run, at its end, in which a body must be at rest. An instant would not do: a
 /// body that swings stands still when it turns.
 const LAST: f64 = 0.1;
@@ -41,40 +47,12 @@ pub fn run(
     clock: &Clock,
     comparison: &Comparison<'_>,
 ) -> RunResult {
-    let monitor = RunMonitor::new(subject, truth, comparison);
-    go(subject, monitor, clock, 0, &mut NoCheckpoints)
-}
-
-/// The same run of a subject that `make` makes, from where `keeper` has something that was left of
-/// it.
-///
-/// # Errors
-/// Those of `make`.
-pub fn resume<E>(
-    make: impl FnMut() -> Result<Box<dyn Subject>, E>,
-    truth: &dyn Truth,
-    clock: &Clock,
-    comparison: &Comparison<'_>,
-    store: &mut dyn CheckpointStore,
-) -> Result<RunResult, E> {
-    let monitor = |subject: &dyn Subject| RunMonitor::new(subject, truth, comparison);
-    let (mut subject, monitor, done) = resumed(make, monitor, clock.steps, store)?;
-    Ok(go(subject.as_mut(), monitor, clock, done, store))
-}
-
-fn go(
-    subject: &mut dyn Subject,
-    mut monitor: RunMonitor<'_>,
-    clock: &Clock,
-    done: u64,
-    store: &mut dyn CheckpointStore,
-) -> RunResult {
-    for step in done + 1..=clock.steps {
+    let mut monitor = RunMonitor::new(subject, truth, comparison);
+    for step in 1..=clock.steps {
         if let Err(failure) = subject.step(clock.dt()) {
             return monitor.failed(subject, step, clock.time(step), &failure);
         }
         monitor.look(subject, clock, step);
-        keep_if_due(store, (step, clock.steps), &mut monitor, subject);
     }
     monitor.finished(subject, clock)
 }
@@ -84,10 +62,8 @@ struct RunMonitor<'a> {
     truth: &'a dyn Truth,
     comparison: &'a Comparison<'a>,
     samples: Samples,
-    errors: Norms,
-    max_rms: f64,
-    at_end: Norms,
-    largest: Norms,
+    errors: RunErrors,
+    displacement_errors: Option<RunErrors>,
     sum_errors: Vec<[f64; 3]>,
     balance: Option<Balance>,
     account: Vec<(f64, Totals)>,
@@ -108,10 +84,8 @@ impl<'a> RunMonitor<'a> {
             truth,
             comparison,
             samples,
-            errors: Norms::NONE,
-            max_rms: 0.0,
-            at_end: Norms::NONE,
-            largest: Norms::ZERO,
+            errors: RunErrors::START,
+            displacement_errors: comparison.is_of_another().then_some(RunErrors::START),
             sum_errors: Vec::new(),
             balance: subject.totals().map(Balance::start),
             account: subject.totals().map(|totals| (0.0, totals)).into_iter().collect(),
@@ -146,22 +120,20 @@ impl<'a> RunMonitor<'a> {
                 return;
             }
         }
-        self.errors = errors(&self.samples, self.truth, t);
-        self.max_rms = larger(self.max_rms, self.errors.rms);
+        if let Some(displacement) = &mut self.displacement_errors {
+            displacement.add(errors(&self.samples, self.truth, t));
+        }
         if let Some(sum) = self.comparison.sum {
             self.sum_errors.push(sum.error(subject, t));
             return;
         }
-        let of = self.comparison.of;
-        let is_known = of == Quantity::default();
-        self.at_end = if is_known { self.errors } else { of.errors(&self.samples, self.truth, t) };
-        self.largest = self.largest.larger(self.at_end);
+        self.errors.add(self.comparison.of.errors(&self.samples, self.truth, t));
     }
 
     fn finished(mut self, subject: &dyn Subject, clock: &Clock) -> RunResult {
         if self.comparison.sum.is_some() {
-            self.at_end = over_instants(&self.sum_errors);
-            self.largest = self.at_end;
+            let errors = over_instants(&self.sum_errors);
+            self.errors = RunErrors { at_end: errors, largest: errors };
         }
         let place = self.comparison.observe;
         let displacement = place.and_then(|place| displacement_at(&self.samples, place));
@@ -173,9 +145,7 @@ impl<'a> RunMonitor<'a> {
         let field = self.field(clock.until);
         RunResult {
             errors: self.errors,
-            max_rms: self.max_rms,
-            at_end: self.at_end,
-            largest: self.largest,
+            displacement_errors: self.displacement_errors,
             drift: self.balance.as_ref().map(Balance::drift),
             energy_rate: energy_rate(&self.account),
             account: self.account,
@@ -202,10 +172,8 @@ impl<'a> RunMonitor<'a> {
         let field = self.field(t);
         RunResult {
             field,
-            errors: Norms::NONE,
-            max_rms: f64::NAN,
-            at_end: Norms::NONE,
-            largest: Norms::NONE,
+            errors: RunErrors::NONE,
+            displacement_errors: self.displacement_errors.map(|_| RunErrors::NONE),
             drift: self.balance.map(|_| ConservationError::NONE),
             energy_rate: None,
             account: self.account,
@@ -216,39 +184,6 @@ impl<'a> RunMonitor<'a> {
             displacement: None,
             observed_error: None,
             residual_speed: self.residual_speed.map(|_| f64::NAN),
-        }
-    }
-}
-
-/// Samples are no part of it: each instant takes them anew, and the last step ends at an instant.
-impl Memory for RunMonitor<'_> {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self {
-            truth: _,
-            comparison: _,
-            samples: _,
-            errors,
-            max_rms,
-            at_end,
-            largest,
-            sum_errors,
-            balance,
-            account,
-            residual_speed,
-            history,
-        } = self;
-        for norms in [errors, at_end, largest] {
-            checkpoint.visit(norms);
-        }
-        checkpoint.visit(max_rms);
-        checkpoint.visit(sum_errors);
-        if let Some(balance) = balance {
-            checkpoint.visit(balance);
-        }
-        checkpoint.visit(account);
-        checkpoint.visit(residual_speed);
-        if let Some((_, history)) = history {
-            checkpoint.visit(&mut history.velocity);
         }
     }
 }
@@ -311,8 +246,8 @@ mod tests {
             libm::cos(0.9 * until) / 2.0,
             max_relative = 1e-9
         );
-        assert_relative_eq!(found.max_rms, 1.0 / (1.0 + until), max_relative = 1e-12);
+        assert_relative_eq!(found.errors.largest.rms, 1.0 / (1.0 + until), max_relative = 1e-12);
         let moving = run(&mut Swing(0.0), &AtRest, &clock, &Comparison::default());
-        assert_eq!((moving.residual_speed, moving.max_rms > 0.9), (None, true));
+        assert_eq!((moving.residual_speed, moving.errors.largest.rms > 0.9), (None, true));
     }
 }

@@ -1,7 +1,7 @@
 //! Results of one run: all that is judged, reported and kept of it.
 
 use super::error_field::ErrorField;
-use super::norm::Norms;
+use super::norm::RunErrors;
 use super::observer::History;
 use crate::subject::{RunCounters, Totals};
 use crate::verify::conservation::ConservationError;
@@ -12,15 +12,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunResult {
-    /// Errors of the displacement at the end (m); all NaN if the run failed.
-    pub errors: Norms,
-    /// Largest RMS error over the instants (m); NaN if the run failed.
-    pub max_rms: f64,
-    /// Errors of the compared quantity at the end, of a sum over the instants; all NaN if the run
-    /// failed.
-    pub at_end: Norms,
-    /// The largest of each over the instants; all NaN if the run failed.
-    pub largest: Norms,
+    /// Errors of the compared quantity.
+    pub errors: RunErrors,
+    /// Errors of the displacement (m), where another quantity is compared.
+    pub displacement_errors: Option<RunErrors>,
     /// How far the body's totals drifted, if the subject gives them; NaN if the run failed.
     pub drift: Option<ConservationError>,
     /// The totals at t = 0 and at every instant that was reached (s), if the subject gives them.
@@ -44,4 +39,11 @@ pub struct RunResult {
     /// Largest speed towards the end, over
     /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest), where that is given.
     pub residual_speed: Option<f64>,
+}
+
+impl RunResult {
+    /// Errors of the displacement (m), whatever is compared.
+    pub fn errors_of_displacement(&self) -> &RunErrors {
+        self.displacement_errors.as_ref().unwrap_or(&self.errors)
+    }
 }

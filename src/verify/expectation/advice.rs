@@ -2,6 +2,7 @@
 
 use super::observed::{counted, is_inside, range};
 use crate::verify::convergence::{Convergence, LevelOutcome};
+use crate::verify::error::norm::NormName;
 use crate::verify::order::axis::Axis;
 use crate::verify::order::fit::Interval;
 use crate::verify::order::hypothesis::OrderHypothesis;
@@ -54,36 +55,25 @@ fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     if judged.half_width() <= WIDE {
         return None;
     }
-    let of = |norm: &str, level: &LevelOutcome| {
-        let (end, largest) = (&level.run.at_end, &level.run.largest);
-        match norm {
-            "l1" => end.l1,
-            "l2" => end.l2,
-            "linf" => end.linf,
-            "max_rms" => largest.rms,
-            "max_l1" => largest.l1,
-            "max_l2" => largest.l2,
-            "max_linf" => largest.linf,
-            _ => end.rms,
-        }
-    };
-    let norms = ["rms", "l1", "l2", "linf", "max_rms", "max_l1", "max_l2", "max_linf"];
     let (formal_order, axis) = (study.formal_order, study.axis);
-    let order = |norm: &&'static str| {
-        let levels: Vec<Level> =
-            counted(study).map(|level| Level::new(level.spacing, of(norm, level))).collect();
+    let order = |norm: NormName| {
+        let level =
+            |level: &LevelOutcome| Level::new(level.spacing, level.run.errors.in_norm(norm));
+        let levels: Vec<Level> = counted(study).map(level).collect();
         let judgement = judge(&levels, &OrderHypothesis { formal_order, expected: None, axis });
         let order = judgement.order.filter(|_| judgement.verdict == Verdict::Converging)?;
-        Some((*norm, order))
+        Some((norm, order))
     };
-    let (norm, order) = norms
+    let (norm, order) = NormName::ALL
         .iter()
-        .filter(|norm| **norm != study.norm)
+        .copied()
+        .filter(|norm| *norm != study.norm)
         .filter_map(order)
         .min_by(|(_, a), (_, b)| a.half_width().total_cmp(&b.half_width()))?;
     (order.half_width() <= CLEARLY * judged.half_width()).then(|| {
         format!(
-            "norm: `judge: {{norm: {norm}}}` has the order {} on the same levels",
+            "norm: `judge: {{norm: {}}}` has the order {} on the same levels",
+            norm.name(),
             order.shown()
         )
     })
@@ -117,8 +107,9 @@ mod tests {
     fn a_norm_is_advised_only_if_it_converges() {
         let mut study = uncertain();
         for (k, level) in study.levels.iter_mut().enumerate() {
-            level.run.at_end.l1 = level.spacing;
-            level.run.at_end.l2 = level.spacing * level.spacing * (1.0 + 0.01 * (k % 2) as f64);
+            level.run.errors.at_end.l1 = level.spacing;
+            level.run.errors.at_end.l2 =
+                level.spacing * level.spacing * (1.0 + 0.01 * (k % 2) as f64);
         }
         let advice = advice(&study);
         assert!(advice.iter().any(|line| line.contains("{norm: l2}")), "{advice:?}");

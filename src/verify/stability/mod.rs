@@ -28,6 +28,6 @@ pub use limit::{StabilityLimit, stability_limit};
 pub use outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
 pub use radius::{Radius, spectral_radius};
 pub(crate) use trial::is_looked_at;
-pub use trial::{resume_trial, trial};
+pub use trial::trial;
 pub use trial_result::{Scales, Trial};
 pub use verdict::Stability;

@@ -8,11 +8,8 @@
 use super::checkerboard::{checkerboard, stress_spread};
 use super::trial_result::{Scales, Trial};
 use super::verdict::Stability;
-use crate::subject::{Checkpoint, Failure, Memory, Samples, Subject};
+use crate::subject::{Failure, Samples, Subject};
 use crate::verify::conservation::{Balance, ConservationError, Conserved};
-use crate::verify::error::checkpoint_store::{
-    CheckpointStore, NoCheckpoints, keep_if_due, resumed,
-};
 use crate::verify::error::norm::larger;
 
 /// Steps after which the state is looked at: each of the first ones, and then at equal distances.
@@ -28,37 +25,9 @@ pub(crate) fn is_looked_at(step: u64, steps: u64) -> bool {
 /// Runs `subject` for `steps` steps, whose lengths (s) are taken from `dt` in turn, or until it is
 /// unstable or fails.
 pub fn trial(subject: &mut dyn Subject, dt: &[f64], steps: u64, scales: &Scales) -> Trial {
-    let monitor = TrialMonitor::new(subject, *scales);
-    go(subject, monitor, dt, (0, steps), &mut NoCheckpoints)
-}
-
-/// The same trial of a subject that `make` makes, from where `keeper` has something that was left
-/// of it.
-///
-/// # Errors
-/// Those of `make`.
-pub fn resume_trial<E>(
-    make: impl FnMut() -> Result<Box<dyn Subject>, E>,
-    dt: &[f64],
-    steps: u64,
-    scales: &Scales,
-    store: &mut dyn CheckpointStore,
-) -> Result<Trial, E> {
-    let monitor = |subject: &dyn Subject| TrialMonitor::new(subject, *scales);
-    let (mut subject, monitor, done) = resumed(make, monitor, steps, store)?;
-    Ok(go(subject.as_mut(), monitor, dt, (done, steps), store))
-}
-
-fn go(
-    subject: &mut dyn Subject,
-    mut monitor: TrialMonitor,
-    dt: &[f64],
-    (done, steps): (u64, u64),
-    store: &mut dyn CheckpointStore,
-) -> Trial {
-    let scales = monitor.scales;
-    let mut lengths = dt.iter().cycle().skip(done as usize % dt.len().max(1));
-    for step in done + 1..=steps {
+    let mut monitor = TrialMonitor::new(subject, *scales);
+    let mut lengths = dt.iter().cycle();
+    for step in 1..=steps {
         let dt = *lengths.next().unwrap_or(&f64::NAN);
         monitor.time += dt;
         if let Err(failure) = subject.step(dt) {
@@ -70,7 +39,6 @@ fn go(
                 return monitor.grown(subject, step);
             }
         }
-        keep_if_due(store, (step, steps), &mut monitor, subject);
     }
     let verdict = if monitor.energy <= scales.stable_below {
         Stability::Stable
@@ -190,34 +158,6 @@ impl TrialMonitor {
             checkerboard: checkerboard(&self.samples),
             stress: largest(&self.samples.stress, d * d) / self.scales.modulus,
             displacement: largest(&self.samples.displacement, d),
-        }
-    }
-}
-
-impl Memory for TrialMonitor {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self {
-            scales: _,
-            time,
-            samples,
-            balance,
-            reference,
-            kinetic_start,
-            energy,
-            last,
-            speed,
-            kinetic,
-            null,
-            null_most,
-        } = self;
-        let most = [kinetic, null, null_most];
-        for number in [time, reference, kinetic_start, energy, last, speed].into_iter().chain(most)
-        {
-            checkpoint.visit(number);
-        }
-        checkpoint.visit(samples);
-        if let Some(balance) = balance {
-            checkpoint.visit(balance);
         }
     }
 }

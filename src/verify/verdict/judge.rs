@@ -60,6 +60,20 @@ pub struct Judgement {
     pub reason: String,
 }
 
+impl Judgement {
+    /// The judgement of so many levels whose errors are not taken.
+    pub(crate) fn without_comparison(levels: usize) -> Self {
+        Self {
+            verdict: Verdict::TooFewLevels,
+            order: None,
+            window: None,
+            pairwise: vec![None; levels],
+            levels: Vec::new(),
+            reason: "nothing is compared".to_owned(),
+        }
+    }
+}
+
 /// Judges the errors of a refinement study against a claimed order.
 pub fn judge(levels: &[Level], hypothesis: &OrderHypothesis) -> Judgement {
     let (levels, diagnostic) = arrange(levels, hypothesis.axis);

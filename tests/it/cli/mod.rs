@@ -2,7 +2,6 @@
 
 mod arguments;
 mod check;
-mod checkpoint;
 mod compare;
 mod cost;
 mod explain;

@@ -93,7 +93,7 @@ fn the_load_is_that_of_the_particles_own_displacement(
     assert_eq!(found.len(), count);
     for case in &found {
         for level in levels(case) {
-            let error = level.run.at_end.rms;
+            let error = level.run.errors.at_end.rms;
             assert!((error - expected).abs() < 1e-9 * expected, "{}: {error}", case.case);
         }
     }
@@ -113,7 +113,7 @@ fn the_stable_step_knows_the_stiffness_of_a_load() {
                 case.case,
                 level.dt
             );
-            let error = level.run.at_end.rms * 200.0;
+            let error = level.run.errors.at_end.rms * 200.0;
             assert!(error < 3e-6, "{}: it stays bounded: {error}", case.case);
         }
     }

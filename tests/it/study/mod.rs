@@ -5,7 +5,6 @@ mod diagnosis;
 mod error_scale;
 mod fine_grid;
 mod foundation;
-mod interrupted;
 mod keys;
 mod polygons;
 mod predicted_error;

@@ -5,7 +5,6 @@ use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, ExpectSpec};
 use crate::suite::model::{ConvergencePlan, SameMethod};
 use crate::suite::yaml::{Diagnostic, Path};
-use crate::verify::{Judgement, LevelOutcome, Verdict};
 
 /// The truth of which nothing is known.
 pub(crate) struct Unknown;
@@ -57,17 +56,4 @@ pub(crate) fn refuse_need_of_truth(
         return Err(evaluator.diagnostic_at_key(&Path::top("observe"), message));
     }
     Ok(())
-}
-
-/// Judgement of levels that were compared with nothing, if all ran to their end.
-pub(crate) fn judgement(levels: &[LevelOutcome]) -> Option<Judgement> {
-    let sound = levels.iter().all(|level| level.run.failure.is_none());
-    sound.then(|| Judgement {
-        verdict: Verdict::TooFewLevels,
-        order: None,
-        window: None,
-        pairwise: vec![None; levels.len()],
-        levels: Vec::new(),
-        reason: "nothing is compared".to_owned(),
-    })
 }

@@ -1,5 +1,4 @@
-//! Finished levels of a long run, kept on disk, so that an interrupted run goes on where it was.
-//! For levels that have not ended see [`checkpoints`](super::checkpoints).
+//! Results of finished levels, kept on disk: a run that was stopped goes on with the other levels.
 //!
 //! The result of a level is written as soon as it has ended, under a name made of all that it
 //! depends on: the program itself, bit by bit, the text of the suite, the case and the level. No
@@ -7,31 +6,25 @@
 //! uninterrupted one prints, byte by byte. A file is written whole or not at all: under another
 //! name first.
 
-use super::checkpoints::LevelKeeper;
-use super::log::CacheLog;
-use super::write_whole;
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::yaml::{read_again, written};
-use crate::verify::CheckpointStore;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use std::fs::{self, File};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
-use std::{fs, io};
+use std::sync::OnceLock;
 
-/// A folder of finished levels, and of states of running ones.
+/// A folder of finished levels.
 #[derive(Debug)]
 pub struct ResultCache {
     folder: PathBuf,
     /// Further folders, which are only read; where there are any, nothing runs.
     others: Vec<PathBuf>,
     program: u64,
-    every: Duration,
-    log: CacheLog,
+    /// The first result that could not be written, and why.
+    first_error: OnceLock<String>,
 }
-
-/// How often the state of a running level is kept: shorter ones never are.
-const EVERY: Duration = Duration::from_secs(10);
 
 impl ResultCache {
     /// Uses a folder, and makes it if it is not there.
@@ -42,7 +35,7 @@ impl ResultCache {
         fs::create_dir_all(folder)?;
         let program = fingerprint(&fs::read(std::env::current_exe()?)?);
         let (folder, others) = (folder.to_owned(), Vec::new());
-        Ok(Self { folder, others, program, every: EVERY, log: CacheLog::default() })
+        Ok(Self { folder, others, program, first_error: OnceLock::new() })
     }
 
     /// Takes finished levels from any of `folders`, and runs none.
@@ -59,50 +52,35 @@ impl ResultCache {
         Ok(Self { others: folders.to_vec(), ..cache })
     }
 
-    /// Keeps the state of running levels so often, not every ten seconds.
-    #[must_use]
-    pub fn with_checkpoints_every(self, every: Duration) -> Self {
-        Self { every, ..self }
-    }
-
-    /// The result of a level: from the folder, or from `run`, whose state is stored on the way.
-    /// `key` names all that it depends on besides the program; messages call it `name`.
+    /// The result of a level: from the folder, or from `run`. `key` names all that the result
+    /// depends on besides the program; messages call the level `name`.
     pub(crate) fn level<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
-        what: &str,
-        run: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, String>,
+        name: &str,
+        run: impl FnOnce() -> Result<T, String>,
     ) -> Result<T, String> {
         let key = format!("{:016x} {key}", self.program);
         let file = format!("{:016x}.level", fingerprint(key.as_bytes()));
         if !self.others.is_empty() {
             let texts = self.others.iter().map(|folder| fs::read_to_string(folder.join(&file)));
             let found = texts.flatten().find_map(|text| read(&text, &key));
-            return found.ok_or_else(|| format!("no folder has the result of {what}"));
+            return found.ok_or_else(|| format!("no folder has the result of {name}"));
         }
         let path = self.folder.join(file);
-        let mut keeper = LevelKeeper::new(&self.log, self.every, &path, &key, what);
-        if let Some(found) = fs::read_to_string(&path).ok().and_then(|text| read(&text, &key)) {
-            // A run may have been killed between the two.
-            keeper.forget();
-            return Ok(found);
+        if let Some(known) = fs::read_to_string(&path).ok().and_then(|text| read(&text, &key)) {
+            return Ok(known);
         }
-        let found = run(&mut keeper)?;
-        match save(&path, &key, &found) {
-            Ok(()) => keeper.forget(),
-            Err(error) => self.log.record_error(&error),
+        let result = run()?;
+        if let Err(error) = save(&path, &key, &result) {
+            self.first_error.get_or_init(|| error);
         }
-        Ok(found)
+        Ok(result)
     }
 
-    /// Why something could not be kept, if so.
+    /// Why a result could not be written, if there is one that could not.
     pub fn diagnostic(&self) -> Option<String> {
-        Some(format!("{}: {}", self.folder.display(), self.log.first_error()?))
-    }
-
-    /// One line for each state that an interrupted run left, returned once.
-    pub fn take_lines(&self) -> Vec<String> {
-        self.log.take_lines()
+        Some(format!("{}: {}", self.folder.display(), self.first_error.get()?))
     }
 }
 
@@ -111,6 +89,15 @@ fn save(path: &Path, key: &str, level: &impl Serialize) -> Result<(), String> {
     let unfinished = path.with_extension(format!("{}", std::process::id()));
     write_whole(path, &unfinished, format!("# {key}\n{text}").as_bytes())
         .map_err(|error| error.to_string())
+}
+
+/// Writes a file whole or not at all, also if the machine stops: under the name `unfinished` first,
+/// which becomes `path` once the bytes are on the disk.
+fn write_whole(path: &Path, unfinished: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create(unfinished)?;
+    file.write_all(bytes)?;
+    file.sync_data()?;
+    fs::rename(unfinished, path)
 }
 
 /// None if the text is of another level, or no level at all.
@@ -123,17 +110,18 @@ fn read<T: DeserializeOwned>(text: &str, key: &str) -> Option<T> {
 mod tests {
     use super::*;
     use crate::subject::{RunCounters, Totals};
-    use crate::verify::{ConservationError, ErrorField, History, Interval, Norms, RunResult};
+    use crate::verify::{
+        ConservationError, ErrorField, History, Interval, Norms, RunErrors, RunResult,
+    };
     use proptest::prelude::*;
 
     fn some(x: f64, failure: Option<String>) -> RunResult {
         let norms = Norms { rms: x, l1: -x, l2: 0.1 * x, linf: f64::NAN };
+        let errors = RunErrors { at_end: Norms::NONE, largest: norms };
         let totals = Totals { kinetic_energy: x, strain_energy: Some(x), ..Totals::default() };
         RunResult {
-            errors: norms,
-            max_rms: x,
-            at_end: Norms::NONE,
-            largest: norms,
+            errors,
+            displacement_errors: Some(RunErrors { at_end: norms, ..errors }),
             drift: Some(ConservationError::NONE),
             account: vec![(0.0, totals), (x, Totals { strain_energy: None, ..totals })],
             energy_rate: Some(Interval { value: x, low: -x, high: f64::INFINITY }),

@@ -1,0 +1,265 @@
+//! Judging a case of a convergence study: from its levels and a plan to everything that a report
+//! shows about it.
+
+use super::conservation::ConservationError;
+use super::convergence::{Convergence, LevelOutcome};
+use super::error::norm::larger;
+use super::expectation::gate::{Acceptance, GateResult, Gating};
+use super::expectation::limits::{Limits, Measured};
+use super::expectation::{CaseFindings, Expectation};
+use super::judge_plan::JudgePlan;
+use super::order::axis::Axis;
+use super::order::fit::Interval;
+use super::order::richardson::Richardson;
+use super::rerun;
+use super::rerun::Reruns;
+use super::verdict::floor::Floor;
+use super::verdict::judge::Judgement;
+use super::verdict::name::Verdict;
+
+/// The judgement of a case: the part of its outcome that follows from its levels.
+#[derive(Debug, Clone)]
+pub struct CaseJudgement {
+    /// The verdict in words.
+    pub verdict: String,
+    /// The figures that led to the verdict.
+    pub reason: String,
+    /// Expectations that are not met.
+    pub unmet: Vec<String>,
+    /// Why the gate requires nothing of the case, if it does not.
+    pub exemption: Option<String>,
+    /// Levels, orders and figures.
+    pub study: Convergence,
+}
+
+/// Judges a case. `reruns` runs levels again where the verdict depends on it.
+pub fn judge_case<R: Reruns>(
+    plan: &JudgePlan<'_>,
+    mut levels: Vec<LevelOutcome>,
+    reruns: &R,
+) -> CaseJudgement {
+    let judgement = plan.judge_levels(&levels);
+    let floor = rerun::floor(plan, &judgement, &levels, reruns);
+    let exemption = plan.exemption(&levels);
+    let gate = match (&exemption, plan.gating) {
+        (None, Some(Gating::Required(required))) => {
+            Some(rerun::gate(plan, required, (&levels, &judgement), reruns))
+        }
+        _ => None,
+    };
+    for (level, order) in levels.iter_mut().zip(&judgement.pairwise) {
+        level.order = *order;
+    }
+    let measured = measure(&levels);
+    let unmet = match (plan.expectation, &gate) {
+        (Some(expectation), _) => {
+            let finest = levels.last();
+            expectation.unmet(&CaseFindings {
+                verdict: judgement.verdict,
+                order: judgement.order.map(|order| (order.low, order.high)),
+                finest_pair: finest.and_then(|level| level.order),
+                crossings: finest.and_then(|level| level.run.counters.crossings),
+                measured,
+                floor: floor.as_ref().and_then(Floor::cause),
+            })
+        }
+        (None, Some(gate)) => gate.result.as_ref().err().cloned().into_iter().collect(),
+        (None, None) => Vec::new(),
+    };
+    let (verdict, reason) = match plan.expectation {
+        Some(expectation) => headline(expectation, &judgement, &measured, &unmet),
+        None => plan.explore(&judgement, &measured),
+    };
+    let met = gate.as_ref().and_then(|gate| gate.result.as_ref().ok()).copied();
+    let cause = floor.as_ref().filter(|floor| !floor.probes.is_empty()).map(Floor::sentence);
+    let remark = gate.as_ref().and_then(|gate| gate.remark.clone());
+    let reasons: Vec<String> = [Some(reason), cause, remark].into_iter().flatten().collect();
+    CaseJudgement {
+        verdict: met.map_or(verdict, |met| met.verdict(judgement.verdict)),
+        reason: reasons.join("; "),
+        unmet,
+        exemption,
+        study: plan.study(levels, judgement, floor, gate.as_ref()),
+    }
+}
+
+impl JudgePlan<'_> {
+    /// The verdict and its reason where nothing is expected: the finding of the judge against the
+    /// order of theory, and drifts.
+    fn explore(&self, judgement: &Judgement, measured: &Measured) -> (String, String) {
+        let drift = self.sums.iter().map(|sum| (*sum, f64::INFINITY)).collect();
+        let drifts = Limits { drift, ..Limits::default() }.found(measured);
+        let parts = [judgement.reason.clone(), drifts];
+        let reasons: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+        (judgement.verdict.to_string(), reasons.join("; "))
+    }
+
+    fn study(
+        &self,
+        levels: Vec<LevelOutcome>,
+        judgement: Judgement,
+        floor: Option<Floor>,
+        gate: Option<&GateResult>,
+    ) -> Convergence {
+        let accepted = gate.and_then(|gate| gate.result.as_ref().ok()).copied();
+        let limits = self.expectation.map(|expectation| &expectation.limits);
+        Convergence {
+            axis: self.axis,
+            formal_order: self.formal_order,
+            norm: self.norm,
+            of: self.of,
+            scale: self.scale,
+            error_scale: self.error_scale.clone(),
+            compared: self.is_compared,
+            bounded: self.expectation.is_some_and(|expectation| expectation.verdict.is_none())
+                || accepted.is_some_and(|accepted| accepted != Acceptance::Order)
+                || gate.is_some_and(|gate| gate.remark.is_some()),
+            accepted,
+            drifts: limits.map_or_else(|| self.sums.clone(), Limits::drifts),
+            rated: limits.is_some_and(|limits| limits.energy_rate.is_some()),
+            judgement,
+            floor,
+            richardson: extrapolate(self.axis, &levels),
+            levels,
+            observed_at: self.observed_at.map(<[f64]>::to_vec),
+        }
+    }
+}
+
+/// Figures that limits apply to: the worst of the levels that count, and the error at the observed
+/// place on the finest level.
+fn measure(levels: &[LevelOutcome]) -> Measured {
+    let counted = || levels.iter().filter(|level| level.usable);
+    let errors = counted().map(|level| (level.error, level.error));
+    let residual_speed: Option<Vec<f64>> =
+        counted().map(|level| level.run.residual_speed).collect();
+    let drifts: Option<Vec<ConservationError>> = counted().map(|level| level.run.drift).collect();
+    let rates: Option<Vec<Interval>> = counted().map(|level| level.run.energy_rate).collect();
+    Measured {
+        errors: errors.reduce(|(least, most), (error, _)| {
+            if (least + most + error).is_nan() {
+                return (f64::NAN, f64::NAN);
+            }
+            (least.min(error), most.max(error))
+        }),
+        observed: levels.last().and_then(|level| level.run.observed_error),
+        residual_speed: residual_speed.and_then(|all| all.into_iter().reduce(larger)),
+        drift: drifts.and_then(|drifts| drifts.into_iter().reduce(ConservationError::larger)),
+        energy_rate: rates.and_then(|rates| {
+            let ends = rates.into_iter().map(|rate| (rate.low, rate.high));
+            ends.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
+        }),
+    }
+}
+
+/// The verdict and its reason. Where limits alone bind a case, the limited figures come first, and
+/// the finding of the judge follows if the levels are enough for a judgement.
+fn headline(
+    expectation: &Expectation,
+    judgement: &Judgement,
+    measured: &Measured,
+    unmet: &[String],
+) -> (String, String) {
+    let (verdict, reason) = (judgement.verdict, &judgement.reason);
+    let figures = expectation.limits.found(measured);
+    if figures.is_empty() {
+        return (verdict.to_string(), reason.clone());
+    }
+    if expectation.verdict.is_some() || verdict == Verdict::Failed {
+        return (verdict.to_string(), format!("{reason}; {figures}"));
+    }
+    let within = if unmet.is_empty() { "within bounds" } else { "out of bounds" };
+    // The judge's reason compares with an expected order, and none is expected here.
+    let judged = match (verdict, judgement.order) {
+        (Verdict::TooFewLevels, _) => String::new(),
+        (Verdict::AtFloor | Verdict::Divergent, _) | (_, None) => format!("; {verdict}: {reason}"),
+        (_, Some(order)) => format!("; order {}", order.shown()),
+    };
+    (within.to_owned(), figures + &judged)
+}
+
+/// Richardson extrapolation for each triple of levels with n, 2n and 4n cells, steps or (in 1-D, as
+/// only there a place is observed) particles.
+fn extrapolate(axis: Axis, levels: &[LevelOutcome]) -> Vec<([usize; 3], Richardson)> {
+    let fineness = |level: &LevelOutcome| match axis {
+        Axis::Space => level.cells,
+        Axis::Time => level.run.steps,
+        Axis::Particles => level.ppc.unwrap_or(0),
+    };
+    let with = |wanted: u64| levels.iter().position(|level| fineness(level) == wanted);
+    let triple = |k: usize| {
+        let n = fineness(&levels[k]);
+        let triple = [k, with(2 * n)?, with(4 * n)?];
+        // One component out of several does not represent the displacement.
+        let value =
+            |k: usize| levels[k].run.displacement.as_deref().filter(|u| u.len() == 1).map(|u| u[0]);
+        let values = [value(triple[0])?, value(triple[1])?, value(triple[2])?];
+        Some((triple, Richardson::equal_ratio(values, 2.0)))
+    };
+    (0..levels.len()).filter_map(triple).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verify::conservation::Conserved;
+    use crate::verify::convergence::tests::study;
+    use crate::verify::order::hypothesis::OrderHypothesis;
+    use crate::verify::order::level::Level;
+    use crate::verify::verdict::judge::judge;
+
+    fn level(usable: bool, error: f64, drift: Option<ConservationError>) -> LevelOutcome {
+        let mut level = study(&[error]).levels.remove(0);
+        level.usable = usable;
+        level.run.drift = drift;
+        level.run.observed_error = Some(error);
+        level
+    }
+
+    #[test]
+    fn only_levels_that_count_are_measured() {
+        let levels = [3.0, 1.0, 2.0].map(|error| level(true, error, None));
+        let [a, b, c] = levels;
+        let found = measure(&[a, b, c, level(false, 9.0, None)]);
+        assert_eq!(
+            (found.errors, found.observed, found.drift),
+            (Some((1.0, 3.0)), Some(9.0), None)
+        );
+        assert_eq!(measure(&[level(false, 1.0, None)]).errors, None);
+    }
+
+    #[test]
+    fn one_nan_is_the_largest_and_the_smallest() {
+        for errors in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+            let (least, most) = measure(&errors.map(|e| level(true, e, None))).errors.unwrap();
+            assert!(least.is_nan() && most.is_nan());
+        }
+        let alone = measure(&[level(true, f64::NAN, Some(ConservationError::NONE))]);
+        assert!(alone.errors.unwrap().0.is_nan());
+        assert!(alone.drift.unwrap().of(Conserved::Mass).is_nan());
+    }
+
+    /// One level with a bound on its error, for which no verdict is expected.
+    #[test]
+    fn bounds_alone_make_the_headline() {
+        let limits = Limits { error_below: Some(1e-9), ..Limits::default() };
+        let bound =
+            Expectation { verdict: None, order: None, limits, ..Expectation::of_order(2.0, "") };
+        let said = |level: Level, unmet: &[String]| {
+            let judgement = judge(&[level], &OrderHypothesis::formal(2.0));
+            let measured = Measured {
+                errors: Some((1e-12, 1e-12)),
+                observed: None,
+                residual_speed: None,
+                drift: None,
+                energy_rate: None,
+            };
+            headline(&bound, &judgement, &measured, unmet)
+        };
+        let one = Level::new(1.0, 1e-12);
+        let within = ("within bounds".to_owned(), "largest error 1e-12".to_owned());
+        assert_eq!(said(one.clone(), &[]), within);
+        assert_eq!(said(one.clone(), &["too large".to_owned()]).0, "out of bounds");
+        assert_eq!(said(one.failing("inverted"), &[]).0, "failed");
+    }
+}

@@ -1,0 +1,117 @@
+//! Everything that the judgement of a case depends on, and the judgement of its levels.
+
+use super::conservation::Conserved;
+use super::convergence::LevelOutcome;
+use super::error::error_scale::ErrorScale;
+use super::error::norm::NormName;
+use super::error::quantity::Quantity;
+use super::error::run_result::RunResult;
+use super::expectation::gate::Gating;
+use super::expectation::{Bounds, Expectation};
+use super::order::axis::Axis;
+use super::order::hypothesis::OrderHypothesis;
+use super::order::level::Level;
+use super::verdict::judge::{Judgement, judge};
+
+/// Everything that the judgement of a case depends on, besides its levels.
+#[derive(Debug, Clone)]
+pub struct JudgePlan<'a> {
+    /// Axis of refinement.
+    pub axis: Axis,
+    /// Order that theory gives the method.
+    pub formal_order: f64,
+    /// Norm of the error that is judged.
+    pub norm: NormName,
+    /// The judged quantity.
+    pub of: Quantity,
+    /// Divisor of the error, if any.
+    pub scale: Option<f64>,
+    /// Scale that makes errors and work comparable with those of other cases.
+    pub error_scale: ErrorScale,
+    /// Whether errors are taken against an exact solution or a reference.
+    pub is_compared: bool,
+    /// Whether levels on which particles change their cell are left out.
+    pub excludes_crossings: bool,
+    /// Reference position that is observed (m).
+    pub observed_at: Option<&'a [f64]>,
+    /// Sums whose drift is shown if nothing is expected of the case.
+    pub sums: Vec<Conserved>,
+    /// Expectation of the suite, if it states one.
+    pub expectation: Option<&'a Expectation>,
+    /// Treatment by the gate of external solvers, if it applies.
+    pub gating: Option<&'a Gating>,
+}
+
+/// Sizes of a level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LevelSizes {
+    /// Cells along the first axis.
+    pub cells: u64,
+    /// Cell size (m).
+    pub h: f64,
+    /// Time step (s) that is taken.
+    pub dt: f64,
+    /// Particles per cell, if there are particles.
+    pub ppc: Option<u64>,
+    /// Distance of neighbouring particles (m).
+    pub particle_spacing: f64,
+}
+
+impl JudgePlan<'_> {
+    /// The outcome of a level, from its run.
+    pub fn level(&self, sizes: LevelSizes, run: RunResult) -> LevelOutcome {
+        let LevelSizes { cells, h, dt, ppc, particle_spacing } = sizes;
+        let is_crossed = run.counters.crossings.is_some_and(|n| n > 0);
+        let error = run.errors.in_norm(self.norm);
+        LevelOutcome {
+            cells,
+            h,
+            spacing: match self.axis {
+                Axis::Space => h,
+                Axis::Time => dt,
+                Axis::Particles => particle_spacing,
+            },
+            dt,
+            ppc: ppc.filter(|_| run.counters.particles.is_some()),
+            error: self.scale.map_or(error, |scale| error / scale),
+            usable: !(is_crossed && self.excludes_crossings),
+            order: None,
+            stable_time_step: None,
+            run,
+        }
+    }
+
+    /// The judgement of levels that have run.
+    pub(super) fn judge_levels(&self, levels: &[LevelOutcome]) -> Judgement {
+        let is_sound = levels.iter().all(|level| level.run.failure.is_none());
+        if !self.is_compared && is_sound {
+            return Judgement::without_comparison(levels.len());
+        }
+        let expected = self.expectation.and_then(|expectation| expectation.order);
+        self.judge_series(&series(levels), expected)
+    }
+
+    /// The judgement of a series of errors, whose order is expected within bounds if any are given.
+    pub(super) fn judge_series(&self, levels: &[Level], expected: Option<Bounds>) -> Judgement {
+        let (formal_order, axis) = (self.formal_order, self.axis);
+        judge(levels, &OrderHypothesis { formal_order, expected, axis })
+    }
+
+    /// Why the gate requires nothing of a case with these levels, if it does not.
+    pub(super) fn exemption(&self, levels: &[LevelOutcome]) -> Option<String> {
+        match self.gating {
+            Some(Gating::NotGated(reason)) => Some(reason.clone()),
+            Some(Gating::Required(required)) => required.untestable(&series(levels)),
+            _ => None,
+        }
+    }
+}
+
+/// The levels as the judge takes them, with those marked that do not count.
+pub(super) fn series(levels: &[LevelOutcome]) -> Vec<Level> {
+    let marked = |level: &LevelOutcome| {
+        let judged = level.to_level();
+        if level.usable { judged } else { judged.unusable() }
+    };
+    levels.iter().map(marked).collect()
+}

@@ -1,0 +1,166 @@
+//! Levels that run again because the verdict depends on it.
+//!
+//! - The finest level runs again with the spacing of another axis halved, to find the axis whose
+//!   error is the floor.
+//! - Where a suite keeps its time step on all levels, a solver that is accurate in space shows the
+//!   error of that step: the order falls, or the error stops falling. If an external solver misses
+//!   the requirement of the gate then, its levels run again with shorter steps, and the gate checks
+//!   whether these restore the order.
+
+use super::convergence::LevelOutcome;
+use super::expectation::gate::{Acceptance, GateResult, Requirement};
+use super::judge_plan::{JudgePlan, series};
+use super::order::axis::Axis;
+use super::verdict::floor::{Floor, Probe};
+use super::verdict::judge::Judgement;
+use super::verdict::name::Verdict;
+use rayon::prelude::*;
+use std::fmt::Display;
+
+/// Runs levels of a case again.
+pub trait Reruns: Sync {
+    /// Why a level cannot be run.
+    type Error: Display + Send;
+
+    /// Whether halving a spacing shows the axis of an error: it does not if the reference is the
+    /// same method, whose own spacings are not halved.
+    fn can_halve(&self) -> bool;
+
+    /// The level with the spacing of an axis halved; `None` if it has no such spacing.
+    fn run_halved(
+        &self,
+        level: &LevelOutcome,
+        axis: Axis,
+    ) -> Option<Result<LevelOutcome, Self::Error>>;
+
+    /// The level with a time step of `dt` (s).
+    fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, Self::Error>;
+
+    /// Sizes of the numbers that the solver rounds; `None` if the judged quantity has no size.
+    fn rounding(&self) -> Option<RoundingSizes>;
+}
+
+/// Sizes of the numbers that a solver rounds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoundingSizes {
+    /// Largest exact value of the judged quantity.
+    pub value: f64,
+    /// Largest number that the judged quantity is computed from.
+    pub number: f64,
+    /// Half of the distance of neighbouring floating-point numbers next to one.
+    pub unit: f64,
+}
+
+/// Roundings of a value in one step, for the prediction of rounding errors.
+const ROUNDINGS: f64 = 8.0;
+
+/// Largest share of the judged quantity that is ever explained by rounding.
+const MOST_ROUNDING: f64 = 0.01;
+
+/// Maximum number of times that the steps are halved.
+const HALVINGS: i32 = 3;
+
+/// Halving the step must reduce the finest error by this share, for the levels to run again.
+const LEAST_FALL: f64 = 0.05;
+
+/// The time step follows the cells if it shrinks with at least this power of h.
+const FOLLOWS: f64 = 0.5;
+
+/// Effect of halving the axes that are not refined on the error of the finest level that counts.
+/// `None` if it is not needed: the error has not stopped falling, and the suite expects no floor.
+///
+/// One to three runs, in parallel; the outcome keeps the order of the axes.
+pub(super) fn floor<R: Reruns>(
+    plan: &JudgePlan<'_>,
+    judgement: &Judgement,
+    levels: &[LevelOutcome],
+    reruns: &R,
+) -> Option<Floor> {
+    let expected = plan.expectation.is_some_and(|expectation| expectation.floor.is_some());
+    let asked = judgement.verdict == Verdict::AtFloor || expected;
+    let finest = levels.iter().rev().find(|level| level.usable).filter(|_| asked)?;
+    if finest.run.failure.is_some() || !reruns.can_halve() {
+        return None;
+    }
+    let others = [Axis::Time, Axis::Particles, Axis::Space].into_par_iter();
+    let probe = |axis: Axis| {
+        let error = reruns.run_halved(finest, axis)?;
+        let error = error.map_err(|error| error.to_string());
+        let error = error.and_then(|outcome| outcome.run.failure.map_or(Ok(outcome.error), Err));
+        Some(Probe { axis, error })
+    };
+    let probes = others.filter(|axis| *axis != plan.axis).filter_map(probe).collect();
+    Some(Floor { error: finest.error, probes })
+}
+
+/// Checks a requirement on levels that can test it.
+pub(super) fn gate<R: Reruns>(
+    plan: &JudgePlan<'_>,
+    required: &Requirement,
+    (levels, judgement): (&[LevelOutcome], &Judgement),
+    reruns: &R,
+) -> GateResult {
+    let rounding = rounding(plan, levels, reruns);
+    let result = required.check(&series(levels), plan.axis, judgement, rounding);
+    let remark = match result {
+        Err(_) if is_step_fixed(plan, levels) => shorten(plan, required, levels, rounding, reruns),
+        _ => None,
+    };
+    match remark {
+        Some((met, remark)) => GateResult { result: Ok(met), remark: Some(remark) },
+        None => GateResult { result, remark: None },
+    }
+}
+
+/// How the requirement is met with shorter steps, if it is, and a remark that says so.
+fn shorten<R: Reruns>(
+    plan: &JudgePlan<'_>,
+    required: &Requirement,
+    levels: &[LevelOutcome],
+    rounding: f64,
+    reruns: &R,
+) -> Option<(Acceptance, String)> {
+    let (last, coarser) = levels.split_last()?;
+    let mut before = last.error;
+    for halving in 1..=HALVINGS {
+        let share = libm::exp2(-f64::from(halving));
+        let shorter = |level: &LevelOutcome| reruns.run_with_step(level, share * level.dt);
+        // The finest level alone shows whether the step has a part in the error.
+        let finest = shorter(last).ok()?;
+        if !(finest.error <= (1.0 - LEAST_FALL) * before) {
+            return None;
+        }
+        before = finest.error;
+        let again: Result<Vec<LevelOutcome>, R::Error> = coarser.par_iter().map(shorter).collect();
+        let mut again = again.ok()?;
+        again.push(finest);
+        let series = series(&again);
+        let judgement = plan.judge_series(&series, None);
+        if let Ok(met) = required.check(&series, plan.axis, &judgement, rounding) {
+            let order = judgement.order.map_or("none".to_owned(), |order| order.shown());
+            let remark = format!(
+                "with 1/{} of the time step, which the suite does not refine, the order is {order}",
+                1_u32 << halving
+            );
+            return Some((met, remark));
+        }
+    }
+    None
+}
+
+/// Whether the cells are refined and the time step is not, or hardly.
+fn is_step_fixed(plan: &JudgePlan<'_>, levels: &[LevelOutcome]) -> bool {
+    let (Some(first), Some(last)) = (levels.first(), levels.last()) else { return false };
+    plan.axis == Axis::Space
+        && last.h < first.h
+        && first.dt < last.dt * libm::pow(first.h / last.h, FOLLOWS)
+}
+
+/// Error that rounding explains, in the norm and over the scale that are judged: a random walk of
+/// roundings of the largest number that the judged quantity is computed from.
+fn rounding<R: Reruns>(plan: &JudgePlan<'_>, levels: &[LevelOutcome], reruns: &R) -> f64 {
+    let Some(RoundingSizes { value, number, unit }) = reruns.rounding() else { return 0.0 };
+    let steps = levels.iter().map(|level| level.run.steps).max().unwrap_or(0);
+    let walk = ROUNDINGS * unit * number * libm::sqrt(steps as f64 + 1.0);
+    walk.min(MOST_ROUNDING * value) / plan.scale.unwrap_or(1.0)
+}
