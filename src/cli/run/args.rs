@@ -1,10 +1,6 @@
 //! Arguments of `run` and `merge`.
 
-<<<<<<< HEAD:src/cli/run/args.rs
 use crate::cli::arguments::{FormatArgs, SolverArgs, Targets, count};
-=======
-use super::shared::{FormatArgs, SolverArgs, Targets, count};
->>>>>>> h-judge:src/cli/args/report.rs
 use clap::Args;
 use mpm_verify::study::Shard;
 use std::path::PathBuf;
@@ -70,38 +66,7 @@ pub(in crate::cli) struct PrintArgs {
     pub(super) brief: bool,
     /// Print only the cases that did not come as expected, and no progress
     #[arg(long, short)]
-<<<<<<< HEAD:src/cli/run/args.rs
     pub(super) quiet: bool,
-=======
-    pub(in crate::cli) quiet: bool,
-}
-
-#[derive(Debug, Args)]
-pub(in crate::cli) struct RunArgs {
-    #[command(flatten)]
-    pub(in crate::cli) report: ReportArgs,
-    /// Cases whose name contains this
-    #[arg(long, value_name = "TEXT")]
-    pub(in crate::cli) case: Option<String>,
-    /// One of N parts of the cases, of about the same predicted cost; `merge` reports the folders
-    /// that the parts keep with `--resume`
-    #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
-    pub(in crate::cli) shard: Option<Shard>,
-    /// Keep finished levels in this folder, and take from it those that are there: an interrupted
-    /// run goes on with the levels that are not done
-    #[arg(long, value_name = "DIR")]
-    pub(in crate::cli) resume: Option<PathBuf>,
-    /// Write particles and grid over time into this folder, as files for ParaView, of the cases
-    /// that did not come as expected, or of those that `--case` chooses: on the first level that
-    /// broke, or on the finest
-    #[arg(long, value_name = "DIR")]
-    pub(in crate::cli) vtu: Option<PathBuf>,
-    /// Run again whenever one of the files changes, until Ctrl-C
-    #[arg(long)]
-    pub(in crate::cli) watch: bool,
-    #[command(flatten)]
-    pub(in crate::cli) judged: JudgedSolverArgs,
->>>>>>> h-judge:src/cli/args/report.rs
 }
 
 #[derive(Debug, Args)]

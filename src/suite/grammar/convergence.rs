@@ -7,7 +7,7 @@ use super::{
 use crate::fem::{Element, Mass};
 use crate::named::named;
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
-use crate::verify::Quantity;
+use crate::verify::{NormName, Quantity};
 use serde::Deserialize;
 
 /// A convergence study.
