@@ -38,8 +38,8 @@ pub(super) struct CheckPrintArgs {
     notes: bool,
 }
 
-/// Prints for each suite that it is sound, or its errors, and warns of runs that cannot support what
-/// is expected.
+/// Prints for each suite that it is sound, or its errors, and warns of runs that cannot support
+/// what is expected.
 pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
     let found = select::with_sources(&args.targets.targets);
     let mut counts = Counts::default();

@@ -94,8 +94,8 @@ enum Command {
 
 /// Parses the command line and runs the command. Output that could not be written is an error.
 pub(crate) fn main() -> ExitCode {
-    let words = with_command(std::env::args_os().collect(), &Cli::command());
-    let mut status = words.and_then(run_words).unwrap_or_else(|error| {
+    let arguments = with_command(std::env::args_os().collect(), &Cli::command());
+    let mut status = arguments.and_then(run_arguments).unwrap_or_else(|error| {
         output::complain(&error.to_string());
         Status::BadInput
     });
@@ -106,8 +106,8 @@ pub(crate) fn main() -> ExitCode {
     status.into()
 }
 
-fn run_words(words: Vec<OsString>) -> Result<Status, CommandError> {
-    match Cli::try_parse_from(words) {
+fn run_arguments(arguments: Vec<OsString>) -> Result<Status, CommandError> {
+    match Cli::try_parse_from(arguments) {
         Ok(cli) => {
             cli.color.write_global();
             run_command(cli.command)

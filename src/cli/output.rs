@@ -55,7 +55,7 @@ const DOUBTFUL: Style = AnsiColor::Yellow.on_default().bold();
 const GOOD: Style = AnsiColor::Green.on_default();
 const REMARK: Style = AnsiColor::Cyan.on_default().bold();
 
-/// Words by which a line begins, apart from spaces.
+/// Beginnings of lines that are colored, apart from spaces.
 const FIRST: [(&str, Style); 8] = [
     ("error:", BAD),
     ("warning:", DOUBTFUL),
@@ -67,7 +67,7 @@ const FIRST: [(&str, Style); 8] = [
     ("n/a ", DOUBTFUL),
 ];
 
-/// Words of a row that says what came of a case.
+/// Colored texts in the row with the result of a case.
 const RESULTS: [(&str, Style); 2] = [("NOT AS EXPECTED", BAD), ("as expected", GOOD)];
 
 /// The text with its verdicts in colour.

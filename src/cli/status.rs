@@ -22,8 +22,8 @@ impl From<Status> for ExitCode {
     }
 }
 
-/// An error that ends a command with [`Status::BadInput`]. The text may have hints on lines of their
-/// own.
+/// An error that ends a command with [`Status::BadInput`]. The text may have hints on lines of
+/// their own.
 #[derive(Debug, Error)]
 pub(super) enum CommandError {
     #[error("error: {0}")]

@@ -1,5 +1,5 @@
-//! External solvers: the problem that they receive, ready to be stepped, and the protocol by which a
-//! program takes part.
+//! External solvers: the problem that they receive, ready to be stepped, and the protocol by which
+//! a program takes part.
 //!
 //! ```text
 //! problem        initial state of one level: particles, grid, faces, materials, loads, steps

@@ -51,7 +51,7 @@ pub(super) struct Connection {
     requests: Option<Sender<Vec<u8>>>,
     answers: Receiver<Result<MessageFrame, ProgramError>>,
     longest: Arc<AtomicUsize>,
-    last_words: Arc<Mutex<Vec<u8>>>,
+    last_bytes: Arc<Mutex<Vec<u8>>>,
     listener: JoinHandle<()>,
     silence: Duration,
 }
@@ -87,8 +87,8 @@ impl Connection {
         let (found, answers) = sync_channel(1);
         let most = Arc::clone(&longest);
         thread::spawn(move || read_all(output, &most, &found));
-        let last_words = Arc::new(Mutex::new(Vec::new()));
-        let kept = Arc::clone(&last_words);
+        let last_bytes = Arc::new(Mutex::new(Vec::new()));
+        let kept = Arc::clone(&last_bytes);
         let listener = thread::spawn(move || {
             let mut part = [0; 1024];
             while let Ok(read @ 1..) = errors.read(&mut part) {
@@ -100,7 +100,7 @@ impl Connection {
         });
         let silence = limits.silence;
         let requests = Some(requests);
-        Ok(Self { child, requests, answers, longest, last_words, listener, silence })
+        Ok(Self { child, requests, answers, longest, last_bytes, listener, silence })
     }
 
     /// Lets answers have so many bytes from now on.
@@ -128,7 +128,7 @@ impl Connection {
         };
         found.map_err(|error| {
             self.kill();
-            self.with_last_words(error)
+            self.with_standard_error(error)
         })
     }
 
@@ -157,10 +157,10 @@ impl Connection {
         }
     }
 
-    fn with_last_words(&self, error: ProgramError) -> ProgramError {
+    fn with_standard_error(&self, error: ProgramError) -> ProgramError {
         // The process is dead, but what it said may still be on its way.
         patiently(GRACE, || self.listener.is_finished().then_some(()));
-        let kept = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = self.last_bytes.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);
         // Of a trace of Python, these are the place, the line there and the error.
         let says = |line: &&str| line.contains(char::is_alphanumeric);

@@ -5,8 +5,8 @@ use crate::subject::{HIGHEST_ORDER, LONGEST_NAME};
 use std::io;
 use thiserror::Error;
 
-/// A failure of a solver's process, or a breach of the protocol. The text is a predicate whose subject
-/// is the solver.
+/// A failure of a solver's process, or a breach of the protocol. The text is a predicate whose
+/// subject is the solver.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ProgramError {

@@ -117,7 +117,8 @@ pub(super) fn read_one(
     output: &mut impl BufRead,
     longest: &AtomicUsize,
 ) -> Result<Option<MessageFrame>, ProgramError> {
-    // The limit is read again while a line grows: the first answer comes before the problem is known.
+    // The limit is read again while a line grows: the first answer comes before the problem is
+    // known.
     let check_size = |size: usize| {
         let most = longest.load(Ordering::Relaxed);
         if size > most { Err(ProgramError::TooLong(most)) } else { Ok(()) }

@@ -5,8 +5,7 @@ use serde_json::Value;
 
 fn problem(arguments: &[&str]) -> String {
     let folder = Folder::with("bar.yaml", BAR);
-    let out = folder.accepted(&[&["problem", "bar.yaml"], arguments].concat());
-    out
+    folder.accepted(&[&["problem", "bar.yaml"], arguments].concat())
 }
 
 /// Numbers of one column of a table.

@@ -117,8 +117,7 @@ fn one_thread_and_two_give_the_same_bytes() {
     let folder = Folder::with("bar.yaml", BAR);
     let run = |jobs: &str| {
         let arguments = ["run", "bar.yaml", "steffen-bar-small-load", "--jobs", jobs];
-        let out = folder.accepted(&[&arguments[..], &["--out", jobs]].concat());
-        out
+        folder.accepted(&[&arguments[..], &["--out", jobs]].concat())
     };
     assert_eq!(run("1"), run("2"));
     let files = folder.files("1");

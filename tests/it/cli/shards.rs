@@ -16,16 +16,14 @@ fn suites() -> Folder {
 fn in_parts(folder: &Folder, count: usize) -> Vec<String> {
     let parts = (1..=count).map(|number| {
         let (shard, kept) = (format!("{number}/{count}"), format!("part-{number}"));
-        let out = folder.accepted(&["run", "--shard", &shard, "--resume", &kept, "--brief"]);
-        out
+        folder.accepted(&["run", "--shard", &shard, "--resume", &kept, "--brief"])
     });
     parts.collect()
 }
 
 fn merged(folder: &Folder, format: &str) -> String {
     let parts = ["--from", "part-1", "--from", "part-2", "--from", "part-3"];
-    let out = folder.accepted(&[&["merge", "--format", format][..], &parts].concat());
-    out
+    folder.accepted(&[&["merge", "--format", format][..], &parts].concat())
 }
 
 #[test]
