@@ -163,5 +163,5 @@ fn built<const D: usize>(
     loads: &[ListedLoad],
     mut site: BodySite<'_, D>,
 ) -> Result<Vec<Box<dyn Effect<D>>>, String> {
-    loads.iter().map(|load| load::build(load, &mut site)).collect()
+    loads.iter().map(|load| Ok(load::build(load, &mut site)?)).collect()
 }

@@ -55,12 +55,24 @@ impl<'s> CheckedShape<'s> {
     }
 }
 
+/// The error of the YAML library about a value that it cannot write.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
+pub(crate) struct WriteError(#[from] serde_yaml::Error);
+
+/// One line, for logs.
+impl From<WriteError> for String {
+    fn from(error: WriteError) -> Self {
+        error.to_string()
+    }
+}
+
 /// The text of a value.
 ///
 /// # Errors
-/// The message of the library on a value that it cannot write.
-pub(crate) fn written<T: Serialize>(value: &T) -> Result<String, String> {
-    serde_yaml::to_string(value).map_err(|error| error.to_string())
+/// [`WriteError`] if the library cannot write the value.
+pub(crate) fn written<T: Serialize>(value: &T) -> Result<String, WriteError> {
+    Ok(serde_yaml::to_string(value)?)
 }
 
 /// The value of a text, if it is one.

@@ -1,6 +1,6 @@
 //! Artificial viscosity: a pressure against compression, for shocks.
 
-use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::mpm::{ArtificialViscosity, Effect};
@@ -88,7 +88,7 @@ impl SceneLoad for ViscosityLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for ViscosityLoad {
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let Self { linear, quadratic, speed } = *self;
         let length = site.grid.h;
         Ok(Box::new(ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() }))

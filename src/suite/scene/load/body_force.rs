@@ -1,6 +1,6 @@
 //! A stated force per unit mass that depends on place, time and displacement.
 
-use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::exact::formula::{Formula, Hoisted, Jet};
@@ -102,7 +102,7 @@ impl SceneLoad for BodyForceLoad {
 
 impl<const D: usize> BuildEffect<D> for BodyForceLoad {
     /// The formula of a force may be too long to be taken apart.
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         if self.depends_on_displacement() {
             return Ok(Box::new(self.of_displacement(site.particles)));
         }

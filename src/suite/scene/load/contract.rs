@@ -87,13 +87,31 @@ pub(crate) struct BodySite<'a, const D: usize> {
     pub(crate) particles: &'a mut Particles<D>,
 }
 
+/// Reason why a load has no effect on a body.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum BuildError {
+    /// The set with this name is empty.
+    #[error("the set `{0}` holds no particle")]
+    EmptySet(String),
+    /// No solver has this number of dimensions.
+    #[error("there is no MPM in {0} dimensions")]
+    Dimension(usize),
+}
+
+/// One line, for studies that report why a level does not run.
+impl From<BuildError> for String {
+    fn from(error: BuildError) -> Self {
+        error.to_string()
+    }
+}
+
 /// A load as an effect of the solver.
 pub(crate) trait BuildEffect<const D: usize> {
     /// The effect on the body at `site`.
     ///
     /// # Errors
-    /// One line that says why there is none.
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String>;
+    /// The reason why there is none.
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError>;
 }
 
 in_every_dimension! {
@@ -162,12 +180,12 @@ impl Deref for ListedLoad {
 /// The effect of `load` in D dimensions.
 ///
 /// # Errors
-/// One line that says why there is none.
+/// The reason why there is none.
 pub(crate) fn build<const D: usize>(
     load: &ListedLoad,
     site: &mut BodySite<'_, D>,
-) -> Result<Box<dyn Effect<D>>, String> {
+) -> Result<Box<dyn Effect<D>>, BuildError> {
     let load: Arc<dyn BuildEffects> = load.load.clone();
     let load = load.in_dimension::<D>();
-    load.ok_or_else(|| format!("there is no MPM in {D} dimensions"))?.build(site)
+    load.ok_or(BuildError::Dimension(D))?.build(site)
 }

@@ -1,6 +1,6 @@
 //! Damping in proportion to mass: velocities decay at a rate.
 
-use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, StudyFacts};
 use crate::exact::Term;
 use crate::exact::formula::Formula;
@@ -73,7 +73,7 @@ impl SceneLoad for DampingLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for DampingLoad {
-    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let rate = self.0.clone();
         Ok(Box::new(Damping(Box::new(move |t| rate.eval(&[t])))))
     }

@@ -1,6 +1,6 @@
 //! The keys of a load, and the part of a suite that they are compiled with.
 
-use super::contract::{EffectName, LoadTarget, SceneLoad};
+use super::contract::{BuildError, EffectName, LoadTarget, SceneLoad};
 use crate::exact::Region;
 use crate::exact::formula::{Expr, Formula};
 use crate::mpm::{Particles, Placement, Side};
@@ -204,15 +204,15 @@ impl LoadedSet {
     /// The particles of the set.
     ///
     /// # Errors
-    /// One line that says that there are none.
+    /// [`BuildError::EmptySet`] if there are none.
     pub(crate) fn members<const D: usize>(
         &self,
         particles: &Particles<D>,
-    ) -> Result<Vec<usize>, String> {
+    ) -> Result<Vec<usize>, BuildError> {
         let inside = |p: &usize| self.region.holds(particles.x0[*p].as_slice());
         let members: Vec<usize> = (0..particles.len()).filter(inside).collect();
         if members.is_empty() {
-            return Err(format!("the set `{}` holds no particle", self.region.name));
+            return Err(BuildError::EmptySet(self.region.name.clone()));
         }
         Ok(members)
     }

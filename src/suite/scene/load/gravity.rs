@@ -1,6 +1,6 @@
 //! Gravity: a uniform acceleration, constant or a function of time.
 
-use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::exact::formula::Formula;
@@ -55,7 +55,7 @@ impl SceneLoad for GravityLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for GravityLoad {
-    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         Ok(Box::new(Gravity(of_time(&self.0))))
     }
 }

@@ -1,6 +1,6 @@
 //! Conduction of heat.
 
-use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::exact::formula::{Expr, Formula};
@@ -123,7 +123,7 @@ impl SceneLoad for SceneHeat {
 
 impl<const D: usize> BuildEffect<D> for SceneHeat {
     /// The particles get their temperature here.
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let start = initial::<D>(site.heat, self.initial.as_ref());
         let heat = Heat::new((self.conductivity, self.capacity), site.particles, |x0| {
             let TemperatureDerivatives { value, grad, .. } = start(x0.as_slice());

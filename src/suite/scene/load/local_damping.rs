@@ -1,6 +1,6 @@
 //! Local damping: a share of the force out of balance, against the motion.
 
-use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, StudyFacts};
 use crate::exact::Term;
 use crate::mpm::{Effect, LocalDamping};
@@ -78,7 +78,7 @@ impl SceneLoad for LocalDampingLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for LocalDampingLoad {
-    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         Ok(Box::new(LocalDamping(self.0)))
     }
 }

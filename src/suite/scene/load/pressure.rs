@@ -1,6 +1,6 @@
 //! A pressure on a face of a box, which follows the face.
 
-use super::contract::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use super::contract::{BodySite, BuildEffect, BuildError, LoadTarget, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, LoadedFace};
 use crate::exact::formula::Formula;
 use crate::exact::{Condition, FacePoint, Term, Violation};
@@ -96,7 +96,7 @@ impl SceneLoad for PressureLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for PressureLoad {
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let ((axis, side), value) = (self.face.place(), scalar(&self.value));
         Ok(Box::new(Pressure::at(site.particles, axis, side, self.placement, value)))
     }

@@ -1,6 +1,6 @@
 //! A total force on a set of particles.
 
-use super::contract::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use super::contract::{BodySite, BuildEffect, BuildError, LoadTarget, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, LoadedSet};
 use crate::exact::Term;
 use crate::exact::formula::Formula;
@@ -82,7 +82,7 @@ impl SceneLoad for SetForceLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for SetForceLoad {
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let members = self.set.members(site.particles)?;
         Ok(Box::new(SetForce::on(site.particles, &members, of_time(&self.value))))
     }

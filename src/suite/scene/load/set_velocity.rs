@@ -1,6 +1,6 @@
 //! A prescribed velocity of a set of particles.
 
-use super::contract::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use super::contract::{BodySite, BuildEffect, BuildError, LoadTarget, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, LoadedSet};
 use crate::exact::formula::Formula;
 use crate::exact::{Region, Term};
@@ -61,7 +61,7 @@ impl SceneLoad for SetVelocityLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for SetVelocityLoad {
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let members = self.set.members(site.particles)?;
         Ok(Box::new(PrescribedVelocity::on(
             site.particles,

@@ -1,6 +1,6 @@
 //! Thermal expansion: strain that temperature makes.
 
-use super::contract::{BodySite, BuildEffect, SceneLoad};
+use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::{Expansion, Term};
 use crate::mpm::{Effect, ThermalExpansion};
@@ -98,7 +98,7 @@ impl SceneLoad for ExpansionLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for ExpansionLoad {
-    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let Self(Expansion { coefficient, reference }, rate_form) = *self;
         Ok(Box::new(match rate_form {
             None => ThermalExpansion::of_deformation(coefficient, reference),

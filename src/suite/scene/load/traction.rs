@@ -1,6 +1,6 @@
 //! A traction on a face of a box.
 
-use super::contract::{BodySite, BuildEffect, LoadTarget, SceneLoad};
+use super::contract::{BodySite, BuildEffect, BuildError, LoadTarget, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, LoadedFace};
 use crate::exact::formula::Formula;
 use crate::exact::{Condition, FacePoint, Term, Violation};
@@ -90,7 +90,7 @@ impl SceneLoad for TractionLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for TractionLoad {
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, String> {
+    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let ((axis, side), value) = (self.face.place(), of_place_and_time(&self.value));
         Ok(Box::new(Traction::at(site.particles, axis, side, self.placement, value)))
     }
