@@ -223,15 +223,6 @@ fn no_two_types_have_one_name() {
 }
 
 #[test]
-fn folders_are_small() {
-    hold(
-        "a folder under src/ holds at most 20 files",
-        "more is a list that nobody reads: it has rooms that are not yet folders",
-        &words::crowded(&source::paths("src")),
-    );
-}
-
-#[test]
 fn comments_are_short_and_name_the_thing() {
     hold(
         "no doc comment begins with \"What\", and no line of a comment is longer than 100 columns",

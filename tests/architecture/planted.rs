@@ -62,15 +62,6 @@ fn a_name_of_two_types_is_found(#[case] a: &str, #[case] b: &str, #[case] count:
 }
 
 #[rstest]
-fn a_crowded_folder_is_found() {
-    let files = |count: usize| -> Vec<String> {
-        (0..count).map(|n| format!("src/a/{n}.rs")).chain(["src/a/b/c.rs".to_owned()]).collect()
-    };
-    assert_eq!(places(&words::crowded(&files(words::MOST_FILES + 1))), ["src/a:1"]);
-    assert!(words::crowded(&files(words::MOST_FILES)).is_empty());
-}
-
-#[rstest]
 #[case::what("/// What a thing does.", true)]
 #[case::whatever("\n    //! Whatever it is.", true)]
 #[case::no_documentation("// What was measured.", false)]

@@ -5,9 +5,6 @@ use crate::source::Source;
 use crate::token::Token;
 use std::collections::BTreeMap;
 
-/// Most files of one folder.
-pub(crate) const MOST_FILES: usize = 20;
-
 /// Longest line of a comment, as `.rustfmt.toml` has it for code.
 pub(crate) const LONGEST_COMMENT: usize = 100;
 
@@ -243,22 +240,6 @@ fn definitions(code: &[Token]) -> Vec<&Token> {
 
 fn is_type(token: &Token) -> bool {
     token.text.starts_with(|c: char| c.is_uppercase())
-}
-
-/// Folders with too many files.
-pub(crate) fn crowded(files: &[String]) -> Vec<Breach> {
-    let mut folders: BTreeMap<&str, usize> = BTreeMap::new();
-    for file in files {
-        *folders.entry(file.rsplit_once('/').map_or("", |(folder, _)| folder)).or_default() += 1;
-    }
-    let crowded = folders.into_iter().filter(|(_, count)| *count > MOST_FILES);
-    crowded
-        .map(|(folder, count)| Breach {
-            file: folder.to_owned(),
-            line: 1,
-            what: format!("holds {count} files"),
-        })
-        .collect()
 }
 
 /// Comments that begin with "What", and those whose lines are too long.

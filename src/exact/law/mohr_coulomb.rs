@@ -2,9 +2,9 @@
 //!
 //! The two lateral stresses are equal, so that the state is on an edge: two planes flow with the
 //! same multiplier `g`. With `s = sin(phi)`, `t = sin(psi)`, `M = L + 2 mu`, the yield condition is
-//! `(1 + s) tau_high - (1 - s) tau_low = 2 c cos(phi)`; per unit of strain the planes take `g (4 L t
-//! + 4 mu (1 + t))` from an axial stress that is the largest, or add `g (4 mu (1 - t) - 4 L t)` to
-//! one that is the smallest, and half of the shear part from or to the lateral ones.
+//! `(1 + s) tau_high - (1 - s) tau_low = 2 c cos(phi)`; per unit of strain the planes take `g (4 L
+//! t + 4 mu (1 + t))` from an axial stress that is the largest, or add `g (4 mu (1 - t) - 4 L t)`
+//! to one that is the smallest, and half of the shear part from or to the lateral ones.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use super::uniaxial_flow::{UNIAXIAL_ONLY, UniaxialFlow, UniaxialLaw};
@@ -16,8 +16,8 @@ use crate::exact::tensor::Tensor;
 pub struct MohrCoulombLaw(UniaxialLaw);
 
 impl MohrCoulombLaw {
-    /// From Young's modulus (Pa), Poisson's ratio, the angles of friction and of dilation (degrees),
-    /// and the cohesion (Pa).
+    /// From Young's modulus (Pa), Poisson's ratio, the angles of friction and of dilation
+    /// (degrees), and the cohesion (Pa).
     pub fn new(
         young: f64,
         poisson: f64,

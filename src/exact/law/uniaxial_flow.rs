@@ -1,8 +1,8 @@
 //! Plastic flow in uniaxial strain under loading that never reverses.
 //!
 //! With elasticity in the logarithmic strain `e` of the driven axis and no hardening, the axial
-//! Kirchhoff stress of a yield surface of planes or of a cone is piecewise linear in `e`: elastic up
-//! to a strain at yield, then with the elastic-plastic modulus, and constant where all principal
+//! Kirchhoff stress of a yield surface of planes or of a cone is piecewise linear in `e`: elastic
+//! up to a strain at yield, then with the elastic-plastic modulus, and constant where all principal
 //! stresses are equal, at an apex.
 
 use super::contract::Lame;

@@ -1,9 +1,9 @@
 //! Drucker-Prager plasticity: a cone about the axis of mean stress.
 //!
-//! Yield where `sqrt(J2) + eta p > k`, with `p = tr(tau)/3` positive in tension and `J2 = dev(tau) :
-//! dev(tau)/2`. The flow has the coefficient of dilation `etab` in place of `eta`. The return goes
-//! to the cone, or to its apex `p = k/eta` (de Souza Neto, Peric & Owen 2008, section 8.3). The
-//! frame is that of [`plastic_flow`](super::plastic_flow).
+//! Yield where `sqrt(J2) + eta p > k`, with `p = tr(tau)/3` positive in tension and `J2 = dev(tau)
+//! : dev(tau)/2`. The flow has the coefficient of dilation `etab` in place of `eta`. The return
+//! goes to the cone, or to its apex `p = k/eta` (de Souza Neto, Peric & Owen 2008, section 8.3).
+//! The frame is that of [`plastic_flow`](super::plastic_flow).
 //!
 //! Without dilation the flow cannot lower a tension beyond the apex: the return to the apex is then
 //! a tension cut-off, which is no part of the flow rule.
@@ -85,9 +85,9 @@ mod tests {
     use super::super::plastic_flow::path::{isotropic, principal};
     use rstest::rstest;
 
-    /// Paths of logarithmic strain, and the principal Kirchhoff stresses at their ends: closed forms
-    /// that were computed by an independent program. In uniaxial strain the stress is bilinear; in
-    /// extension it ends at the apex.
+    /// Paths of logarithmic strain, and the principal Kirchhoff stresses at their ends: closed
+    /// forms that were computed by an independent program. In uniaxial strain the stress is
+    /// bilinear; in extension it ends at the apex.
     #[rstest]
     #[case::elastic(&[[-0.002, 0.0, 0.0]], [-36.0, -12.0, -12.0])]
     #[case::compression(&[[-0.01, 0.0, 0.0]], [-152.446_057_383_1, -80.748_883_761_5, -80.748_883_761_5])]

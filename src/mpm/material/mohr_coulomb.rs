@@ -1,10 +1,10 @@
 //! Mohr-Coulomb plasticity: a pyramid of six planes in principal stresses.
 //!
 //! Yield where `(t1 - t3) + (t1 + t3) sin(phi) > 2 c cos(phi)`, with the principal Kirchhoff
-//! stresses `t1 >= t2 >= t3`, tension positive. The flow has the dilation angle psi in place of phi.
-//! The return goes to a plane, to one of the two edges where the planes of neighbouring orders meet,
-//! or to the apex `p = c cot(phi)` (de Souza Neto, Peric & Owen 2008, section 8.2). With phi = 0
-//! this is Tresca's law, which has no apex. The frame is that of
+//! stresses `t1 >= t2 >= t3`, tension positive. The flow has the dilation angle psi in place of
+//! phi. The return goes to a plane, to one of the two edges where the planes of neighbouring orders
+//! meet, or to the apex `p = c cot(phi)` (de Souza Neto, Peric & Owen 2008, section 8.2). With phi
+//! = 0 this is Tresca's law, which has no apex. The frame is that of
 //! [`plastic_flow`](super::plastic_flow).
 //!
 //! Without dilation the flow cannot lower a tension beyond the apex: the return to the apex is then
@@ -27,11 +27,11 @@ pub struct Pyramid {
 }
 
 /// A plane of the pyramid, by the places of the largest and the smallest stress.
-type Plane = [usize; 2];
+type YieldPlane = [usize; 2];
 
 impl MohrCoulomb {
-    /// From Young's modulus (Pa), Poisson's ratio, the angles of friction and of dilation (degrees),
-    /// and the cohesion (Pa).
+    /// From Young's modulus (Pa), Poisson's ratio, the angles of friction and of dilation
+    /// (degrees), and the cohesion (Pa).
     pub fn new(
         young: f64,
         poisson: f64,
@@ -48,13 +48,13 @@ impl MohrCoulomb {
 
 impl Pyramid {
     /// Value of the yield function (Pa) of a plane.
-    fn excess(&self, [high, low]: Plane, stress: &Vector<3>) -> f64 {
+    fn excess(&self, [high, low]: YieldPlane, stress: &Vector<3>) -> f64 {
         let sine = self.sines[0];
         (1.0 + sine) * stress[high] - (1.0 - sine) * stress[low] - self.strength
     }
 
     /// Stress (Pa) that a unit of flow on a plane takes away.
-    fn relief(&self, [high, low]: Plane) -> Vector<3> {
+    fn relief(&self, [high, low]: YieldPlane) -> Vector<3> {
         let (LogElasticity { lambda, mu, .. }, sine) = (&self.elasticity, self.sines[1]);
         let mut relief = Vector::<3>::from_element(2.0 * lambda * sine);
         relief[high] += 2.0 * mu * (1.0 + sine);
@@ -63,18 +63,18 @@ impl Pyramid {
     }
 
     /// Value of a plane's yield function (Pa) that a unit of flow on another plane takes away.
-    fn slope(&self, plane: Plane, of: Plane) -> f64 {
+    fn slope(&self, plane: YieldPlane, of: YieldPlane) -> f64 {
         self.excess(plane, &self.relief(of)) + self.strength
     }
 
     /// The stress on the plane.
-    fn on_plane(&self, plane: Plane, trial: &Vector<3>) -> Vector<3> {
+    fn on_plane(&self, plane: YieldPlane, trial: &Vector<3>) -> Vector<3> {
         let flow = self.excess(plane, trial) / self.slope(plane, plane);
         trial - self.relief(plane) * flow
     }
 
     /// The stress where two planes meet; none if a flow is negative.
-    fn on_edge(&self, [a, b]: [Plane; 2], trial: &Vector<3>) -> Option<Vector<3>> {
+    fn on_edge(&self, [a, b]: [YieldPlane; 2], trial: &Vector<3>) -> Option<Vector<3>> {
         let (f_a, f_b) = (self.excess(a, trial), self.excess(b, trial));
         let (aa, ab) = (self.slope(a, a), self.slope(a, b));
         let (ba, bb) = (self.slope(b, a), self.slope(b, b));
@@ -164,9 +164,10 @@ mod tests {
     use proptest::prelude::*;
     use rstest::rstest;
 
-    /// Angles, a path of logarithmic strain, and the principal Kirchhoff stresses at its end: closed
-    /// forms that were computed by an independent program. Uniaxial paths lie on an edge, isochoric
-    /// ones on a plane; the second isochoric path ends on an edge, where two stresses are equal.
+    /// Angles, a path of logarithmic strain, and the principal Kirchhoff stresses at its end:
+    /// closed forms that were computed by an independent program. Uniaxial paths lie on an edge,
+    /// isochoric ones on a plane; the second isochoric path ends on an edge, where two stresses are
+    /// equal.
     #[rstest]
     #[case::compression([30.0, 10.0], &[[-0.01, 0.0, 0.0]], [-196.127_569_232, -53.828_851_027, -53.828_851_027])]
     #[case::in_steps(

@@ -23,8 +23,8 @@ use tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
 /// derivatives before anything runs.
 const MOST_OPERATIONS: u64 = 5000;
 
-/// The problem that the formulas of a suite are to solve, if it has formulas. Whether they do is not
-/// yet checked.
+/// The problem that the formulas of a suite are to solve, if it has formulas. Whether they do is
+/// not yet checked.
 ///
 /// # Errors
 /// A diagnostic of keys that do not go together, or of a formula.

@@ -178,8 +178,8 @@ pub(super) fn walls_across(
 ///
 /// With the initial velocity `v = a (X - X_wall)` along the normal a bar of linear elasticity
 /// stretches evenly until a wave arrives from its free end: every particle keeps its velocity. A
-/// method reproduces this if its functions represent a linear velocity up to the wall, which they do
-/// not if nodes beyond the wall are held at zero: the exact values are the odd continuation.
+/// method reproduces this if its functions represent a linear velocity up to the wall, which they
+/// do not if nodes beyond the wall are held at zero: the exact values are the odd continuation.
 fn stretch_errors(
     patient: &Patient<'_>,
     kind: Kind,

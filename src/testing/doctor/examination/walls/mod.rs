@@ -5,8 +5,8 @@
 //! there with the force `rho c v A`, c^2 = E/rho, until the wave has crossed it. Under the
 //! acceleration g from rest the force is `rho c g t A`. Both ends are held at once: one is pushed,
 //! the other one pulled. The momentum of one half shows the force of its wall as long as no wave
-//! arrives from the other. A bar that is stretched evenly from a wall shows whether linear fields are
-//! reproduced there.
+//! arrives from the other. A bar that is stretched evenly from a wall shows whether linear fields
+//! are reproduced there.
 //!
 //! ```text
 //! measure   the scenes, and the forces and motions at each wall
