@@ -180,7 +180,7 @@ fn results_have_the_same_bits_everywhere() {
         &rules::platform_calls(&sources),
     );
     hold(
-        "products and sums are fused by `plus_product` of `src/mpm/simd`, in loops over nodes",
+        "products and sums are fused by `plus_product` of `src/mpm/foundation/simd`, in loops over nodes",
         "it rounds once where the formula as written rounds twice, on every processor; elsewhere a \
          fused operation may be a call, and a change between the two changes stored results",
         &rules::fused(&sources),

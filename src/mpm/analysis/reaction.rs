@@ -6,9 +6,9 @@
 //! are the only ones that do not vanish on the wall, and their sum there is one: in the limit of
 //! small cells the reaction is the integral of the traction.
 
-use crate::mpm::algebra::Vector;
 use crate::mpm::boundary::Side;
-use crate::mpm::solver::Solver;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::step::solver::Solver;
 use crate::subject::Reaction;
 
 impl<const D: usize> Solver<D> {

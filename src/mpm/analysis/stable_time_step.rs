@@ -17,12 +17,12 @@
 //! Sources: von Neumann's analysis (the suite `courant-limit` has the closed forms); for the
 //! dependence on the place of particles also Ni & Zhang (2020), IJNME 121.
 
-use crate::mpm::algebra::Vector;
-use crate::mpm::schedule::passes_of;
+use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::scheme::SchemeName;
-use crate::mpm::setup::Setup;
-use crate::mpm::solver::Solver;
 use crate::mpm::stage::Stage;
+use crate::mpm::step::schedule::passes_of;
+use crate::mpm::step::setup::Setup;
+use crate::mpm::step::solver::Solver;
 use crate::mpm::transfer::{TransferChoice, TransferKind, TransferName, kick};
 use crate::subject::{Checkpoint, Failure};
 

@@ -1,7 +1,7 @@
 //! Sums over the body that a motion without external forces conserves.
 
-use crate::mpm::algebra::{Matrix, dyad};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::{Matrix, dyad};
+use crate::mpm::foundation::particles::Particles;
 use crate::subject::Totals;
 
 impl<const D: usize> Particles<D> {
@@ -35,8 +35,8 @@ fn axial<const D: usize>(m: &Matrix<D>) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::algebra::Vector;
-    use crate::mpm::particles::Block;
+    use crate::mpm::foundation::algebra::Vector;
+    use crate::mpm::foundation::particles::Block;
     use approx::assert_relative_eq;
 
     fn two_particles<const D: usize>() -> Particles<D> {

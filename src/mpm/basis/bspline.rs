@@ -12,10 +12,10 @@ use super::product::Product;
 use super::product_batch::ProductBatch;
 use super::weights_1d::Weights1d;
 use super::weights_1d_batch::{Weights1dBatch, WeightsSimd};
-use crate::mpm::algebra::array;
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{F64x4, LANES, Plain, Simd};
+use crate::mpm::foundation::algebra::array;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{F64x4, LANES, Plain, Simd};
 
 /// Quadratic B-splines.
 #[derive(Debug, Clone, Copy)]

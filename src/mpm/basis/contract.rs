@@ -2,9 +2,10 @@
 
 use super::cell_locator::CellLocator;
 use super::patch::{NodeWeight, Patch};
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{self, LANES, Simd, SimdPass};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd;
+use crate::mpm::foundation::simd::{LANES, Simd, SimdPass};
 use fearless_simd::Level;
 
 /// Particle domain over which a basis averages.

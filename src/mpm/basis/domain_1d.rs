@@ -6,9 +6,9 @@
 
 use super::weights_1d::Weights1d;
 use super::weights_1d_batch::WeightsSimd;
-use crate::mpm::algebra::array;
-use crate::mpm::grid::Grid;
-use crate::mpm::simd::{F64x4, LANES, Plain, Simd};
+use crate::mpm::foundation::algebra::array;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::simd::{F64x4, LANES, Plain, Simd};
 
 /// Functions of a group: all functions along an axis while the domain is not longer than a cell.
 pub(in crate::mpm) const AT_ONCE: usize = 3;
@@ -156,7 +156,7 @@ impl Domain1d {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::algebra::Vector;
+    use crate::mpm::foundation::algebra::Vector;
     use proptest::prelude::*;
 
     proptest! {

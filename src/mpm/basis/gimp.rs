@@ -12,10 +12,10 @@ use super::domain_1d::{AT_ONCE, Domain1d, Domain1dSimd};
 use super::product::Product;
 use super::product_batch::ProductBatch;
 use super::weights_1d::Weights1d;
-use crate::mpm::algebra::{Matrix, array};
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{F64x4, LANES, Simd};
+use crate::mpm::foundation::algebra::{Matrix, array};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{F64x4, LANES, Simd};
 
 /// GIMP with domains of constant size.
 #[derive(Debug, Clone, Copy)]

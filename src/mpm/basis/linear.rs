@@ -10,10 +10,10 @@ use super::product::Product;
 use super::product_batch::ProductBatch;
 use super::weights_1d::Weights1d;
 use super::weights_1d_batch::WeightsSimd;
-use crate::mpm::algebra::array;
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{LANES, Plain, Simd};
+use crate::mpm::foundation::algebra::array;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{LANES, Plain, Simd};
 
 /// The hats along an axis, at `xi` from 0 to 1 within a cell.
 #[inline(always)]

@@ -1,9 +1,10 @@
 //! Patches: the nodes of a particle and the functions there.
 
-use crate::mpm::algebra::{Matrix, Vector};
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::{FieldView, FieldViewMut, Layout, PackedNode};
-use crate::mpm::simd::{Register, Simd};
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::WeightMoments;
+use crate::mpm::foundation::packed_grid::{FieldView, FieldViewMut, Layout, PackedNode};
+use crate::mpm::foundation::simd::{Register, Simd};
 use std::fmt::Debug;
 use std::ops::Range;
 
@@ -19,15 +20,6 @@ pub struct NodeWeight<'a, const D: usize> {
     /// Position of the function ([`Basis::abscissa`](super::Basis::abscissa)) from the particle,
     /// x_i - x_p (m).
     pub offset: Vector<D>,
-}
-
-/// Moments of the weights of a patch.
-#[derive(Debug, Clone, Copy)]
-pub struct WeightMoments<const D: usize> {
-    /// `sum_i (x_i - x_p) N_i` (m).
-    pub first: Vector<D>,
-    /// `sum_i (x_i - x_p) (x) (x_i - x_p) N_i` (m^2).
-    pub second: Matrix<D>,
 }
 
 /// Nodes of a particle and the functions there.

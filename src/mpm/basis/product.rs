@@ -1,11 +1,12 @@
 //! Products of one-dimensional functions: the patch of most bases.
 
-use super::patch::{NodeWeight, Patch, WeightMoments};
+use super::patch::{NodeWeight, Patch};
 use super::product_batch::ProductBatch;
 use super::weights_1d::{Weights1d, product};
-use crate::mpm::algebra::{Matrix, Vector, array};
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::Layout;
+use crate::mpm::foundation::algebra::{Matrix, Vector, array};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::WeightMoments;
+use crate::mpm::foundation::packed_grid::Layout;
 
 /// All products of K functions along each axis, K at most 4.
 #[derive(Debug, Clone, Copy)]

@@ -3,9 +3,9 @@
 use super::node_accumulator::NodeAccumulator;
 use super::patch::{NodeTerm, PatchBatch};
 use super::weights_1d_batch::{Weights1dBatch, of};
-use crate::mpm::algebra::{Vector, array};
-use crate::mpm::packed_grid::{FieldView, FieldViewMut, PackedNode};
-use crate::mpm::simd::{BATCH, F64Batch, LANES, Register, Simd, registers_of};
+use crate::mpm::foundation::algebra::{Vector, array};
+use crate::mpm::foundation::packed_grid::{FieldView, FieldViewMut, PackedNode};
+use crate::mpm::foundation::simd::{BATCH, F64Batch, LANES, Register, Simd, registers_of};
 use std::ops::Range;
 
 /// Batch of [`Product`](super::Product)s. With `OUTWARD = 1` the gradient of a function is its

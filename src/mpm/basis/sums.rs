@@ -3,9 +3,9 @@
 
 use super::product_batch::ProductBatch;
 use super::weights_1d_batch::of;
-use crate::mpm::algebra::array;
-use crate::mpm::packed_grid::{FieldView, Node4};
-use crate::mpm::simd::{Register, Simd};
+use crate::mpm::foundation::algebra::array;
+use crate::mpm::foundation::packed_grid::{FieldView, Node4};
+use crate::mpm::foundation::simd::{Register, Simd};
 
 /// `sum_k row_k factors_k`.
 #[inline(always)]

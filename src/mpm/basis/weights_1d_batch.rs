@@ -2,9 +2,9 @@
 
 use super::cell_locator::WeightNeeds;
 use super::weights_1d::Weights1d;
-use crate::mpm::algebra::array;
-use crate::mpm::kernel::moments::SMALLEST;
-use crate::mpm::simd::{F64Batch, F64x4, Simd};
+use crate::mpm::foundation::algebra::array;
+use crate::mpm::foundation::moments::SMALLEST;
+use crate::mpm::foundation::simd::{F64Batch, F64x4, Simd};
 
 /// K neighbouring functions of four particles, in registers.
 #[derive(Debug, Clone, Copy)]
@@ -145,7 +145,7 @@ pub(super) fn of<const K: usize>(functions: &[F64Batch; K], lane: usize) -> [f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::simd::{LANES, Plain};
+    use crate::mpm::foundation::simd::{LANES, Plain};
 
     #[test]
     fn an_axis_without_a_moment_has_no_inverse() {

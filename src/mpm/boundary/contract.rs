@@ -1,7 +1,7 @@
 //! Contract of a boundary condition with the rest of the solver.
 
 use super::face::Side;
-use crate::mpm::algebra::Vector;
+use crate::mpm::foundation::algebra::Vector;
 use crate::subject::{Checkpoint, Column};
 
 /// An advance of the grid's velocities: `v += dt a`.

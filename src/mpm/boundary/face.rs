@@ -1,6 +1,6 @@
 //! The faces of the grid.
 
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::grid::Grid;
 
 /// The low or the high end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

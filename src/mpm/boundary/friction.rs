@@ -14,8 +14,8 @@
 use super::contact_state::ContactState;
 use super::contract::{Advance, Boundary};
 use super::face::{Side, nodes};
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
 use crate::subject::{Checkpoint, Column};
 
 /// A face of the grid with friction.

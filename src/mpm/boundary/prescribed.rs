@@ -6,9 +6,9 @@
 
 use super::contract::{Advance, Boundary};
 use super::face::{Side, nodes};
-use crate::mpm::algebra::Vector;
 use crate::mpm::basis::BasisName;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
 use crate::subject::Column;
 
 /// A velocity (m/s) as a function of place and time.

@@ -2,8 +2,8 @@
 
 use super::contract::{Advance, Boundary};
 use super::face::{Side, nodes};
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
 use crate::subject::Column;
 
 /// A face of the grid along which the body slides.

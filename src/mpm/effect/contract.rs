@@ -1,9 +1,9 @@
 //! Contract of an effect with the rest of the solver.
 
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::material::Material;
-use crate::mpm::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
 
 /// An addition to the equations of motion, by hooks between the passes of a step.

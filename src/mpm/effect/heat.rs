@@ -22,10 +22,10 @@
 
 use super::contract::Effect;
 use super::thermal_face::ThermalBoundary;
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure, Site};
 
 /// Writes the heat per unit mass and time (W/kg) of every particle at a time (s).

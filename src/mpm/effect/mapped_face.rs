@@ -3,7 +3,7 @@
 //! Middles of outer faces of domains lie on the face of the body ([`Particles::fill_mapped`]),
 //! however slanting the rows of particles are that end there.
 
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::particles::Particles;
 
 /// Distance from the face that is no more than rounding, in spacings.
 const ROUNDING: f64 = 1e-6;

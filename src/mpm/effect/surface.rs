@@ -14,11 +14,11 @@
 //!   gives any mass.
 
 use super::mapped_face::MappedFace;
-use crate::mpm::algebra::{Matrix, Vector, dyad};
 use crate::mpm::boundary::Side;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 use crate::named::named;
 use std::ops::{Mul, Sub};
 

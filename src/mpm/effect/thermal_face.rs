@@ -9,12 +9,12 @@
 //! Areas are those of the reference body, as with tractions. The face stays where the grid ends.
 
 use super::surface::{Placement, Surface};
-use crate::mpm::algebra::Vector;
 use crate::mpm::basis::BasisName;
 use crate::mpm::boundary::{Side, nodes};
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 use crate::subject::Column;
 
 /// A number as a function of place and time (s).

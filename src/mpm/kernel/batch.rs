@@ -1,12 +1,12 @@
 //! Batches of particles with their patches of nodes.
 
 use super::inertia::inertia;
-use super::moments::InertiaTensor;
 use crate::mpm::basis::{Basis, CellLocator, Patch, WeightNeeds};
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::Layout;
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{BATCH, LANES, Simd};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::InertiaTensor;
+use crate::mpm::foundation::packed_grid::Layout;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{BATCH, LANES, Simd};
 use std::marker::PhantomData;
 use std::ops::Range;
 

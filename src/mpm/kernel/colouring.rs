@@ -9,13 +9,13 @@
 //! scene, or one whose particles are in no spatial order, is one block.
 
 use super::settings::LoopSettings;
-use crate::mpm::algebra::Matrix;
 use crate::mpm::basis::{Basis, Domain};
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::{MARGIN, layers};
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::BATCH;
-use crate::mpm::threads::RowChunks;
+use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::packed_grid::{MARGIN, layers};
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::BATCH;
+use crate::mpm::foundation::threads::RowChunks;
 use std::ops::Range;
 
 /// Chunks of the smallest block, the units in which layers are looked up.
@@ -178,10 +178,10 @@ impl Blocks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::algebra::Vector;
     use crate::mpm::basis::laws::exercise::QuadraticBernstein;
     use crate::mpm::basis::{BasisName, with_basis};
-    use crate::mpm::particles::Block;
+    use crate::mpm::foundation::algebra::Vector;
+    use crate::mpm::foundation::particles::Block;
     use rstest::rstest;
 
     /// A body in a grid that is long along its last axis, its particles a little displaced.

@@ -2,14 +2,14 @@
 //!
 //! [`Kernel`] is object-safe: one virtual call per pass, none per particle.
 
-use super::moments::Moments;
 use super::request::{Divergence, G2pRequest, P2gRequest, ParticleField};
 use super::scalar_contract::Scalars;
 use super::tally::Tally;
-use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::basis::Domain;
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::Moments;
+use crate::mpm::foundation::particles::Particles;
 
 /// Passes of P2G and G2P for one basis.
 pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {

@@ -2,13 +2,13 @@
 
 use super::batch::{ALL, Batch, ParticleBatches};
 use super::matrix_columns::{divide, put_columns};
-use super::moments::InertiaTensor;
 use super::request::G2pRequest;
 use crate::mpm::basis::{Basis, PatchBatch, WeightNeeds};
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::FieldView;
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{BATCH, F64x4, LANES, Simd, SimdPass, components};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::InertiaTensor;
+use crate::mpm::foundation::packed_grid::FieldView;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{BATCH, F64x4, LANES, Simd, SimdPass, components};
 use std::marker::PhantomData;
 use std::ops::Range;
 

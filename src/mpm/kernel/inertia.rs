@@ -1,10 +1,10 @@
 //! Moments of the weights of one particle.
 
-use super::moments::InertiaTensor;
-use crate::mpm::algebra::{Matrix, Vector};
-use crate::mpm::basis::{Basis, Patch, WeightMoments};
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
+use crate::mpm::basis::{Basis, Patch};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::{InertiaTensor, WeightMoments};
+use crate::mpm::foundation::particles::Particles;
 
 /// Mean and second moments of the weights of particle `p`, from all its patches.
 #[inline(always)]

@@ -1,10 +1,10 @@
 //! Matrices of particles as columns in registers.
 
 use super::batch::Batch;
-use super::moments::InertiaTensor;
-use crate::mpm::algebra::{Matrix, array};
 use crate::mpm::basis::{Basis, PatchBatch};
-use crate::mpm::simd::{LANES, Simd};
+use crate::mpm::foundation::algebra::{Matrix, array};
+use crate::mpm::foundation::moments::InertiaTensor;
+use crate::mpm::foundation::simd::{LANES, Simd};
 
 /// Columns of a matrix, each in a register from lane `from` on.
 #[inline(always)]

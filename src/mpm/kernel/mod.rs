@@ -20,7 +20,6 @@
 //! threads.
 
 pub(crate) mod contract;
-pub(crate) mod moments;
 pub(crate) mod request;
 pub(crate) mod scalar_contract;
 pub(crate) mod settings;
@@ -39,14 +38,14 @@ mod workspace;
 
 use self::inertia::inertia;
 use self::workspace::Workspace;
-use super::algebra::{Matrix, Vector};
 use super::basis::{Basis, BasisName, Domain, with_basis};
-use super::grid::Grid;
-use super::packed_grid::Columns;
-use super::particles::Particles;
+use super::foundation::algebra::{Matrix, Vector};
+use super::foundation::grid::Grid;
+use super::foundation::moments::{InertiaTensor, Moments};
+use super::foundation::packed_grid::Columns;
+use super::foundation::particles::Particles;
 use crate::dimension::with_dimension;
 use contract::Kernel;
-use moments::{InertiaTensor, Moments};
 use request::{G2pRequest, P2gRequest, ParticleField};
 use settings::LoopSettings;
 use std::any::Any;

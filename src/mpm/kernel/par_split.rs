@@ -1,8 +1,8 @@
 //! Particles of G2P split among threads.
 
 use super::request::G2pRequest;
-use crate::mpm::simd::BATCH;
-use crate::mpm::threads::{FEW, join, split};
+use crate::mpm::foundation::simd::BATCH;
+use crate::mpm::foundation::threads::{FEW, join, split};
 use std::ops::Range;
 
 impl<const D: usize> G2pRequest<'_, D> {

@@ -5,9 +5,9 @@
 //! block adds are unpacked at once, while they are in the cache.
 
 use super::colouring::ParticleBlock;
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::{Columns, FieldViewMut, PackedNode, layers};
-use crate::mpm::threads::join;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::packed_grid::{Columns, FieldViewMut, PackedNode, layers};
+use crate::mpm::foundation::threads::join;
 use std::ops::Range;
 
 /// Target of P2G: a packed field, and the columns to which it is unpacked.

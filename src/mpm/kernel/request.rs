@@ -3,7 +3,7 @@
 //! A pass computes the weights of a particle anew, so that all parts for the same particles and
 //! nodes share one pass; each part has the bits that it would have alone.
 
-use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
 
 /// Slope of the velocity field around each particle. `mean_p` is the weighted mean of the nodes:
 /// the position of the particle, except for domains cut off by a wall. Relative to it,

@@ -1,8 +1,8 @@
 //! Passes of a scalar, such as a temperature, between particles and nodes.
 
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 
 /// Passes of P2G and G2P for scalars, of one basis.
 pub trait Scalars<const D: usize> {

@@ -2,10 +2,10 @@
 
 use super::Loops;
 use super::scalar_contract::Scalars;
-use crate::mpm::algebra::Vector;
 use crate::mpm::basis::Basis;
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 
 impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {
     fn p2g_scalar(

@@ -7,11 +7,13 @@ use super::par_split::par_split;
 use super::parallel::{Target, two_colour_schedule};
 use super::request::{G2pRequest, P2gRequest};
 use super::settings::LoopSettings;
-use crate::mpm::algebra::Vector;
 use crate::mpm::basis::Basis;
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::{Columns, FieldViewMut, Node4, Node8, PackedField, PackedNode};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::packed_grid::{
+    Columns, FieldViewMut, Node4, Node8, PackedField, PackedNode,
+};
+use crate::mpm::foundation::particles::Particles;
 use fearless_simd::Level;
 use std::marker::PhantomData;
 

@@ -9,11 +9,11 @@
 
 use super::assembly::Assembly;
 use super::contract::MassMatrix;
-use crate::mpm::algebra::Vector;
 use crate::mpm::boundary::Boundary;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 use crate::subject::Failure;
 use nalgebra::DVector;
 use nalgebra_sparse::factorization::{CholeskyError, CscCholesky, CscSymbolicCholesky};

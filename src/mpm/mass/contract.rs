@@ -1,10 +1,10 @@
 //! Contract of a mass matrix with the rest of the solver.
 
-use crate::mpm::algebra::Vector;
 use crate::mpm::boundary::Boundary;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 use crate::subject::Failure;
 
 /// Turns nodal momenta into velocities, and forces into accelerations.

@@ -3,11 +3,11 @@
 //! Second order at best, whatever the degree of the basis.
 
 use super::contract::MassMatrix;
-use crate::mpm::algebra::Vector;
 use crate::mpm::boundary::Boundary;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 use crate::subject::Failure;
 
 /// The mass matrix of the original MPM.

@@ -9,7 +9,7 @@ pub use consistent::Consistent;
 pub use contract::MassMatrix;
 pub use lumped::Lumped;
 
-use super::family::objects;
+use super::foundation::family::objects;
 
 objects! {
     /// Names of the mass matrices that suites may choose for MPM.

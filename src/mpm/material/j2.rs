@@ -14,9 +14,9 @@ use super::spectral::{
     MatrixBatch, VectorBatch, assembled, half_log, half_log_batch, spectral, spectral_batch,
 };
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::algebra::{Matrix, Vector, det, product};
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{BATCH, vectorized};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, product};
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{BATCH, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Memory};
 
 /// Isotropic elasto-plasticity with linear hardening.

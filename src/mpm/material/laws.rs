@@ -3,7 +3,7 @@
 
 use super::specimen::{FAST, SLOW, Specimen, diagonal, every, scattered, stress};
 use super::{MaterialPlan, POISSON, YIELD};
-use crate::mpm::algebra::{Matrix, det};
+use crate::mpm::foundation::algebra::{Matrix, det};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 
 /// A rotation about an oblique axis (Rodrigues); in 1-D there is only the identity.

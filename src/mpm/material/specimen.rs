@@ -2,8 +2,8 @@
 
 use super::stress_update::StressUpdate;
 use super::{Material, MaterialPlan, POISSON, VISCOSITY, YIELD, YOUNG};
-use crate::mpm::algebra::{Matrix, Vector};
-use crate::mpm::particles::{Block, Particles};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::particles::{Block, Particles};
 use crate::subject::{Checkpoint, PlaneState};
 
 /// Length of a step (s) in which nothing viscous counts, and of one in which nothing else does.

@@ -5,11 +5,11 @@
 //! blocks    128 particles, whose columns stay in the first cache:  F  ->  law  ->  checks
 //! ```
 
-use crate::mpm::algebra::{Matrix, product};
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::vectorized;
-use crate::mpm::state::finite_check::all_finite;
-use crate::mpm::threads::{FEW, join};
+use crate::mpm::foundation::algebra::{Matrix, product};
+use crate::mpm::foundation::finite_check::all_finite;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::vectorized;
+use crate::mpm::foundation::threads::{FEW, join};
 
 /// Particles of a block: 232 bytes each in 3-D.
 const BLOCK: usize = 128;
@@ -216,8 +216,8 @@ fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
 mod tests {
     use super::super::specimen::{every, scattered};
     use super::*;
-    use crate::mpm::algebra::{Vector, det};
-    use crate::mpm::particles::Block;
+    use crate::mpm::foundation::algebra::{Vector, det};
+    use crate::mpm::foundation::particles::Block;
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 

@@ -19,13 +19,13 @@
 
 use super::coupling::Coupling;
 use super::interface::InterfaceNodes;
-use crate::mpm::algebra::Vector;
 use crate::mpm::boundary::contact_state::ContactState;
-use crate::mpm::grid::Grid;
-use crate::mpm::schedule::CouplingPoint;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
 use crate::mpm::scheme::SchemeName;
-use crate::mpm::setup::Setup;
-use crate::mpm::solver::Solver;
+use crate::mpm::step::schedule::CouplingPoint;
+use crate::mpm::step::setup::Setup;
+use crate::mpm::step::solver::Solver;
 use crate::subject::{Checkpoint, Column};
 
 /// Contact between all bodies of a scene.

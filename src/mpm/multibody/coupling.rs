@@ -1,7 +1,7 @@
 //! Contract of a coupling of bodies with their steps.
 
-use crate::mpm::schedule::CouplingPoint;
-use crate::mpm::solver::Solver;
+use crate::mpm::step::schedule::CouplingPoint;
+use crate::mpm::step::solver::Solver;
 use crate::subject::{Checkpoint, Column};
 
 /// Coupling of two or more bodies at the nodes of their interface.

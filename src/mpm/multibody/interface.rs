@@ -1,6 +1,6 @@
 //! Nodes at which bodies meet: those to which more than one gives mass.
 
-use crate::mpm::solver::Solver;
+use crate::mpm::step::solver::Solver;
 
 /// Nodes at which bodies meet, in their order.
 #[derive(Debug)]

@@ -20,9 +20,9 @@ mod shared_velocity;
 mod state;
 
 use super::kernel::tally::Tally;
-use super::schedule::{Coupled, Pass, StepSchedule};
-use super::setup::Setup;
-use super::solver::Solver;
+use super::step::schedule::{Coupled, Pass, StepSchedule};
+use super::step::setup::Setup;
+use super::step::solver::Solver;
 use crate::subject::{
     BodyFields, Checkpoint, Failure, Profile, RunCounters, Samples, Subject, Totals,
 };

@@ -5,10 +5,10 @@
 
 use super::coupling::Coupling;
 use super::interface::InterfaceNodes;
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
-use crate::mpm::schedule::CouplingPoint;
-use crate::mpm::solver::Solver;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::step::schedule::CouplingPoint;
+use crate::mpm::step::solver::Solver;
 use crate::subject::Column;
 
 /// One velocity field for all bodies.

@@ -1,7 +1,7 @@
 //! Particles that stand for pieces of any shape, beside those of a lattice.
 
-use crate::mpm::algebra::{Matrix, Vector};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::particles::Particles;
 
 /// A part of a body, for one particle.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,8 +7,8 @@
 //! map is. The volumes then add up to that of the body, and middles of outer faces of domains lie
 //! on those of the body.
 
-use crate::mpm::algebra::{Matrix, Vector, det};
-use crate::mpm::particles::{Block, Particles};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det};
+use crate::mpm::foundation::particles::{Block, Particles};
 
 impl<const D: usize> Particles<D> {
     /// Fills a mapped box of density `density` (kg/m3) with `counts` particles along its axes.

@@ -1,7 +1,7 @@
 //! A body of revolution, of what lies in its meridian plane.
 
-use crate::mpm::algebra::Vector;
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::particles::Particles;
 
 impl<const D: usize> Particles<D> {
     /// Makes a body of revolution of the particles in its meridian plane, r being the first axis

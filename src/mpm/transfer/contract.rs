@@ -1,11 +1,11 @@
 //! Contract of a transfer with the rest of the solver.
 
-use crate::mpm::algebra::{Matrix, Vector};
 use crate::mpm::boundary::Boundary;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::kernel::request::{Divergence, G2pRequest, P2gRequest, ParticleField};
-use crate::mpm::particles::Particles;
 use crate::mpm::stage::Stage;
 use crate::subject::Column;
 

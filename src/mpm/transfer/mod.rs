@@ -28,7 +28,7 @@ pub use tls::Tls;
 pub use tpic::Tpic;
 pub use xpic::Xpic;
 
-use super::family::{objects, objects_with_parameter};
+use super::foundation::family::{objects, objects_with_parameter};
 
 objects! {
     /// Names of the transfers that suites may choose.

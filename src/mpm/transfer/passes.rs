@@ -1,11 +1,11 @@
 //! Passes of G2P for the request of a transfer.
 
 use super::contract::Transfer;
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::kernel::request::{Divergence, G2pRequest};
-use crate::mpm::particles::Particles;
 use crate::mpm::stage::Stage;
 
 /// G2P over `dt` (s) for `stages`: new velocities, velocity gradients into `particles.grad_v`, and

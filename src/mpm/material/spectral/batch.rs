@@ -3,8 +3,8 @@
 //! test holds them to the same bits.
 
 use super::MOST_SWEEPS;
-use crate::mpm::algebra::{Matrix, Vector};
-use crate::mpm::simd::{BATCH, F64Batch, ln};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
 
 /// One matrix for each particle of a batch.
 #[derive(Debug, Clone, Copy)]

@@ -9,7 +9,7 @@ mod batch;
 
 pub(super) use batch::{MatrixBatch, VectorBatch, assembled_batch, half_log_batch, spectral_batch};
 
-use crate::mpm::algebra::{Matrix, Vector};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
 
 /// A few suffice, as each sweep squares what is left; NaN ends here.
 const MOST_SWEEPS: usize = 12;

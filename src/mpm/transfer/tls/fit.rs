@@ -1,8 +1,8 @@
 //! A linear Taylor polynomial through the data of the particles in one cell.
 
 use super::quadrature_points::QuadraturePoint;
-use crate::mpm::algebra::{Matrix, Vector, dyad};
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use crate::mpm::foundation::grid::Grid;
 use std::ops::{Add, Mul, Sub};
 
 /// The particles that a cell holds.

@@ -12,11 +12,11 @@ mod quadrature_points;
 use self::fit::Fit;
 use self::quadrature_points::{QuadraturePoint, QuadraturePoints};
 use super::contract::{Transfer, TransferKind};
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::kernel::request::{G2pRequest, ParticleField};
-use crate::mpm::particles::Particles;
 use crate::mpm::stage::Stage;
 use crate::subject::Column;
 

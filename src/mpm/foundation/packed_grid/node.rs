@@ -1,0 +1,146 @@
+//! Nodes of packed fields: as many numbers as a register has.
+
+use crate::mpm::foundation::simd::{LANES, Plain, Register, Simd};
+use std::fmt::Debug;
+
+/// Node of a packed field.
+pub trait PackedNode: Copy + Debug + Default + Send + Sync {
+    /// Whether a node has lanes for momentum, mass and force in any dimension.
+    const IS_WIDE: bool;
+
+    /// Numbers of a node.
+    type Lanes<S: Simd>: Register;
+
+    /// The numbers in a register.
+    fn load<S: Simd>(&self, simd: S) -> Self::Lanes<S>;
+
+    /// Stores the numbers of a register.
+    fn store<S: Simd>(&mut self, numbers: Self::Lanes<S>);
+
+    /// All lanes zero.
+    #[inline(always)]
+    fn zero<S: Simd>(simd: S) -> Self::Lanes<S> {
+        Self::default().load(simd)
+    }
+
+    /// Lanes of momentum and mass alone.
+    fn of_inertia<S: Simd>(simd: S, inertia: S::F64x4) -> Self::Lanes<S>;
+
+    /// Lanes of a force alone.
+    fn of_force<S: Simd>(simd: S, force: S::F64x4) -> Self::Lanes<S>;
+
+    /// Lanes of momentum and mass together with those of a force.
+    fn join<S: Simd>(simd: S, inertia: S::F64x4, force: S::F64x4) -> Self::Lanes<S>;
+
+    /// Adds the numbers of another node.
+    #[inline(always)]
+    fn add(&mut self, other: &Self) {
+        self.store::<Plain>(self.load(Plain) + other.load(Plain));
+    }
+
+    /// The first four numbers: momentum, and mass in the last lane.
+    fn inertia(&self) -> [f64; LANES];
+
+    /// The four numbers that hold a force from lane [`force_lane`] on.
+    fn force(&self) -> [f64; LANES];
+}
+
+/// First lane of a force among the four that hold it. Along one axis they hold a momentum and a
+/// mass as well.
+pub(in crate::mpm) const fn force_lane(dimension: usize) -> usize {
+    if dimension == 1 { 1 } else { 0 }
+}
+
+/// Four numbers in one cache line.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(align(32))]
+pub(in crate::mpm) struct Node4(pub(in crate::mpm) [f64; LANES]);
+
+/// Eight numbers in one cache line.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(align(64))]
+pub(in crate::mpm) struct Node8([f64; 2 * LANES]);
+
+impl PackedNode for Node4 {
+    const IS_WIDE: bool = false;
+
+    type Lanes<S: Simd> = S::F64x4;
+
+    #[inline(always)]
+    fn load<S: Simd>(&self, simd: S) -> S::F64x4 {
+        simd.load(self.0)
+    }
+
+    #[inline(always)]
+    fn store<S: Simd>(&mut self, numbers: S::F64x4) {
+        self.0 = numbers.into();
+    }
+
+    #[inline(always)]
+    fn of_inertia<S: Simd>(_: S, inertia: S::F64x4) -> S::F64x4 {
+        inertia
+    }
+
+    #[inline(always)]
+    fn of_force<S: Simd>(_: S, force: S::F64x4) -> S::F64x4 {
+        force
+    }
+
+    #[inline(always)]
+    fn join<S: Simd>(_: S, inertia: S::F64x4, force: S::F64x4) -> S::F64x4 {
+        inertia + force
+    }
+
+    #[inline(always)]
+    fn inertia(&self) -> [f64; LANES] {
+        self.0
+    }
+
+    #[inline(always)]
+    fn force(&self) -> [f64; LANES] {
+        self.0
+    }
+}
+
+impl PackedNode for Node8 {
+    const IS_WIDE: bool = true;
+
+    type Lanes<S: Simd> = S::F64x8;
+
+    #[inline(always)]
+    fn load<S: Simd>(&self, simd: S) -> S::F64x8 {
+        simd.load_eight(self.0)
+    }
+
+    #[inline(always)]
+    fn store<S: Simd>(&mut self, numbers: S::F64x8) {
+        self.0 = numbers.into();
+    }
+
+    #[inline(always)]
+    fn of_inertia<S: Simd>(simd: S, inertia: S::F64x4) -> S::F64x8 {
+        simd.join(inertia, simd.splat(0.0))
+    }
+
+    #[inline(always)]
+    fn of_force<S: Simd>(simd: S, force: S::F64x4) -> S::F64x8 {
+        simd.join(simd.splat(0.0), force)
+    }
+
+    #[inline(always)]
+    fn join<S: Simd>(simd: S, inertia: S::F64x4, force: S::F64x4) -> S::F64x8 {
+        simd.join(inertia, force)
+    }
+
+    #[inline(always)]
+    fn inertia(&self) -> [f64; LANES] {
+        let [a, b, c, d, ..] = self.0;
+        [a, b, c, d]
+    }
+
+    #[inline(always)]
+    fn force(&self) -> [f64; LANES] {
+        let [.., a, b, c, d] = self.0;
+        [a, b, c, d]
+    }
+}
