@@ -19,7 +19,7 @@
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::scheme::SchemeName;
-use crate::mpm::stage::Stage;
+use crate::mpm::scheme::Stage;
 use crate::mpm::step::schedule::passes_of;
 use crate::mpm::step::setup::Setup;
 use crate::mpm::step::solver::Solver;

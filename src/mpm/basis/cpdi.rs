@@ -22,9 +22,9 @@
 //! to the wall would not keep it.
 
 use super::contract::{Basis, Domain};
-use super::patch::{NodeWeight, Patch};
+use super::contract::{NodeWeight, Patch};
 use super::product::Product;
-use super::product_batch::ProductBatch;
+use super::product::ProductBatch;
 use super::weights_1d::Weights1d;
 use crate::mpm::foundation::algebra::{Matrix, Vector, array, cofactor, det, floor};
 use crate::mpm::foundation::grid::Grid;

@@ -4,26 +4,21 @@ mod bspline;
 mod cell_locator;
 mod contract;
 mod cpdi;
-mod domain_1d;
 mod gimp;
 #[cfg(test)]
 pub(in crate::mpm) mod laws;
 mod linear;
 mod node_accumulator;
-mod patch;
 mod product;
-mod product_batch;
-mod sums;
 mod weights_1d;
-mod weights_1d_batch;
 
 pub use cell_locator::{CellLocator, WeightNeeds};
 pub use contract::{Basis, Domain};
-pub use patch::{NodeTerm, NodeWeight, Patch, PatchBatch};
+pub use contract::{NodeTerm, NodeWeight, Patch, PatchBatch};
 pub use product::Product;
-pub use product_batch::ProductBatch;
+pub use product::ProductBatch;
 pub use weights_1d::Weights1d;
-pub use weights_1d_batch::Weights1dBatch;
+pub use weights_1d::Weights1dBatch;
 
 use super::foundation::algebra::Vector;
 use super::foundation::family::family;

@@ -5,7 +5,7 @@
 //! along its normal only by a small part of a cell.
 
 use super::contract::{Advance, Boundary};
-use super::face::{Side, nodes};
+use super::contract::{Side, nodes};
 use crate::mpm::basis::BasisName;
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;

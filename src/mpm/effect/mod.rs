@@ -3,17 +3,15 @@
 
 mod contract;
 mod hoop;
-mod mapped_face;
-mod strain;
 mod surface;
 mod thermal_face;
 
 pub use body_force::ForceField;
 pub use contract::Effect;
+pub(super) use contract::strain;
 pub use heat::HeatSource;
 pub use hoop::Hoop;
 pub use pressure::PressureField;
-pub(super) use strain::strain;
 pub use surface::Placement;
 pub use thermal_face::{HeatInflow, ScalarField, Thermal, ThermalBoundary};
 pub use traction::TractionField;

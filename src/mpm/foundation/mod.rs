@@ -4,7 +4,6 @@
 pub(in crate::mpm) mod algebra;
 pub(in crate::mpm) mod family;
 pub(in crate::mpm) mod finite_check;
-pub(in crate::mpm) mod frame;
 pub(in crate::mpm) mod grid;
 pub(in crate::mpm) mod moments;
 pub(in crate::mpm) mod packed_grid;

@@ -8,7 +8,7 @@
 //! The cuts depend on the particles only, not on the number of threads, and so do the bits. A small
 //! scene, or one whose particles are in no spatial order, is one block.
 
-use super::settings::LoopSettings;
+use super::contract::LoopSettings;
 use crate::mpm::basis::{Basis, Domain};
 use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::grid::Grid;

@@ -1,8 +1,8 @@
 //! G2P: velocity, first moment and gradient in one visit to the nodes of a particle.
 
 use super::batch::{ALL, Batch, ParticleBatches};
-use super::matrix_columns::{divide, put_columns};
-use super::request::G2pRequest;
+use super::batch::{divide, put_columns};
+use super::contract::G2pRequest;
 use crate::mpm::basis::{Basis, PatchBatch, WeightNeeds};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::InertiaTensor;

@@ -1,8 +1,8 @@
 //! P2G: mass, momentum and internal force in one visit to the nodes of a particle.
 
 use super::batch::{Batch, ParticleBatches};
-use super::matrix_columns::{columns, divide};
-use super::request::{Affine, Divergence, P2gRequest};
+use super::batch::{columns, divide};
+use super::contract::{Affine, Divergence, P2gRequest};
 use crate::mpm::basis::{Basis, NodeTerm, PatchBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::{Vector, array};
 use crate::mpm::foundation::grid::Grid;

@@ -1,12 +1,13 @@
 //! Materials: the family. A member is one file and one line of `members`; a parameter that no other
 //! material has is one line in `parameter`.
+//!
+//! Parameters of materials: name, symbol, unit and range.
 
 mod axisymmetric;
 mod contract;
 mod hyperelastic;
 #[cfg(test)]
 mod laws;
-mod parameter;
 mod plane_stress;
 mod prestressed;
 mod registry;
@@ -15,18 +16,15 @@ mod specimen;
 mod spectral;
 mod stress_update;
 
-#[cfg(test)]
-use contract::ClosedForms;
-pub use contract::{Material, MaterialProperties};
-pub use parameter::{MaterialParameter, Range};
-pub use prestressed::Prestressed;
-pub use stress_update::{StressBlock, StressUpdate};
-
 use crate::members::{each_material, key};
 use crate::subject::PlaneState;
 use axisymmetric::Axisymmetric;
-use parameter::{BULK, DENSITY, HARDENING, POISSON, VISCOSITY, YIELD, YOUNG};
+#[cfg(test)]
+use contract::ClosedForms;
+pub use contract::{Material, MaterialProperties};
+pub use prestressed::Prestressed;
 use registry::materials;
+pub use stress_update::{StressBlock, StressUpdate};
 
 each_material!(materials);
 
@@ -46,3 +44,49 @@ impl MaterialPlan {
         Some((self.parameter("young")?, self.parameter("poisson")?))
     }
 }
+
+/// A parameter that a suite gives to a material.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MaterialParameter {
+    /// Its name in messages: `Young's modulus`.
+    pub what: &'static str,
+    /// Its letter in reports: `E`.
+    pub symbol: &'static str,
+    /// Its unit, empty for a ratio.
+    pub unit: &'static str,
+    /// Its valid values.
+    pub range: Range,
+}
+
+/// Valid values of a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Range {
+    /// Above zero.
+    Positive,
+    /// Zero or above.
+    NotNegative,
+    /// Above -1 and below 1/2: an isotropic solid is stable there, and compressible.
+    PoissonsRatio,
+}
+
+const fn parameter(
+    what: &'static str,
+    symbol: &'static str,
+    unit: &'static str,
+    range: Range,
+) -> MaterialParameter {
+    MaterialParameter { what, symbol, unit, range }
+}
+
+pub(self) const YOUNG: MaterialParameter = parameter("Young's modulus", "E", "Pa", Range::Positive);
+pub(self) const POISSON: MaterialParameter =
+    parameter("Poisson's ratio", "nu", "", Range::PoissonsRatio);
+pub(self) const YIELD: MaterialParameter =
+    parameter("the yield stress", "Y", "Pa", Range::Positive);
+pub(self) const HARDENING: MaterialParameter =
+    parameter("the hardening modulus", "H", "Pa", Range::NotNegative);
+pub(self) const BULK: MaterialParameter = parameter("the bulk modulus", "K", "Pa", Range::Positive);
+pub(self) const VISCOSITY: MaterialParameter =
+    parameter("the viscosity", "eta", "Pa s", Range::NotNegative);
+pub(self) const DENSITY: MaterialParameter =
+    parameter("the density", "rho0", "kg/m3", Range::Positive);

@@ -18,8 +18,8 @@
 //! alone.
 
 use super::coupling::Coupling;
-use super::interface::InterfaceNodes;
-use crate::mpm::boundary::contact_state::ContactState;
+use super::coupling::InterfaceNodes;
+use crate::mpm::boundary::ContactState;
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::scheme::SchemeName;

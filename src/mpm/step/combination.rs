@@ -1,7 +1,7 @@
 //! Combinations of the parts of a method.
 
 use crate::mpm::basis::{BasisName, Domain, with_basis};
-use crate::mpm::foundation::frame::FrameName;
+use crate::mpm::foundation::particles::FrameName;
 use crate::mpm::mass::MassName;
 use crate::mpm::transfer::{TransferChoice, TransferKind};
 use crate::subject::{PlaneState, Start};

@@ -1,13 +1,13 @@
 //! Heat conduction in a body at rest, without stages and columns of mechanics.
 
 use super::cell_tracker::CellTracker;
-use super::columns::{fields, profile};
+use super::setup::{fields, profile};
 use crate::mpm::basis::Domain;
 use crate::mpm::effect::Effect;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::tally::Tally;
+use crate::mpm::kernel::contract::Tally;
 use crate::subject::{
     BodyFields, Checkpoint, Column, Failure, Profile, RunCounters, Samples, Subject,
 };

@@ -2,14 +2,11 @@
 //! passes run.
 
 pub(in crate::mpm) mod cell_tracker;
-pub(in crate::mpm) mod checkpoint;
-pub(in crate::mpm) mod columns;
 pub(in crate::mpm) mod combination;
 pub(in crate::mpm) mod heat_solver;
 pub(in crate::mpm) mod initial;
-pub(in crate::mpm) mod perturbation;
+mod observables;
 pub(in crate::mpm) mod schedule;
 pub(in crate::mpm) mod setup;
 pub(in crate::mpm) mod solver;
-mod stress;
 pub(in crate::mpm) mod subject;

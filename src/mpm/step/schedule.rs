@@ -11,7 +11,7 @@
 //! ```
 
 use super::setup::Setup;
-use crate::mpm::stage::Stage;
+use crate::mpm::scheme::Stage;
 use crate::subject::Start;
 use std::sync::Arc;
 

@@ -1,18 +1,15 @@
-//! Parts of a solver.
+//! Parts of a solver, and their columns as a profile of memory and as fields.
 
 use crate::mpm::boundary::Boundary;
 use crate::mpm::effect::Effect;
-use crate::mpm::foundation::frame::FrameName;
 use crate::mpm::foundation::grid::Grid;
-use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::request::G2pRequest;
+use crate::mpm::foundation::particles::{FrameName, Particles};
+use crate::mpm::kernel::contract::{G2pRequest, Kernel};
 use crate::mpm::mass::MassMatrix;
 use crate::mpm::material::Material;
-use crate::mpm::scheme::SchemeName;
-use crate::mpm::stage::Stage;
+use crate::mpm::scheme::{SchemeName, Stage};
 use crate::mpm::transfer::Transfer;
-use crate::subject::{Column, Start};
+use crate::subject::{BodyFields, Column, ColumnSize, Holder, Profile, Start, StateField};
 
 /// Parts of a solver of one body.
 pub struct Setup<const D: usize> {
@@ -71,5 +68,49 @@ impl<const D: usize> Setup<D> {
         columns.extend(grid.columns());
         columns.extend(boundary.iter().flat_map(|condition| condition.columns()));
         columns
+    }
+}
+
+/// Profile of a step of a body with these effects and columns, without its passes and visits.
+pub(in crate::mpm) fn profile<const D: usize>(
+    grid: &Grid<D>,
+    particles: &Particles<D>,
+    effects: &[Box<dyn Effect<D>>],
+    columns: &[Column<'_>],
+) -> Profile {
+    let sizes = columns.iter().map(|column| column.size);
+    Profile {
+        effects: effects.iter().map(|effect| effect.name()).collect(),
+        particles: particles.len(),
+        nodes: grid.nodes(),
+        columns: sizes.filter(|size| size.entries > 0).collect(),
+        ..Profile::default()
+    }
+}
+
+/// The columns that have numbers for every particle or every node. Of two with one name the first.
+pub(in crate::mpm) fn fields<const D: usize>(
+    grid: &Grid<D>,
+    particles: &Particles<D>,
+    columns: &[Column<'_>],
+) -> BodyFields {
+    let of = |holder: Holder, entries: usize| {
+        let mut fields: Vec<StateField> = Vec::new();
+        for column in columns {
+            let ColumnSize { name, .. } = column.size;
+            let is_whole = column.size.holder == holder && column.size.entries == entries;
+            if is_whole && fields.iter().all(|field| field.name != name) {
+                fields.extend(column.field());
+            }
+        }
+        fields
+    };
+    BodyFields {
+        particles: particles.len(),
+        of_particles: of(Holder::Particle, particles.len()),
+        origin: grid.origin.iter().copied().collect(),
+        h: grid.h,
+        counts: grid.counts.to_vec(),
+        of_nodes: of(Holder::Node, grid.nodes()),
     }
 }

@@ -1,22 +1,22 @@
 //! The solver: the passes of a step, one by one. [`schedule`](super::schedule) has their order.
 
 use super::cell_tracker::CellTracker;
-use super::columns::profile;
 use super::initial;
 use super::schedule::{Coupled, Pass, StepSchedule};
-use super::setup::Setup;
+use super::setup::{Setup, profile};
 use crate::mpm::basis::Domain;
 use crate::mpm::boundary::Advance;
+use crate::mpm::effect::strain;
 use crate::mpm::foundation::algebra::Vector;
-use crate::mpm::foundation::frame::FrameName;
 use crate::mpm::foundation::grid::Grid;
-use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::particles::{FrameName, Particles};
 use crate::mpm::foundation::simd::vectorized;
 use crate::mpm::foundation::threads::PIECES;
-use crate::mpm::kernel::tally::Tally;
-use crate::mpm::stage::Stage;
+use crate::mpm::kernel::contract::Tally;
+use crate::mpm::material::StressUpdate;
+use crate::mpm::scheme::Stage;
 use crate::mpm::transfer::{Transfer, g2p};
-use crate::subject::{Column, Failure, Profile};
+use crate::subject::{Column, Failure, Profile, Site};
 
 /// The original MPM at one level of refinement.
 pub struct Solver<const D: usize> {
@@ -247,4 +247,45 @@ fn advance<const D: usize>(v: &mut [Vector<D>], a: &[Vector<D>], dt: f64) {
             },
         );
     });
+}
+
+impl<const D: usize> Solver<D> {
+    /// Deformation, stress and volume from the velocity gradients of the particles.
+    pub(in crate::mpm) fn stress(&mut self, dt: f64) -> Result<(), Failure> {
+        let Setup { particles, material, frame, effects, kernel, grid, .. } = &mut self.setup;
+        if *frame == FrameName::Total {
+            particles.push_gradients_forward();
+        }
+        for effect in effects.iter_mut() {
+            self.transfers += effect.map_velocity(dt, kernel.as_ref(), grid, particles);
+        }
+        let least_j = strain(effects, material.as_mut(), StressUpdate::straining(dt, particles));
+        if let Some(least) = least_j {
+            self.min_j = self.min_j.min(least);
+        } else {
+            self.jacobians()?;
+        }
+        let Setup { particles, material, .. } = &self.setup;
+        // A law of F takes J from F: each number of F is a factor in J, which is finite by now.
+        if !material.reads_deformation() {
+            particles.deformed_finite()?;
+        }
+        if least_j.is_none() { particles.stressed_finite() } else { Ok(()) }
+    }
+
+    /// `J = V / V0` of every particle, of which one may fail: the smallest so far is kept.
+    fn jacobians(&mut self) -> Result<(), Failure> {
+        let Particles { vol, vol0, .. } = &self.setup.particles;
+        for (p, (vol, vol0)) in vol.iter().zip(vol0).enumerate() {
+            let (j, site) = (vol / vol0, Site::Particle(p));
+            if !j.is_finite() {
+                return Err(Failure::NonFinite { quantity: "J", site });
+            }
+            self.min_j = self.min_j.min(j);
+            if j <= 0.0 {
+                return Err(Failure::Inverted { site, j });
+            }
+        }
+        Ok(())
+    }
 }

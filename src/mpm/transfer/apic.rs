@@ -12,7 +12,7 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::Moments;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
+use crate::mpm::kernel::contract::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
 use crate::subject::Column;
 
 /// Affine particle in cell.

@@ -10,8 +10,8 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::Moments;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
-use crate::mpm::stage::Stage;
+use crate::mpm::kernel::contract::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
+use crate::mpm::scheme::Stage;
 use crate::subject::Column;
 
 /// Taylor particle in cell.

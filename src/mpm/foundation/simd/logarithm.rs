@@ -4,7 +4,7 @@
 //! place) without its branches, so that the compiler fills registers with them. A test holds them
 //! to the same bits.
 
-use super::batch::{BATCH, F64Batch};
+use super::{BATCH, F64Batch};
 
 /// Bits of the square root of 1/2, to 32 bits: where numbers are split into `2^k` and a factor.
 const ROOT_OF_HALF: u64 = 0x3fe6_a09e << 32;

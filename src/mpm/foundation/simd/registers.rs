@@ -1,6 +1,6 @@
 //! Registers of x86.
 
-use super::f64x4::F64x4;
+use super::register::F64x4;
 use super::register::Register;
 use fearless_simd::{Select, SimdBase, SimdFloat, SimdMask};
 

@@ -1,22 +1,63 @@
-//! The consistent matrix, `M_ij = sum_p m_p N_i(x_p) N_j(x_p)` (Sulsky, Chen & Schreyer 1994, eq.
-//! 2.16), solved by a sparse Cholesky factorisation.
-//!
-//! Order p + 1 needs it with a basis of degree p > 1. Nodes without mass have no row, held
-//! nodes none in the component that is held: there, walls must be at rest. A node that too few
-//! particles see makes the matrix singular, and the run fails with that reason. The sparsity
-//! patterns of the matrix and of its factor are found anew only if particles have come to other
-//! nodes.
+//! Mass matrices: the family. A member is one line below and its type.
 
-use super::assembly::Assembly;
-use super::contract::MassMatrix;
-use crate::mpm::boundary::Boundary;
-use crate::mpm::foundation::algebra::Vector;
-use crate::mpm::foundation::grid::Grid;
-use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
+use super::boundary::Boundary;
+use super::foundation::algebra::Vector;
+use super::foundation::family::objects;
+use super::foundation::grid::Grid;
+use super::foundation::particles::Particles;
+use super::kernel::contract::Kernel;
 use crate::subject::Failure;
 use nalgebra::DVector;
 use nalgebra_sparse::factorization::{CholeskyError, CscCholesky, CscSymbolicCholesky};
+use nalgebra_sparse::pattern::SparsityPattern;
+
+objects! {
+    /// Names of the mass matrices that suites may choose for MPM.
+    pub enum MassName;
+    /// Makes the mass matrix that a suite names.
+    pub fn mass_matrix -> MassMatrix;
+    "lumped" => Lumped: Lumped,
+    "consistent" => Consistent: Consistent::default(),
+}
+
+/// Turns nodal momenta into velocities, and forces into accelerations.
+pub trait MassMatrix<const D: usize>: Send + Sync {
+    /// Assembles the matrix for new positions of the particles; `grid.mass` is up to date. Returns
+    /// the passes over particles that it took.
+    ///
+    /// # Errors
+    /// [`Failure::Solve`] if there is no inverse.
+    fn assemble(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        particles: &Particles<D>,
+        grid: &Grid<D>,
+        boundary: &[Box<dyn Boundary<D>>],
+    ) -> Result<u64, Failure>;
+
+    /// Divides `field` (kg m/s, or N) by the matrix. Values on held nodes are not defined.
+    fn solve(&self, grid: &Grid<D>, field: &mut [Vector<D>]);
+}
+
+/// The mass matrix of the original MPM.
+#[derive(Debug, Clone, Copy)]
+pub struct Lumped;
+
+impl<const D: usize> MassMatrix<D> for Lumped {
+    fn assemble(
+        &mut self,
+        _: &dyn Kernel<D>,
+        _: &Particles<D>,
+        _: &Grid<D>,
+        _: &[Box<dyn Boundary<D>>],
+    ) -> Result<u64, Failure> {
+        Ok(0)
+    }
+
+    fn solve(&self, grid: &Grid<D>, field: &mut [Vector<D>]) {
+        grid.divide_by_mass(field);
+    }
+}
 
 /// The consistent mass matrix.
 #[derive(Default)]
@@ -175,6 +216,90 @@ impl<const D: usize> MassMatrix<D> for Consistent {
             if let Some(factor) = self.factors.get(axis).or(self.factors.first()) {
                 factor.solve(axis, field);
             }
+        }
+    }
+}
+
+/// Where the entries of a matrix go.
+pub(self) struct Assembly {
+    /// Where the matrix is not zero.
+    pub(self) pattern: SparsityPattern,
+    /// The numbers of the entries, those of a place behind each other, place after place.
+    order: Vec<usize>,
+    /// Where in `order` the entries of each place end.
+    ends: Vec<usize>,
+}
+
+impl Assembly {
+    /// For a matrix of `size` rows with entries at `places`, row and column; those without are left
+    /// out.
+    ///
+    /// Entries of a place are added in the order of a sort that is not stable, but the same
+    /// everywhere: that of `nalgebra_sparse` for a `CooMatrix`, and so are the bits.
+    pub(self) fn new(size: usize, places: impl Iterator<Item = Option<(usize, usize)>>) -> Self {
+        let mut columns = vec![Vec::new(); size];
+        let mut row = Vec::new();
+        for (entry, place) in places.enumerate() {
+            row.push(place.map_or(0, |(i, _)| i));
+            if let Some((_, j)) = place {
+                columns[j].push(entry);
+            }
+        }
+        let (mut order, mut ends) = (Vec::with_capacity(row.len()), Vec::new());
+        let (mut offsets, mut rows) = (vec![0], Vec::new());
+        for mut column in columns {
+            column.sort_unstable_by_key(|entry| row[*entry]);
+            for same in column.chunk_by(|a, b| row[*a] == row[*b]) {
+                rows.push(row[same[0]]);
+                order.extend_from_slice(same);
+                ends.push(order.len());
+            }
+            offsets.push(rows.len());
+        }
+        let pattern = SparsityPattern::try_from_offsets_and_indices(size, size, offsets, rows)
+            .expect("rows are sorted, and each occurs once in a column");
+        Self { pattern, order, ends }
+    }
+
+    /// The values of the matrix, column by column, from those of all entries.
+    pub(self) fn add_up(&self, entries: &[f64], values: &mut Vec<f64>) {
+        values.clear();
+        let mut start = 0;
+        for end in &self.ends {
+            let sum = self.order[start..*end].iter().map(|entry| entries[*entry]);
+            values.push(sum.reduce(|sum, entry| sum + entry).unwrap_or_default());
+            start = *end;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra_sparse::{CooMatrix, CscMatrix};
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Columns with few entries and with many: sorting takes other ways for short lists.
+        #[test]
+        fn the_bits_are_those_of_the_library(
+            entries in proptest::collection::vec((0..6_usize, 0..6_usize, 1e-3..1.0_f64), 0..900),
+        ) {
+            // The row and column 5 is that of nodes that are held.
+            let free = |i: usize, j: usize| (i < 5 && j < 5).then_some((i, j));
+            let mut matrix = CooMatrix::new(5, 5);
+            for &(i, j, value) in &entries {
+                if let Some((i, j)) = free(i, j) {
+                    matrix.push(i, j, value);
+                }
+            }
+            let expected = CscMatrix::from(&matrix);
+            let found = Assembly::new(5, entries.iter().map(|&(i, j, _)| free(i, j)));
+            prop_assert_eq!(&found.pattern, expected.pattern());
+            let mut values = Vec::new();
+            let masses: Vec<f64> = entries.iter().map(|entry| entry.2).collect();
+            found.add_up(&masses, &mut values);
+            prop_assert_eq!(values, expected.values());
         }
     }
 }
