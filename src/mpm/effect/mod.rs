@@ -3,6 +3,11 @@
 
 mod contract;
 mod hoop;
+/// The effect that `docs/exercises/effect.md` adds.
+#[cfg(test)]
+#[allow(unreachable_pub)] // public where the page puts it
+#[path = "../../../tests/exercises/spin.rs"]
+mod spin;
 mod surface;
 mod thermal_face;
 

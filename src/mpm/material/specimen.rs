@@ -27,10 +27,14 @@ pub(super) struct Specimen<const D: usize>(Box<dyn Material<D>>, Particles<D>);
 
 impl<const D: usize> Specimen<D> {
     pub(super) fn new(plan: MaterialPlan) -> Self {
+        Self::with(plan.build())
+    }
+
+    pub(super) fn with(material: Box<dyn Material<D>>) -> Self {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
         let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
         particles.track_deformation();
-        Self(plan.build(), particles)
+        Self(material, particles)
     }
 
     /// A particle of a body in this state across its plane, if the law is known there.

@@ -1,6 +1,10 @@
 //! Transfers of velocity between particles and grid: the family. A member is one file and one
 //! line below, and another one if suites may give it a parameter.
 
+/// The transfer that `docs/exercises/transfer.md` adds.
+#[cfg(test)]
+#[path = "../../../tests/exercises/aflip.rs"]
+mod aflip;
 mod apic;
 mod blend;
 mod contract;
