@@ -221,9 +221,9 @@ impl<const D: usize> MassMatrix<D> for Consistent {
 }
 
 /// Where the entries of a matrix go.
-pub(self) struct Assembly {
+struct Assembly {
     /// Where the matrix is not zero.
-    pub(self) pattern: SparsityPattern,
+    pattern: SparsityPattern,
     /// The numbers of the entries, those of a place behind each other, place after place.
     order: Vec<usize>,
     /// Where in `order` the entries of each place end.
@@ -236,7 +236,7 @@ impl Assembly {
     ///
     /// Entries of a place are added in the order of a sort that is not stable, but the same
     /// everywhere: that of `nalgebra_sparse` for a `CooMatrix`, and so are the bits.
-    pub(self) fn new(size: usize, places: impl Iterator<Item = Option<(usize, usize)>>) -> Self {
+    fn new(size: usize, places: impl Iterator<Item = Option<(usize, usize)>>) -> Self {
         let mut columns = vec![Vec::new(); size];
         let mut row = Vec::new();
         for (entry, place) in places.enumerate() {
@@ -262,7 +262,7 @@ impl Assembly {
     }
 
     /// The values of the matrix, column by column, from those of all entries.
-    pub(self) fn add_up(&self, entries: &[f64], values: &mut Vec<f64>) {
+    fn add_up(&self, entries: &[f64], values: &mut Vec<f64>) {
         values.clear();
         let mut start = 0;
         for end in &self.ends {

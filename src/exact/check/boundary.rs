@@ -3,8 +3,8 @@
 use super::event::{AXES, Event, OnFace, SpaceTimeBox};
 use super::friction;
 use super::survey::{self, Magnitudes, Survey};
+use crate::exact::condition::Face;
 use crate::exact::condition::FacePoint;
-use crate::exact::face::Face;
 use crate::exact::formula::Formula;
 use crate::exact::linearised::share;
 use crate::exact::motion::{Derivatives, variables};

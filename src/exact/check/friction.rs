@@ -4,7 +4,7 @@
 //! Forces are those on the reference area, of which both sides of Coulomb's law have the same.
 
 use super::event::{AXES, Event};
-use crate::exact::face::Face;
+use crate::exact::condition::Face;
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::violation::Violation;

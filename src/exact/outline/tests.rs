@@ -1,8 +1,8 @@
 //! Polygons: what is one, and what the shares of a lattice have of it.
 
-use super::moments::AreaMoments;
-use super::side::Point;
-use super::triangle::triangles;
+use super::polygon::AreaMoments;
+use super::polygon::Point;
+use super::polygon::triangles;
 use super::{Cut, Outline, Piece, Polygon, join_small};
 use crate::exact::random::Random;
 use approx::assert_relative_eq;

@@ -78,15 +78,15 @@ const fn parameter(
     MaterialParameter { what, symbol, unit, range }
 }
 
-pub(self) const YOUNG: MaterialParameter = parameter("Young's modulus", "E", "Pa", Range::Positive);
-pub(self) const POISSON: MaterialParameter =
+const YOUNG: MaterialParameter = parameter("Young's modulus", "E", "Pa", Range::Positive);
+const POISSON: MaterialParameter =
     parameter("Poisson's ratio", "nu", "", Range::PoissonsRatio);
-pub(self) const YIELD: MaterialParameter =
+const YIELD: MaterialParameter =
     parameter("the yield stress", "Y", "Pa", Range::Positive);
-pub(self) const HARDENING: MaterialParameter =
+const HARDENING: MaterialParameter =
     parameter("the hardening modulus", "H", "Pa", Range::NotNegative);
-pub(self) const BULK: MaterialParameter = parameter("the bulk modulus", "K", "Pa", Range::Positive);
-pub(self) const VISCOSITY: MaterialParameter =
+const BULK: MaterialParameter = parameter("the bulk modulus", "K", "Pa", Range::Positive);
+const VISCOSITY: MaterialParameter =
     parameter("the viscosity", "eta", "Pa s", Range::NotNegative);
-pub(self) const DENSITY: MaterialParameter =
+const DENSITY: MaterialParameter =
     parameter("the density", "rho0", "kg/m3", Range::Positive);

@@ -1,8 +1,8 @@
 //! The same once more: looked at twice, with half of the step, made anew, interrupted.
 
-use super::breach::Breach;
+use super::course::ROUNDING;
+use super::record::Breach;
 use super::record::{RunState, difference, largest, record};
-use super::start::ROUNDING;
 use crate::subject::{Checkpoint, Samples, Subject};
 
 /// Makes the subject in its initial state.

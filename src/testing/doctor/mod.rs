@@ -17,21 +17,18 @@ mod course;
 mod examination;
 mod finding;
 mod motion;
-mod page;
 mod patient;
-mod question;
 mod scene;
-mod vectors;
 
+pub use finding::page;
 pub use finding::{
     DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding,
 };
-pub use page::page;
 
 use crate::external::SolverFactory;
 use examination::ALL;
+use patient::Examination;
 use patient::{Hindrance, Patient};
-use question::Examination;
 
 /// Examines a solver, the plainest question first. One that says nothing as long as another has
 /// defects is left out then. `progress` is called with the name of each.

@@ -142,18 +142,18 @@ fn p2g_momentum<const D: usize>(
 }
 
 /// The particles that a cell holds.
-pub(self) struct Fit<'a, const D: usize> {
+struct Fit<'a, const D: usize> {
     /// Positions of all particles (m), inside the grid on periodic axes.
-    pub(self) x: &'a [Vector<D>],
+    x: &'a [Vector<D>],
     /// Those in the cell, at least one.
-    pub(self) members: &'a [usize],
+    members: &'a [usize],
 }
 
 impl<const D: usize> Fit<'_, D> {
     /// Value at `point` of the polynomial whose integral over the cell is `sum`, and whose slope
     /// fits the densities that particles have: `f(x) = mean + g . (x - centre)`, g by least squares
     /// (Wobbes et al. 2019, with the Taylor basis of degree one).
-    pub(self) fn conserved<T>(
+    fn conserved<T>(
         &self,
         point: &QuadraturePoint<D>,
         sum: T,
@@ -168,7 +168,7 @@ impl<const D: usize> Fit<'_, D> {
     }
 
     /// Value at `point` of the linear least-squares fit.
-    pub(self) fn free<T>(&self, point: &QuadraturePoint<D>, value: impl Fn(usize) -> T) -> T
+    fn free<T>(&self, point: &QuadraturePoint<D>, value: impl Fn(usize) -> T) -> T
     where
         T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
     {

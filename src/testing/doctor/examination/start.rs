@@ -6,13 +6,13 @@
 
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside};
 use crate::mpm::det_of_rows;
+use crate::testing::doctor::course::AffineField;
 use crate::testing::doctor::course::{Course, displacement, shown};
+use crate::testing::doctor::course::{minus, size, times};
 use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::patient::Examination;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
 use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind};
-use crate::testing::doctor::vectors::AffineField;
-use crate::testing::doctor::vectors::{minus, size, times};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "start",

@@ -2,9 +2,9 @@
 
 use super::seen::UniformMotion;
 use crate::testing::doctor::course::{displacement, shown, shown_vector, velocity};
+use crate::testing::doctor::course::{dot, minus, size, times};
 use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::patient::Hindrance;
-use crate::testing::doctor::vectors::{dot, minus, size, times};
 use std::f64::consts::SQRT_2;
 
 /// Distance from the rim (cells) up to which functions see nodes beyond it.

@@ -2,9 +2,9 @@
 
 use super::seen::UniformMotion;
 use crate::testing::doctor::course::{displacement, line, shown, shown_vector, velocity};
+use crate::testing::doctor::course::{dot, minus, size, times};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::Hindrance;
-use crate::testing::doctor::vectors::{dot, minus, size, times};
 
 /// Share by which a figure may be off the pattern that explains it.
 const NEAR: f64 = 0.02;

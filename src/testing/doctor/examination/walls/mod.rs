@@ -15,15 +15,14 @@
 
 mod judge;
 mod measure;
-mod stretch;
 
 use super::translation::VELOCITY;
+use crate::testing::doctor::course::AffineField;
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::uniform;
+use crate::testing::doctor::patient::Examination;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
 use crate::testing::doctor::scene::{BoxScene, ELASTIC, FACES, H, Kind};
-use crate::testing::doctor::vectors::AffineField;
 use judge::{finding, uneven};
 use measure::{Wall, bar, walls_across};
 

@@ -1,9 +1,9 @@
-//! Exact sums over the body or over faces of it, by quadrature in the reference configuration.
+//! Exact sums over the body and over faces of it.
 
-use crate::exact::face::Face;
-use crate::exact::gauss::points;
-use crate::exact::motion::Derivatives;
-use crate::exact::problem::Problem;
+use super::condition::Face;
+use super::gauss::points;
+use super::motion::Derivatives;
+use super::problem::Problem;
 
 /// Up to three components, and the size that an error of their sum is small against.
 type ValueAndSize = ([f64; 3], f64);

@@ -1,13 +1,10 @@
 //! The manufactured body force of a run: at the same places, step after step.
 
-mod shared;
-
 use super::motion::{Derivatives, Places};
 use super::problem::Problem;
+pub use super::problem::SharedForces;
 use crate::subject::PlaneState;
 use std::sync::Arc;
-
-pub use shared::SharedForces;
 
 /// The manufactured body force at places that have been given once.
 pub struct Forcing {
