@@ -54,7 +54,7 @@ impl Forcing {
             let mut left = [0.0; 3];
             for (i, left) in left.iter_mut().enumerate().take(dimension) {
                 let stated = uniform[i] + self.problem.placed(i, label, t, &now.u);
-                *left = whole[i] - stated - self.problem.resistance(i, (label, t), &now, stated);
+                *left = whole[i] - stated - self.problem.resistance(i, label, t, &now, stated);
             }
             if self.shared.is_some() {
                 found.extend_from_slice(&left[..dimension]);

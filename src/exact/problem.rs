@@ -125,7 +125,7 @@ impl Problem {
         let balance = self.balance(label, t, &now);
         std::array::from_fn(|i| {
             let stated = self.stated(i, label, t, &now.u);
-            balance[i] - stated - self.resistance(i, (label, t), &now, stated)
+            balance[i] - stated - self.resistance(i, label, t, &now, stated)
         })
     }
 
@@ -136,7 +136,7 @@ impl Problem {
         }
         std::array::from_fn(|i| {
             let stated = self.stated(i, label, t, &now.u);
-            stated + self.resistance(i, (label, t), now, stated)
+            stated + self.resistance(i, label, t, now, stated)
         })
     }
 
@@ -172,7 +172,8 @@ impl Problem {
     pub(super) fn resistance(
         &self,
         i: usize,
-        (label, t): (&[f64], f64),
+        label: &[f64],
+        t: f64,
         now: &Derivatives,
         stated: f64,
     ) -> f64 {
@@ -257,7 +258,9 @@ impl Problem {
         let axes = if self.plane == PlaneState::Strain { self.dimension() } else { 3 };
         let force = match self.swelling(label, t) {
             None => self.equation.divergence(axes, slopes.0, slopes.1),
-            Some(swelling) => swollen_divergence(&self.equation, axes, slopes, &swelling),
+            Some(swelling) => {
+                swollen_divergence(&self.equation, axes, slopes.0, slopes.1, &swelling)
+            }
         };
         let hoops = self.hoop_force(label, t, now);
         let force: [f64; 3] = std::array::from_fn(|i| force[i] + hoops[i]);

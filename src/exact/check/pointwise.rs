@@ -21,7 +21,7 @@ pub(crate) fn presence(problem: &Problem, survey: &Survey) -> Result<(), Violati
     for SurveyPoint { event, now, .. } in &survey.points {
         if let Some(u) = now.u.iter().find(|u| !u.is_finite()) {
             let condition = "the demand that the displacement is finite".to_owned();
-            return Err(event.violation(condition, None, *u, (None, "m")));
+            return Err(event.violation(condition, None, *u, None, "m"));
         }
     }
     let first = &first.event;
@@ -31,7 +31,7 @@ pub(crate) fn presence(problem: &Problem, survey: &Survey) -> Result<(), Violati
         return Ok(());
     }
     let condition = "the demand that the displacement is not zero everywhere".to_owned();
-    Err(first.violation(condition, None, 0.0, (None, "m")))
+    Err(first.violation(condition, None, 0.0, None, "m"))
 }
 
 /// u(X, 0) = u0(X) and u_t(X, 0) = v0(X).

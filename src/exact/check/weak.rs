@@ -43,12 +43,13 @@ fn crossing(problem: &Problem) -> f64 {
 
 /// A random patch of the body.
 fn draw(random: &mut Random, problem: &Problem) -> SpaceTimePatch {
-    let (ends, longest) = ((&problem.from[..], &problem.to[..]), WAVES * crossing(problem));
+    let (from, to) = (&problem.from[..], &problem.to[..]);
+    let longest = WAVES * crossing(problem);
     match &problem.outline {
-        None => SpaceTimePatch::in_box(random, ends, problem.until, longest),
+        None => SpaceTimePatch::in_box(random, from, to, problem.until, longest),
         Some(outline) => {
-            let place = outline.patch(random);
-            SpaceTimePatch::over(random, place, problem.until, longest)
+            let (centre, half) = outline.patch(random);
+            SpaceTimePatch::over(random, centre, half, problem.until, longest)
         }
     }
 }
@@ -70,9 +71,10 @@ pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violati
         balance(problem, draw(&mut random, problem), &survey.largest)?;
     }
     for event in survey.active(count, |sizes| sizes.stress) {
-        let (ends, longest) = ((&problem.from[..], &problem.to[..]), WAVES * crossing(problem));
+        let (from, to) = (&problem.from[..], &problem.to[..]);
+    let longest = WAVES * crossing(problem);
         let whole = match &problem.outline {
-            None => SpaceTimePatch::whole(ends, problem.until, longest, event.t),
+            None => SpaceTimePatch::whole(from, to, problem.until, longest, event.t),
             Some(_) => draw(&mut random, problem),
         };
         balance(problem, whole.about(event, &mut random), &survey.largest)?;

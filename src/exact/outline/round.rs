@@ -179,10 +179,10 @@ pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     if !(low < high) {
         return 0.0;
     }
-    let kinks = || kinks(radius, others, (low, high));
+    let kinks = || kinks(radius, others, low, high);
     match others {
         [] => high - low,
-        [across] => kinks().windows(2).map(|x| between_chords(radius, *across, x)).sum(),
+        [across] => kinks().windows(2).map(|x| between_chords(radius, across.0, across.1, x)).sum(),
         _ => {
             let slice = |x: f64| ball_in_box((radius * radius - x * x).max(0.0).sqrt(), others);
             kinks().windows(2).map(|x| integral(x, slice)).sum()
@@ -203,7 +203,7 @@ fn integral(ends: &[f64], slice: impl Fn(f64) -> f64) -> f64 {
 
 /// The area of a circle between chords at two `ends`, and between `low` and `high` across
 /// them, if each of these two is either inside the circle or outside all the way.
-fn between_chords(radius: f64, (low, high): (f64, f64), ends: &[f64]) -> f64 {
+fn between_chords(radius: f64, low: f64, high: f64, ends: &[f64]) -> f64 {
     let (from, to) = (ends[0], ends[1]);
     let root = |x: f64| (radius * radius - x * x).max(0.0).sqrt();
     let below =
@@ -216,7 +216,7 @@ fn between_chords(radius: f64, (low, high): (f64, f64), ends: &[f64]) -> f64 {
 
 /// Places from `low` to `high` at which a slice touches a face, an edge or a corner of `others`,
 /// in their order, with both ends.
-fn kinks(radius: f64, others: &[(f64, f64)], (low, high): (f64, f64)) -> Vec<f64> {
+fn kinks(radius: f64, others: &[(f64, f64)], low: f64, high: f64) -> Vec<f64> {
     let with = |squares: Vec<f64>, (from, to): &(f64, f64)| -> Vec<f64> {
         squares.into_iter().flat_map(|s| [s, s + from * from, s + to * to]).collect()
     };

@@ -68,7 +68,7 @@ impl<const D: usize> Solver<D> {
         let (mut dt, mut rounds) = (longest, rounds);
         for _ in 0..REPEATS {
             let speed = SPEED * self.setup.grid.h / longest;
-            let square = self.square_of_frequency(&start, &mut mode, (dt, speed), rounds)?;
+            let square = self.square_of_frequency(&start, &mut mode, dt, speed, rounds)?;
             let stable = (2.0 / (square + held)).sqrt();
             if stable.is_nan() {
                 return Err(Failure::Solve("the body has no highest frequency".to_owned()));
@@ -87,7 +87,8 @@ impl<const D: usize> Solver<D> {
         &mut self,
         start: &[u8],
         mode: &mut [Vector<D>],
-        (dt, speed): (f64, f64),
+        dt: f64,
+        speed: f64,
         rounds: u32,
     ) -> Result<f64, Failure> {
         let still = vec![Vector::zeros(); mode.len()];

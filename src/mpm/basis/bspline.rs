@@ -154,7 +154,8 @@ fn along_wall<const D: usize, const K: usize>(
 fn put_right<const D: usize, const K: usize>(
     grid: &Grid<D>,
     axis: usize,
-    (cell, xi): ([f64; LANES], [f64; LANES]),
+    cell: [f64; LANES],
+    xi: [f64; LANES],
     lane: usize,
     weights: &mut Weights1dBatch<K>,
 ) {
@@ -230,7 +231,7 @@ macro_rules! bspline {
                     let (low, high) =
                         uniform_cells($degree, locator.ends[axis], locator.periodic[axis]);
                     if !cell.are_in(low, high) {
-                        put_right(grid, axis, (cell.into(), xi.into()), lane, weights);
+                        put_right(grid, axis, cell.into(), xi.into(), lane, weights);
                     }
                 }
                 inside

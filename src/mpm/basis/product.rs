@@ -156,7 +156,8 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         lane: usize,
         sum: Option<F>,
         flux: &[F; D],
-        (j, k): (usize, usize),
+        j: usize,
+        k: usize,
     ) -> F {
         let along = self.axes[1].slope[j].get(lane) * self.weight(lane, 2, k);
         let sum = plus_product(sum, flux[1], along);
@@ -222,7 +223,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
                     of_row = Some(value * weight);
                 }
                 if let (true, Some(flux)) = (D > 1, &flux) {
-                    of_row = Some(self.flux_across(lane, of_row, flux, (j, k)));
+                    of_row = Some(self.flux_across(lane, of_row, flux, j, k));
                 }
                 accumulator.add::<D>(
                     start,

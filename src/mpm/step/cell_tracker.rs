@@ -50,7 +50,7 @@ impl<const D: usize> CellTracker<D> {
     ) -> Result<(), Failure> {
         let x = particles.positions();
         let found = if particles.current_position.is_empty() {
-            enter_all(grid, (&mut self.cells, x), 0)
+            enter_all(grid, &mut self.cells, x, 0)
         } else {
             let lost = x.iter().position(|x| !is_finite(x));
             CellChanges { lost, ..CellChanges::default() }
@@ -74,7 +74,8 @@ struct CellChanges {
 /// on all threads.
 fn enter_all<const D: usize>(
     grid: &Grid<D>,
-    (cells, x): (&mut [[f64; D]], &[Vector<D>]),
+    cells: &mut [[f64; D]],
+    x: &[Vector<D>],
     first: usize,
 ) -> CellChanges {
     let mut found = CellChanges::default();
@@ -83,8 +84,8 @@ fn enter_all<const D: usize>(
         let ((low, high), (x_of_low, x_of_high)) = (cells.split_at_mut(middle), x.split_at(middle));
         let mut of_high = found;
         join(
-            || found = enter_all(grid, (low, x_of_low), first),
-            || of_high = enter_all(grid, (high, x_of_high), first + middle),
+            || found = enter_all(grid, low, x_of_low, first),
+            || of_high = enter_all(grid, high, x_of_high, first + middle),
         );
         return CellChanges {
             crossings: found.crossings + of_high.crossings,
@@ -98,7 +99,7 @@ fn enter_all<const D: usize>(
             let batches = cells.chunks_mut(BATCH).zip(x.chunks(BATCH));
             for (batch, (cells, x)) in batches.enumerate() {
                 if !stay(grid, cells, x) {
-                    enter_each(grid, (cells, x), first + batch * BATCH, &mut found);
+                    enter_each(grid, cells, x, first + batch * BATCH, &mut found);
                 }
             }
         },
@@ -133,7 +134,8 @@ fn stay<const D: usize>(grid: &Grid<D>, cells: &[[f64; D]], x: &[Vector<D>]) -> 
 #[inline(never)]
 fn enter_each<const D: usize>(
     grid: &Grid<D>,
-    (cells, x): (&mut [[f64; D]], &[Vector<D>]),
+    cells: &mut [[f64; D]],
+    x: &[Vector<D>],
     first: usize,
     found: &mut CellChanges,
 ) {

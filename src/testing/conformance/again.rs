@@ -23,7 +23,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     let [first, second, ..] = states else { return None };
     let fastest = largest(&first.samples.velocity);
     let mut halved = Vec::new();
-    let stepped = record(make().ok()?.as_mut(), (1, 0.5 * dt), &mut halved);
+    let stepped = record(make().ok()?.as_mut(), 1, 0.5 * dt, &mut halved);
     if !(fastest > 0.0) || stepped.is_err() {
         return None;
     }
@@ -51,7 +51,7 @@ pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Bre
     let mut subject = make().ok()?;
     let mut again = vec![RunState::of(subject.as_ref())];
     let wanted = "the same course of two subjects of one problem";
-    if let Err(failure) = record(subject.as_mut(), (states.len() - 1, dt), &mut again) {
+    if let Err(failure) = record(subject.as_mut(), states.len() - 1, dt, &mut again) {
         return Some(Breach::new("repeat", wanted, format!("the second one fails: {failure}")));
     }
     let pairs = states.iter().zip(&again).enumerate();
@@ -68,7 +68,7 @@ pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breac
     let found = |wanted: &str, seen: String| vec![Breach::new("restart", wanted, seen)];
     let (Ok(mut subject), Ok(mut fresh)) = (make(), make()) else { return Vec::new() };
     let mut course = Vec::new();
-    if record(subject.as_mut(), (first.len() - 1, dt), &mut course).is_err() {
+    if record(subject.as_mut(), first.len() - 1, dt, &mut course).is_err() {
         return Vec::new();
     }
     let mut written = Checkpoint::empty();
@@ -87,7 +87,7 @@ pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breac
         (&mut fresh, "the bits of a run that was not interrupted"),
     ] {
         let mut course = Vec::new();
-        let stepped = record(subject.as_mut(), (rest.len(), dt), &mut course);
+        let stepped = record(subject.as_mut(), rest.len(), dt, &mut course);
         let pairs = rest.iter().zip(&course).enumerate();
         let mut off = pairs.filter_map(|(step, (a, b))| {
             let off = difference(&a.samples, &b.samples, 0.0).or_else(|| counted(a, b));

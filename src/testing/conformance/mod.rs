@@ -98,7 +98,7 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
     breaches.extend(course::start(problem, &states[0].samples));
     breaches.extend(again::sample(subject.as_ref(), &states[0].samples));
     let steps = STEPS.min(problem.steps as usize);
-    if let Err(failure) = record(subject.as_mut(), (steps, problem.dt), &mut states) {
+    if let Err(failure) = record(subject.as_mut(), steps, problem.dt, &mut states) {
         let wanted = format!("{steps} steps of {:e} s on the coarsest level", problem.dt);
         let seen = format!("step {} fails: {failure}", states.len());
         breaches.push(Breach::new("step", wanted, seen));

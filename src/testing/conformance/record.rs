@@ -22,7 +22,8 @@ impl RunState {
 /// Adds the states after each of so many steps of length `dt` (s), up to one that fails.
 pub(super) fn record(
     subject: &mut dyn Subject,
-    (steps, dt): (usize, f64),
+    steps: usize,
+    dt: f64,
     states: &mut Vec<RunState>,
 ) -> Result<(), Failure> {
     for _ in 0..steps {

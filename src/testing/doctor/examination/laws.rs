@@ -124,7 +124,7 @@ fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFindi
     scene.young = scene.density * H * H;
     let scene = BoxScene { steps: STEPS, dt: 1.0 / STEPS as f64, ..scene };
     let courses = patient.run_all(&[scene.clone(), scene.soft()])?;
-    let impulse = |course: &Course| impulses(course, &scene, (0, 0))[course.last()];
+    let impulse = |course: &Course| impulses(course, &scene, 0, 0)[course.last()];
     let d = scene.dimension;
     // The first Piola stress along the stretch by Simpson's rule: J = F_00, so that P_00 is
     // sigma_00.

@@ -123,7 +123,7 @@ impl Forces {
         let mut measured = [0.0; 3];
         let mut along = vec![0.0; course.states.len()];
         for j in 0..d {
-            let impulse = impulses(course, scene, (0, j));
+            let impulse = impulses(course, scene, 0, j);
             measured[j] = constant_and_rate(&course.times, &impulse)[0];
             along.iter_mut().zip(&impulse).for_each(|(sum, impulse)| *sum += unit[j] * impulse);
         }

@@ -60,10 +60,10 @@ pub(super) fn moduli_by_momentum(
     soft: Option<&Course>,
     scene: &BoxScene,
 ) -> MeasuredModuli {
-    let flux = |way: (usize, usize)| {
-        let mut difference = impulses(course, scene, way);
+    let flux = |(i, j): (usize, usize)| {
+        let mut difference = impulses(course, scene, i, j);
         if let Some(soft) = soft {
-            let averaged = impulses(soft, scene, way);
+            let averaged = impulses(soft, scene, i, j);
             difference.iter_mut().zip(averaged).for_each(|(impulse, other)| *impulse -= other);
         }
         constant_and_rate(&course.times, &difference)
@@ -71,7 +71,7 @@ pub(super) fn moduli_by_momentum(
     let [viscous, along] = flux((0, 0));
     let last = course.last();
     let averaged = soft.map_or(0.0, |soft| {
-        impulses(soft, scene, (0, 0))[last] / impulses(course, scene, (0, 0))[last]
+        impulses(soft, scene, 0, 0)[last] / impulses(course, scene, 0, 0)[last]
     });
     let mut measured = MeasuredModuli {
         along: along / STRETCH,
@@ -114,7 +114,8 @@ pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) 
 pub(in crate::testing::doctor) fn impulses(
     course: &Course,
     scene: &BoxScene,
-    (i, j): (usize, usize),
+    i: usize,
+    j: usize,
 ) -> Vec<f64> {
     let (d, middle) = (scene.dimension, scene.centre());
     let weight = &course.states[0].weight;
