@@ -235,6 +235,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
     use proptest::prelude::*;
+    use proptest::test_runner::FileFailurePersistence;
     use rstest::rstest;
     use std::f64::consts::{FRAC_PI_4, PI};
 
@@ -314,6 +315,14 @@ mod tests {
     }
 
     proptest! {
+        // The cases that failed once are in tests/proptest-regressions/exact/outline/round.txt.
+        #![proptest_config(ProptestConfig {
+            failure_persistence: Some(Box::new(FileFailurePersistence::SourceParallel(
+                "tests/proptest-regressions",
+            ))),
+            ..ProptestConfig::default()
+        })]
+
         /// A corner inside the ball, and faces, edges and corners on either side of it.
         #[test]
         fn the_parts_of_a_box_have_its_volume(
