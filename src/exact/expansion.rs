@@ -27,7 +27,7 @@ pub(super) struct Swelling {
 
 impl Expansion {
     /// The stretch at a temperature, and its gradient.
-    pub(super) fn of(&self, now: &TemperatureDerivatives) -> Swelling {
+    pub(super) fn swelling(&self, now: &TemperatureDerivatives) -> Swelling {
         Swelling {
             theta: 1.0 + self.coefficient * (now.value - self.reference),
             grad: now.grad.map(|slope| self.coefficient * slope),

@@ -31,8 +31,7 @@ pub(crate) mod tests;
 
 pub use check::interface::{Interface, meets};
 pub use check::survey::{Magnitudes, Survey};
-pub use condition::Face;
-pub use condition::{Condition, FacePoint};
+pub use condition::{Condition, Face, FacePoint};
 pub use correction::FirstCorrection;
 pub use expansion::Expansion;
 pub use forcing::{Forcing, SharedForces};
@@ -44,7 +43,6 @@ pub use outline::{Cut, Outline, Piece, Polygon, Round, join_small};
 pub use problem::Problem;
 pub use random::Random;
 pub use sum::{BodySum, SumDensity, SumPoint, SumRegion};
-pub use term::Region;
-pub use term::Term;
+pub use term::{Region, Term};
 pub use truth::Truth;
 pub use violation::Violation;

@@ -224,7 +224,7 @@ impl Problem {
     pub(super) fn swelling(&self, label: &[f64], t: f64) -> Option<Swelling> {
         let heat = self.heat.as_ref()?;
         let expansion = self.terms.iter().find_map(|term| term.expansion())?;
-        Some(expansion.of(&heat.temperature.derivatives(label, t)))
+        Some(expansion.swelling(&heat.temperature.derivatives(label, t)))
     }
 
     /// P (Pa), where the motion's derivatives are `now`.

@@ -42,7 +42,6 @@ mod tests;
 
 pub use bar::Bar;
 pub use mesh::Element;
-pub use setup::BarLaw;
 pub use setup::{
-    BarLoad, BarSetup, Mass, Sampling, ScalarFunction, SetupError, TimeFunction, pointwise,
+    BarLaw, BarLoad, BarSetup, Mass, Sampling, ScalarFunction, SetupError, TimeFunction, pointwise,
 };

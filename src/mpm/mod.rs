@@ -44,13 +44,10 @@ pub use effect::*;
 pub use foundation::algebra::{Matrix, Vector, cofactor, det, det_of_rows, dyad};
 pub use foundation::grid::Grid;
 pub use foundation::moments::{Moments, WeightMoments};
-pub use foundation::particles::FrameName;
-pub use foundation::particles::{Block, Particles};
-pub use kernel::contract::Kernel;
-pub use kernel::contract::LoopSettings;
-pub use kernel::contract::Scalars;
-pub use kernel::contract::Tally;
-pub use kernel::contract::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
+pub use foundation::particles::{Block, FrameName, Particles};
+pub use kernel::contract::{
+    Affine, Divergence, G2pRequest, Kernel, LoopSettings, P2gRequest, ParticleField, Scalars, Tally,
+};
 pub use kernel::{kernel, kernel_with};
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
@@ -59,8 +56,7 @@ pub use material::{
     StressBlock, StressUpdate,
 };
 pub use multibody::Bodies;
-pub use scheme::SchemeName;
-pub use scheme::Stage;
+pub use scheme::{SchemeName, Stage};
 pub use seeding::Fragment;
 pub use seeding::quadrilateral::Quadrilateral;
 pub use step::combination::{combine, combine_across, combine_bodies};

@@ -52,15 +52,15 @@ type WriteNumbers<'a> = Box<dyn Fn(&mut Vec<f64>) + 'a>;
 impl<'a> Column<'a> {
     /// A column with entries for particles.
     pub fn of_particles<T: Entry>(name: &'static str, entries: &'a [T]) -> Self {
-        Self::of(name, Holder::Particle, entries)
+        Self::with_holder(name, Holder::Particle, entries)
     }
 
     /// A column with entries for nodes.
     pub fn of_nodes<T: Entry>(name: &'static str, entries: &'a [T]) -> Self {
-        Self::of(name, Holder::Node, entries)
+        Self::with_holder(name, Holder::Node, entries)
     }
 
-    fn of<T: Entry>(name: &'static str, holder: Holder, entries: &'a [T]) -> Self {
+    fn with_holder<T: Entry>(name: &'static str, holder: Holder, entries: &'a [T]) -> Self {
         let bytes = std::mem::size_of::<T>();
         Self {
             size: ColumnSize { name, holder, entries: entries.len(), bytes },

@@ -3,8 +3,7 @@
 use super::event::{AXES, Event, OnFace, SpaceTimeBox};
 use super::friction;
 use super::survey::{self, Magnitudes, Survey};
-use crate::exact::condition::Face;
-use crate::exact::condition::FacePoint;
+use crate::exact::condition::{Face, FacePoint};
 use crate::exact::formula::Formula;
 use crate::exact::linearised::share;
 use crate::exact::motion::{Derivatives, variables};
@@ -19,7 +18,7 @@ pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     let left = Cell::new(0.0);
     let mut random = Random::new(3);
     for face in &problem.faces {
-        let on_face = OnFace::of(&problem.from, &problem.to, face.axis, face.high);
+        let on_face = OnFace::new(&problem.from, &problem.to, face.axis, face.high);
         let extent = on_face.extent(&survey::extent(problem));
         let mut found = LargestViolation::default();
         // A load may vary along an axis along which the motion does not.

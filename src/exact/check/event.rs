@@ -128,7 +128,7 @@ pub(crate) struct OnFace {
 
 impl OnFace {
     /// The low or the `high` face of a box on `axis`.
-    pub(crate) fn of(from: &[f64], to: &[f64], axis: usize, high: bool) -> Self {
+    pub(crate) fn new(from: &[f64], to: &[f64], axis: usize, high: bool) -> Self {
         let (mut from, mut to) = (from.to_vec(), to.to_vec());
         if high {
             from[axis] = to[axis];

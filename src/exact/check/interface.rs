@@ -44,7 +44,7 @@ pub fn meets(
 ) -> Result<(), Violation> {
     let Magnitudes { displacement, velocity, stress, .. } = *largest;
     let pair = BodyPair { one, other, axis, sizes: [displacement, velocity, stress] };
-    let on_face = OnFace::of(&one.from, &one.to, axis, true);
+    let on_face = OnFace::new(&one.from, &one.to, axis, true);
     let extent = on_face.extent(&survey::extent(one));
     let mut found = LargestViolation::default();
     for event in extent.spread(FACE_EVENTS, |_| true, &mut Random::new(8)) {

@@ -23,7 +23,7 @@ impl Problem {
     /// # Errors
     /// The first [`Violation`].
     pub fn check(&self) -> Result<(), Violation> {
-        self.check_with(&Survey::of(self))
+        self.check_with(&Survey::new(self))
     }
 
     /// Checks the motion as [`check`](Self::check) does, with a `survey` that shares its magnitudes

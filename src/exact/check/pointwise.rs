@@ -162,6 +162,6 @@ mod tests {
     fn what_flows_does_not_turn_back(#[case] displacement: &str, #[case] passes: bool) {
         let equation = J2Law::new(2.0, 0.0, 0.02, 0.1).into();
         let problem = Problem { equation, ..bar(displacement, free()) };
-        assert_eq!(monotone_loading(&problem, &Survey::of(&problem)).is_ok(), passes);
+        assert_eq!(monotone_loading(&problem, &Survey::new(&problem)).is_ok(), passes);
     }
 }

@@ -38,7 +38,8 @@ impl SpaceTimePatch {
         longest: f64,
     ) -> Self {
         let ends = from.iter().zip(to);
-        let (centre, half) = ends.map(|(low, high)| interval(random, *low, *high, f64::INFINITY)).unzip();
+        let (centre, half) =
+            ends.map(|(low, high)| interval(random, *low, *high, f64::INFINITY)).unzip();
         Self::over(random, centre, half, until, longest)
     }
 

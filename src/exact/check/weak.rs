@@ -72,7 +72,7 @@ pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violati
     }
     for event in survey.active(count, |sizes| sizes.stress) {
         let (from, to) = (&problem.from[..], &problem.to[..]);
-    let longest = WAVES * crossing(problem);
+        let longest = WAVES * crossing(problem);
         let whole = match &problem.outline {
             None => SpaceTimePatch::whole(from, to, problem.until, longest, event.t),
             Some(_) => draw(&mut random, problem),
@@ -220,7 +220,7 @@ fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> 
     let Raster { points, times } = raster;
     let labels = labels(points);
     let motion = &problem.motion;
-    let distinct = DistinctPlaces::of(motion, points.len(), times.len());
+    let distinct = DistinctPlaces::new(motion, points.len(), times.len());
     let at = distinct.first.iter().map(|point| labels[*point].as_slice());
     let mut places = if only_first { motion.slopes_at_places(at) } else { motion.at_places(at) };
     let mut fields = vec![Derivatives::default(); distinct.first.len()];
@@ -264,7 +264,7 @@ pub(super) struct DistinctPlaces {
 impl DistinctPlaces {
     /// Those of a raster of `count` points, `per_axis` of them along each axis, the first axis
     /// running fastest.
-    pub(super) fn of(motion: &Motion, count: usize, per_axis: usize) -> Self {
+    pub(super) fn new(motion: &Motion, count: usize, per_axis: usize) -> Self {
         let varying: Vec<bool> =
             (0..motion.dimension()).map(|axis| motion.varies_along(axis)).collect();
         let of_point: Vec<usize> =

@@ -144,7 +144,7 @@ impl Split {
         let results: Vec<Operand> =
             formulas.iter().map(|formula| unroll(formula, &mut nodes)).collect();
         let nodes = nodes.list;
-        let homes = Homes::of(&nodes, &results);
+        let homes = Homes::new(&nodes, &results);
         Self {
             place: homes.part(&nodes, PLACE),
             time: homes.part(&nodes, TIME),
@@ -211,7 +211,7 @@ struct Homes {
 
 impl Homes {
     /// From the results back: whatever is needed, where it is computed.
-    fn of(nodes: &[SsaNode], results: &[Operand]) -> Self {
+    fn new(nodes: &[SsaNode], results: &[Operand]) -> Self {
         let mut homes = Self {
             dependence: nodes.iter().map(|node| node.dependence).collect(),
             registers: std::array::from_fn(|_| vec![None; nodes.len()]),

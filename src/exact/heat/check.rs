@@ -30,7 +30,7 @@ impl Conduction {
     /// The first [`Violation`].
     pub fn check(&self) -> Result<(), Violation> {
         let points = interior(self);
-        let largest = HeatMagnitudes::of(self, &points);
+        let largest = HeatMagnitudes::from_points(self, &points);
         presence(&points, &largest)?;
         initial(self, &largest)?;
         boundary(self, &largest)?;
@@ -85,7 +85,7 @@ fn boundary(problem: &Conduction, sizes: &HeatMagnitudes) -> Result<(), Violatio
     let mut random = Random::new(3);
     for face in &problem.faces {
         let mut found = LargestViolation::default();
-        let on_face = OnFace::of(&problem.from, &problem.to, face.axis, face.high);
+        let on_face = OnFace::new(&problem.from, &problem.to, face.axis, face.high);
         for event in on_face.extent(&extent(problem)).spread(FACE_EVENTS, |_| true, &mut random) {
             let (motion, now) = problem.now(&event.label, event.t);
             let inflow = inflow_at(problem, face, &motion, &now);
@@ -221,8 +221,7 @@ pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<
         problem.temperature.is_smooth() && problem.motion.as_ref().is_none_or(Motion::is_smooth);
     for _ in 0..patches(smooth) {
         let (from, to) = (&problem.from[..], &problem.to[..]);
-        let patch =
-            SpaceTimePatch::in_box(&mut random, from, to, problem.until, f64::INFINITY);
+        let patch = SpaceTimePatch::in_box(&mut random, from, to, problem.until, f64::INFINITY);
         let d = problem.dimension();
         // A constant temperature stores nothing: without it the terms are those that matter.
         let middle = problem.temperature.at(&patch.centre[..d], patch.centre[d]);
@@ -307,7 +306,7 @@ pub(super) struct HeatMagnitudes {
 }
 
 impl HeatMagnitudes {
-    pub(super) fn of(problem: &Conduction, points: &[HeatPoint]) -> Self {
+    pub(super) fn from_points(problem: &Conduction, points: &[HeatPoint]) -> Self {
         let of = |quantity: &dyn Fn(&HeatPoint) -> f64| {
             greatest(points.iter().map(|point| quantity(point).abs()))
         };

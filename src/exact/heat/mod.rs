@@ -7,7 +7,4 @@ mod problem;
 mod tests;
 
 pub use field::{Temperature, TemperatureDerivatives};
-pub use problem::HeatForcing;
-pub use problem::source_at;
-pub use problem::{Conduction, HeatFace};
-pub use problem::{HeatFacePoint, ThermalCondition};
+pub use problem::{Conduction, HeatFace, HeatFacePoint, HeatForcing, ThermalCondition, source_at};

@@ -142,7 +142,7 @@ fn heat_flows_through_a_periodic_face() {
 fn a_warm_body_hides_no_kink(#[values("0", "1e6")] warm: &str) {
     let kink = format!("{warm} + abs(X - 0.4)");
     let problem = insulated(1, &kink);
-    let largest = HeatMagnitudes::of(&problem, &interior(&problem));
+    let largest = HeatMagnitudes::from_points(&problem, &interior(&problem));
     let found = super::check::balance(&problem, &largest).unwrap_err();
     assert!(found.condition.contains("heat balance"), "{found}");
 }

@@ -48,7 +48,7 @@ impl Polygon {
             let piece = sides
                 .iter()
                 .fold(one.to_vec(), |left, (from, to)| clip(&left, |p| turn(from, to, p)));
-            AreaMoments::of(&[piece], &one[0]).area
+            AreaMoments::from_pieces(&[piece], &one[0]).area
         };
         let pairs =
             self.triangles.iter().flat_map(|one| other.triangles.iter().map(move |two| (one, two)));
@@ -72,12 +72,12 @@ impl Polygon {
 
     /// The piece that convex `parts` make of a share; none where there is next to nothing.
     fn piece(parts: &[Vec<Point>], centre: &Point, half: &Point) -> Option<Piece> {
-        let AreaMoments { area, first, .. } = AreaMoments::of(parts, centre);
+        let AreaMoments { area, first, .. } = AreaMoments::from_pieces(parts, centre);
         if !(area > ROUNDING * 4.0 * half[0] * half[1]) {
             return None;
         }
         let place: Point = [0, 1].map(|axis| centre[axis] + first[axis] / area);
-        let spread = AreaMoments::of(parts, &place).second.map(|moment| moment / area);
+        let spread = AreaMoments::from_pieces(parts, &place).second.map(|moment| moment / area);
         let joint = |(axis, sign): (usize, f64)| {
             let is_at = |p: &Point| {
                 (sign * (p[axis] - centre[axis]) - half[axis]).abs() <= 1e-9 * half[axis]
@@ -155,7 +155,7 @@ impl Outline for Polygon {
 
     fn volume_within(&self, from: &[f64], to: &[f64]) -> f64 {
         let parts = self.triangles.iter().map(|corners| inside(corners, from, to));
-        AreaMoments::of(&parts.collect::<Vec<_>>(), &self.corners[0]).area
+        AreaMoments::from_pieces(&parts.collect::<Vec<_>>(), &self.corners[0]).area
     }
 
     fn trace(&self) -> Vec<(f64, f64)> {
@@ -239,7 +239,7 @@ pub(super) struct AreaMoments {
 
 impl AreaMoments {
     /// The moments about `origin`.
-    pub(super) fn of(pieces: &[Vec<Point>], origin: &Point) -> Self {
+    pub(super) fn from_pieces(pieces: &[Vec<Point>], origin: &Point) -> Self {
         let mut all = Self::default();
         for corners in pieces {
             for pair in corners.windows(2).skip(1) {

@@ -178,7 +178,7 @@ fn an_interrupted_run_gives_the_bits_of_a_whole_one(
     let mut left = Checkpoint::empty();
     assert!(whole.checkpoint(&mut left));
     let left = left.into_bytes();
-    let mut left = Checkpoint::of(&left);
+    let mut left = Checkpoint::from_bytes(&left);
     assert!(other.checkpoint(&mut left) && left.is_used_up());
     for _ in 0..5 {
         whole.step(0.01).unwrap();

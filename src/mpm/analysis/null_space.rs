@@ -11,8 +11,7 @@
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::contract::ParticleField;
+use crate::mpm::kernel::contract::{Kernel, ParticleField};
 use crate::mpm::step::solver::Solver;
 
 /// Energy of the residual, as a share of the whole, that counts as rounding.

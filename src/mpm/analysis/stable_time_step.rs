@@ -18,8 +18,7 @@
 //! dependence on the place of particles also Ni & Zhang (2020), IJNME 121.
 
 use crate::mpm::foundation::algebra::Vector;
-use crate::mpm::scheme::SchemeName;
-use crate::mpm::scheme::Stage;
+use crate::mpm::scheme::{SchemeName, Stage};
 use crate::mpm::step::schedule::passes_of;
 use crate::mpm::step::setup::Setup;
 use crate::mpm::step::solver::Solver;
@@ -157,7 +156,7 @@ impl<const D: usize> Solver<D> {
     }
 
     fn restore(&mut self, start: &[u8]) {
-        self.visit_state(&mut Checkpoint::of(start));
+        self.visit_state(&mut Checkpoint::from_bytes(start));
     }
 
     /// All that a response changes, and with it what material and effects keep between stresses.

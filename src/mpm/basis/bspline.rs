@@ -8,10 +8,8 @@
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain};
-use super::product::Product;
-use super::product::ProductBatch;
-use super::weights_1d::Weights1d;
-use super::weights_1d::{Weights1dBatch, WeightsSimd};
+use super::product::{Product, ProductBatch};
+use super::weights_1d::{Weights1d, Weights1dBatch, WeightsSimd};
 use crate::mpm::foundation::algebra::array;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;

@@ -21,10 +21,8 @@
 //! map of the whole domain is affine, so R keeps the sign of its determinant. Moving single corners
 //! to the wall would not keep it.
 
-use super::contract::{Basis, Domain};
-use super::contract::{NodeWeight, Patch};
-use super::product::Product;
-use super::product::ProductBatch;
+use super::contract::{Basis, Domain, NodeWeight, Patch};
+use super::product::{Product, ProductBatch};
 use super::weights_1d::Weights1d;
 use crate::mpm::foundation::algebra::{Matrix, Vector, array, cofactor, det, floor};
 use crate::mpm::foundation::grid::Grid;

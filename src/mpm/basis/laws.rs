@@ -143,7 +143,7 @@ fn differentiate<B: Basis, const D: usize>(periodic: bool) {
 /// Patches that are computed for four particles at once are those of each alone, to the bit.
 fn fill<B: Basis, const D: usize>(periodic: bool) {
     let grid = grid::<B, D>(periodic);
-    let layout = Layout::of(&grid);
+    let layout = Layout::new(&grid);
     for four in points(&grid).chunks_exact(LANES) {
         let mut particles = particle(&grid, four[0]);
         particles.x = four.to_vec();

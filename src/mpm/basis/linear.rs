@@ -6,10 +6,8 @@
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain};
-use super::product::Product;
-use super::product::ProductBatch;
-use super::weights_1d::Weights1d;
-use super::weights_1d::WeightsSimd;
+use super::product::{Product, ProductBatch};
+use super::weights_1d::{Weights1d, WeightsSimd};
 use crate::mpm::foundation::algebra::array;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;

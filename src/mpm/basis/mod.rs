@@ -13,12 +13,9 @@ mod product;
 mod weights_1d;
 
 pub use cell_locator::{CellLocator, WeightNeeds};
-pub use contract::{Basis, Domain};
-pub use contract::{NodeTerm, NodeWeight, Patch, PatchBatch};
-pub use product::Product;
-pub use product::ProductBatch;
-pub use weights_1d::Weights1d;
-pub use weights_1d::Weights1dBatch;
+pub use contract::{Basis, Domain, NodeTerm, NodeWeight, Patch, PatchBatch};
+pub use product::{Product, ProductBatch};
+pub use weights_1d::{Weights1d, Weights1dBatch};
 
 use super::foundation::algebra::Vector;
 use super::foundation::family::family;

@@ -6,7 +6,7 @@
 
 use super::contract::{NodeTerm, NodeWeight, Patch, PatchBatch};
 use super::node_accumulator::NodeAccumulator;
-use super::weights_1d::{Weights1d, Weights1dBatch, of, product};
+use super::weights_1d::{Weights1d, Weights1dBatch, lane_functions, product};
 use crate::mpm::foundation::algebra::{Matrix, Vector, array};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::WeightMoments;
@@ -192,7 +192,8 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         accumulator: &mut NodeAccumulator<'_, S, N, K>,
     ) {
         let NodeTerm { value, slope, flux } = self.fold_flux(lane, term);
-        let (start, x, weights) = (self.start(lane), &self.axes[0], of(&self.axes[0].weight, lane));
+        let (start, x, weights) =
+            (self.start(lane), &self.axes[0], lane_functions(&self.axes[0].weight, lane));
         // Loops, as closures are not always inlined.
         let (mut first, mut rise) = ([None; K], [None; K]);
         for i in 0..K {
@@ -327,7 +328,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> PatchBatch<D>
         lane: usize,
         field: &FieldView<'_>,
     ) -> (S::F64x4, [S::F64x4; D]) {
-        let axis = |axis: usize| of(&self.axes[axis].weighted_offset, lane);
+        let axis = |axis: usize| lane_functions(&self.axes[axis].weighted_offset, lane);
         self.sums(simd, lane, field, &array([0.0; K], axis))
     }
 
@@ -342,7 +343,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> PatchBatch<D>
             let (sum, outward) = (self.gather(simd, lane, field), &outward[lane % BATCH]);
             return (sum, array(sum, |axis| sum * outward[axis]));
         }
-        let axis = |axis: usize| of(&self.axes[axis].slope, lane);
+        let axis = |axis: usize| lane_functions(&self.axes[axis].slope, lane);
         self.sums(simd, lane, field, &array([0.0; K], axis))
     }
 }
@@ -373,7 +374,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         field: &FieldView<'_>,
         others: &[[f64; K]; D],
     ) -> (S::F64x4, [S::F64x4; D]) {
-        let (start, weights) = (self.start(lane), of(&self.axes[0].weight, lane));
+        let (start, weights) = (self.start(lane), lane_functions(&self.axes[0].weight, lane));
         let zero = simd.splat(0.0);
         let (mut sum, mut other) = (zero, [zero; D]);
         for k in 0..Self::PLANES {

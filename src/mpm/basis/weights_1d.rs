@@ -197,7 +197,7 @@ impl<const K: usize> Weights1dBatch<K> {
 
 /// Functions of particle `lane` of a batch.
 #[inline(always)]
-pub(super) fn of<const K: usize>(functions: &[F64Batch; K], lane: usize) -> [f64; K] {
+pub(super) fn lane_functions<const K: usize>(functions: &[F64Batch; K], lane: usize) -> [f64; K] {
     array(0.0, |k| functions[k].get(lane))
 }
 

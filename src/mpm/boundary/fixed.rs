@@ -1,7 +1,6 @@
 //! A wall to which the body sticks: v = 0.
 
-use super::contract::{Advance, Boundary};
-use super::contract::{Side, nodes};
+use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::subject::Column;

@@ -12,9 +12,8 @@ mod friction;
 mod prescribed;
 mod roller;
 
-pub use contract::Side;
 pub(super) use contract::nodes;
-pub use contract::{Advance, Boundary};
+pub use contract::{Advance, Boundary, Side};
 pub use fixed::Fixed;
 pub(super) use friction::ContactState;
 pub use friction::Friction;

@@ -4,8 +4,7 @@
 //! the grid is where the wall is, so a wall may slide along itself as far as it likes, but move
 //! along its normal only by a small part of a cell.
 
-use super::contract::{Advance, Boundary};
-use super::contract::{Side, nodes};
+use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::basis::BasisName;
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;

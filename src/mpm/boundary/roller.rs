@@ -1,7 +1,6 @@
 //! A frictionless wall, or a plane of symmetry: v . n = 0, and no force along the wall.
 
-use super::contract::{Advance, Boundary};
-use super::contract::{Side, nodes};
+use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::subject::Column;

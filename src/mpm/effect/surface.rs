@@ -69,7 +69,7 @@ impl Surface {
             Side::Low => -1.0,
             Side::High => 1.0,
         };
-        if let Some(mapped) = MappedFace::of(particles, axis, outwards) {
+        if let Some(mapped) = MappedFace::outermost(particles, axis, outwards) {
             let MappedFace { layer, column, area } = mapped;
             let below = if column.0 == 0 { 1 } else { layer.len() };
             let column = Some(column);
@@ -193,7 +193,7 @@ pub(super) struct MappedFace {
 impl MappedFace {
     /// The face that lies furthest out along `axis`, in the direction `outwards` (1 or -1). None of
     /// a body that is no mapped box.
-    pub(super) fn of<const D: usize>(
+    pub(super) fn outermost<const D: usize>(
         particles: &Particles<D>,
         axis: usize,
         outwards: f64,
@@ -244,7 +244,7 @@ mod tests {
         let panel = Quadrilateral::new(corners.map(Vector::from)).unwrap();
         let particles = panel.fill::<2>(1.0, 0.5, 2);
         for &(axis, outwards, length, place) in sides {
-            let face = super::MappedFace::of(&particles, axis, outwards).unwrap();
+            let face = super::MappedFace::outermost(&particles, axis, outwards).unwrap();
             assert_relative_eq!(face.area * face.layer.len() as f64, length, max_relative = 1e-12);
             let (column, sign) = face.column;
             for &p in &face.layer {

@@ -65,7 +65,10 @@ impl Span {
     }
 
     /// Extent of these particles. One whose position is NaN has no nodes.
-    fn of<B: Basis, const D: usize>(particles: &Particles<D>, these: Range<usize>) -> Self {
+    fn from_particles<B: Basis, const D: usize>(
+        particles: &Particles<D>,
+        these: Range<usize>,
+    ) -> Self {
         let (mut span, x) = (Self::NONE, &particles.x[these.clone()]);
         if B::DOMAIN == Domain::Point {
             // Several chains: in one, each minimum would wait for the one before.
@@ -139,7 +142,8 @@ impl Blocks {
         if COUNTS.iter().any(enough) {
             self.spans.resize(total.div_ceil(chunk), Span::NONE);
             RowChunks { length: 1, few: CHUNKS }.each(&mut self.spans, &|k, span| {
-                span[0] = Span::of::<B, D>(particles, k * chunk..total.min((k + 1) * chunk));
+                span[0] =
+                    Span::from_particles::<B, D>(particles, k * chunk..total.min((k + 1) * chunk));
             });
         }
         let mut counts = COUNTS.into_iter().filter(enough);

@@ -1,7 +1,6 @@
 //! G2P: velocity, first moment and gradient in one visit to the nodes of a particle.
 
-use super::batch::{ALL, Batch, ParticleBatches};
-use super::batch::{divide, put_columns};
+use super::batch::{ALL, Batch, ParticleBatches, divide, put_columns};
 use super::contract::G2pRequest;
 use crate::mpm::basis::{Basis, PatchBatch, WeightNeeds};
 use crate::mpm::foundation::grid::Grid;

@@ -1,7 +1,6 @@
 //! P2G: mass, momentum and internal force in one visit to the nodes of a particle.
 
-use super::batch::{Batch, ParticleBatches};
-use super::batch::{columns, divide};
+use super::batch::{Batch, ParticleBatches, columns, divide};
 use super::contract::{Affine, Divergence, P2gRequest};
 use crate::mpm::basis::{Basis, NodeTerm, PatchBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::{Vector, array};

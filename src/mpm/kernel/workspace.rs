@@ -1,12 +1,10 @@
 //! P2G and G2P on threads, and the memory that they keep.
 
 use super::colouring::{Blocks, ParticleBlock};
-use super::contract::LoopSettings;
-use super::contract::{G2pRequest, P2gRequest};
+use super::contract::{G2pRequest, LoopSettings, P2gRequest};
 use super::g2p::{Gather, are_beside};
 use super::p2g::{Scatter, wants_wide_nodes};
-use super::parallel::par_split;
-use super::parallel::{Target, two_colour_schedule};
+use super::parallel::{Target, par_split, two_colour_schedule};
 use crate::mpm::basis::Basis;
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;

@@ -79,14 +79,10 @@ const fn parameter(
 }
 
 const YOUNG: MaterialParameter = parameter("Young's modulus", "E", "Pa", Range::Positive);
-const POISSON: MaterialParameter =
-    parameter("Poisson's ratio", "nu", "", Range::PoissonsRatio);
-const YIELD: MaterialParameter =
-    parameter("the yield stress", "Y", "Pa", Range::Positive);
+const POISSON: MaterialParameter = parameter("Poisson's ratio", "nu", "", Range::PoissonsRatio);
+const YIELD: MaterialParameter = parameter("the yield stress", "Y", "Pa", Range::Positive);
 const HARDENING: MaterialParameter =
     parameter("the hardening modulus", "H", "Pa", Range::NotNegative);
 const BULK: MaterialParameter = parameter("the bulk modulus", "K", "Pa", Range::Positive);
-const VISCOSITY: MaterialParameter =
-    parameter("the viscosity", "eta", "Pa s", Range::NotNegative);
-const DENSITY: MaterialParameter =
-    parameter("the density", "rho0", "kg/m3", Range::Positive);
+const VISCOSITY: MaterialParameter = parameter("the viscosity", "eta", "Pa s", Range::NotNegative);
+const DENSITY: MaterialParameter = parameter("the density", "rho0", "kg/m3", Range::Positive);

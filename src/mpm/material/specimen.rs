@@ -82,7 +82,7 @@ impl<const D: usize> Specimen<D> {
         self.0.checkpoint(&mut checkpoint);
         checkpoint.visit(&mut self.1);
         let (left, mut other) = (checkpoint.into_bytes(), Self::new(plan));
-        let mut checkpoint = Checkpoint::of(&left);
+        let mut checkpoint = Checkpoint::from_bytes(&left);
         other.0.checkpoint(&mut checkpoint);
         checkpoint.visit(&mut other.1);
         assert!(checkpoint.is_used_up());

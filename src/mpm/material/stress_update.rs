@@ -87,7 +87,7 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
     ) {
         state.resize(self.particles.len(), S::default());
         let strain = std::mem::take(&mut self.awaits_strain).then_some(self.dt);
-        self.least_j = visit(StressBlock::of(self.particles), state, strain, law);
+        self.least_j = visit(StressBlock::from_particles(self.particles), state, strain, law);
     }
 
     /// The smallest J, of none infinity; none unless every J is positive and finite and all
@@ -101,7 +101,7 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
 }
 
 impl<'a, const D: usize> StressBlock<'a, D> {
-    fn of(particles: &'a mut Particles<D>) -> Self {
+    fn from_particles(particles: &'a mut Particles<D>) -> Self {
         let Particles { def_grad, grad_v, vol0, vol, sigma, across, stress_across, .. } = particles;
         Self { def_grad, grad_v, vol0, vol, sigma, across, stress_across }
     }

@@ -34,7 +34,7 @@ pub(in crate::mpm) struct InterfaceNodes(Vec<usize>);
 
 impl InterfaceNodes {
     /// Capacity for all nodes of the grid that `bodies` share.
-    pub(in crate::mpm) fn of<const D: usize>(bodies: &[Solver<D>]) -> Self {
+    pub(in crate::mpm) fn new<const D: usize>(bodies: &[Solver<D>]) -> Self {
         Self(Vec::with_capacity(bodies.first().map_or(0, |body| body.grid().nodes())))
     }
 
@@ -57,8 +57,8 @@ impl InterfaceNodes {
 pub(in crate::mpm) struct SharedVelocity(InterfaceNodes);
 
 impl SharedVelocity {
-    pub(in crate::mpm) fn of<const D: usize>(bodies: &[Solver<D>]) -> Self {
-        Self(InterfaceNodes::of(bodies))
+    pub(in crate::mpm) fn new<const D: usize>(bodies: &[Solver<D>]) -> Self {
+        Self(InterfaceNodes::new(bodies))
     }
 
     fn share<const D: usize>(

@@ -51,8 +51,8 @@ impl<const D: usize> Bodies<D> {
         }
         let coupling: Option<Box<dyn Coupling<D>>> = match friction {
             _ if solvers.len() < 2 => None,
-            Some(friction) => Some(Box::new(Contact::of(&solvers, friction))),
-            None => Some(Box::new(SharedVelocity::of(&solvers))),
+            Some(friction) => Some(Box::new(Contact::new(&solvers, friction))),
+            None => Some(Box::new(SharedVelocity::new(&solvers))),
         };
         let mut bodies = Self { solvers, coupling, schedule: StepSchedule::default() };
         bodies.compile(false);

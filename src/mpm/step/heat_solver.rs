@@ -6,8 +6,7 @@ use crate::mpm::basis::Domain;
 use crate::mpm::effect::Effect;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::contract::Tally;
+use crate::mpm::kernel::contract::{Kernel, Tally};
 use crate::subject::{
     BodyFields, Checkpoint, Column, Failure, Profile, RunCounters, Samples, Subject,
 };

@@ -11,8 +11,9 @@ use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::Moments;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::contract::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
+use crate::mpm::kernel::contract::{
+    Affine, Divergence, G2pRequest, Kernel, P2gRequest, ParticleField,
+};
 use crate::subject::Column;
 
 /// Affine particle in cell.

@@ -8,8 +8,7 @@ use super::contract::{Transfer, TransferKind};
 use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::contract::{Divergence, G2pRequest, P2gRequest};
+use crate::mpm::kernel::contract::{Divergence, G2pRequest, Kernel, P2gRequest};
 use crate::subject::Column;
 
 /// Moving least squares MPM.

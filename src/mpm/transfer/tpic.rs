@@ -9,8 +9,9 @@ use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::Moments;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::contract::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
+use crate::mpm::kernel::contract::{
+    Affine, Divergence, G2pRequest, Kernel, P2gRequest, ParticleField,
+};
 use crate::mpm::scheme::Stage;
 use crate::subject::Column;
 

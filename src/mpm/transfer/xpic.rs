@@ -10,8 +10,7 @@ use super::contract::{Transfer, TransferKind, TransferParameter};
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::contract::{G2pRequest, ParticleField};
+use crate::mpm::kernel::contract::{G2pRequest, Kernel, ParticleField};
 use crate::subject::Column;
 
 /// Extended particle in cell of order m.

@@ -1,8 +1,7 @@
 //! The same once more: looked at twice, with half of the step, made anew, interrupted.
 
 use super::course::ROUNDING;
-use super::record::Breach;
-use super::record::{RunState, difference, largest, record};
+use super::record::{Breach, RunState, difference, largest, record};
 use crate::subject::{Checkpoint, Samples, Subject};
 
 /// Makes the subject in its initial state.
@@ -49,7 +48,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
 /// Another subject of the same problem that goes another way. Sums may be made in another order.
 pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let mut subject = make().ok()?;
-    let mut again = vec![RunState::of(subject.as_ref())];
+    let mut again = vec![RunState::from_subject(subject.as_ref())];
     let wanted = "the same course of two subjects of one problem";
     if let Err(failure) = record(subject.as_mut(), states.len() - 1, dt, &mut again) {
         return Some(Breach::new("repeat", wanted, format!("the second one fails: {failure}")));
@@ -76,7 +75,7 @@ pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breac
         return Vec::new();
     }
     let bytes = written.into_bytes();
-    let mut read = Checkpoint::of(&bytes);
+    let mut read = Checkpoint::from_bytes(&bytes);
     if !(fresh.checkpoint(&mut read) && read.is_used_up()) {
         let seen = format!("its {} bytes do not fit a subject of the same problem", bytes.len());
         return found("a checkpoint to be taken back by the visits that wrote it", seen);

@@ -89,7 +89,7 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
         Ok(subject) => subject,
         Err(why) => return vec![Breach::new("problem", "the problem to be taken again", why)],
     };
-    let mut states = vec![RunState::of(subject.as_ref())];
+    let mut states = vec![RunState::from_subject(subject.as_ref())];
     let mut breaches = course::counts(problem, &states[0].samples);
     if !breaches.is_empty() {
         // Nothing else can be compared.

@@ -12,7 +12,7 @@ pub(super) struct RunState {
 }
 
 impl RunState {
-    pub(super) fn of(subject: &dyn Subject) -> Self {
+    pub(super) fn from_subject(subject: &dyn Subject) -> Self {
         let mut samples = Samples::default();
         subject.sample(&mut samples);
         Self { samples, counters: subject.counters(), totals: subject.totals() }
@@ -28,7 +28,7 @@ pub(super) fn record(
 ) -> Result<(), Failure> {
     for _ in 0..steps {
         subject.step(dt)?;
-        states.push(RunState::of(subject));
+        states.push(RunState::from_subject(subject));
     }
     Ok(())
 }

@@ -20,15 +20,13 @@ mod motion;
 mod patient;
 mod scene;
 
-pub use finding::page;
 pub use finding::{
-    DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding,
+    DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding, page,
 };
 
 use crate::external::SolverFactory;
 use examination::ALL;
-use patient::Examination;
-use patient::{Hindrance, Patient};
+use patient::{Examination, Hindrance, Patient};
 
 /// Examines a solver, the plainest question first. One that says nothing as long as another has
 /// defects is left out then. `progress` is called with the name of each.

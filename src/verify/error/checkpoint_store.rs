@@ -53,7 +53,7 @@ pub(crate) fn resumed<W: Memory, E>(
     let mut subject = make()?;
     let mut monitor = start(subject.as_ref());
     let Some(left) = store.left() else { return Ok((subject, monitor, 0)) };
-    let (mut checkpoint, mut done) = (Checkpoint::of(&left), 0_u64);
+    let (mut checkpoint, mut done) = (Checkpoint::from_bytes(&left), 0_u64);
     let goes_on = visit(&mut checkpoint, &mut done, &mut monitor, subject.as_mut())
         && checkpoint.is_used_up()
         && (1..steps).contains(&done);

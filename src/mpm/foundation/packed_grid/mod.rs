@@ -54,7 +54,7 @@ fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
 impl<N: PackedNode> PackedField<N> {
     /// The field in the shape of `grid`, with undefined values.
     pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> FieldViewMut<'_, N> {
-        let layout = Layout::of(grid);
+        let layout = Layout::new(grid);
         self.nodes.resize(layout.strides[3], N::default());
         self.layout = layout;
         FieldViewMut { nodes: &mut self.nodes, layout }

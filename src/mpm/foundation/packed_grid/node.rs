@@ -161,7 +161,7 @@ pub struct Layout {
 
 impl Layout {
     /// Layout of a field on `grid`.
-    pub(in crate::mpm) fn of<const D: usize>(grid: &Grid<D>) -> Self {
+    pub(in crate::mpm) fn new<const D: usize>(grid: &Grid<D>) -> Self {
         let mut strides = [1; 4];
         for axis in 0..3 {
             let count = grid.counts.get(axis).map_or(1, |count| count + MARGIN);

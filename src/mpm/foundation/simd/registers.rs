@@ -1,7 +1,6 @@
 //! Registers of x86.
 
-use super::register::F64x4;
-use super::register::Register;
+use super::register::{F64x4, Register};
 use fearless_simd::{Select, SimdBase, SimdFloat, SimdMask};
 
 /// Implements [`Register`].

@@ -40,7 +40,7 @@ pub(crate) fn exact(
             follows_motion: false,
             ..solution(evaluator, &path, state, (scene, true), until)?
         };
-        refuse_wrong_solution(evaluator, &path, &problem, &Survey::of(&problem))?;
+        refuse_wrong_solution(evaluator, &path, &problem, &Survey::new(&problem))?;
         return Ok(Some(problem));
     }
     let Some(exact) = &spec.exact else { return manufactured(evaluator, spec, scene, until) };
@@ -51,7 +51,7 @@ pub(crate) fn exact(
     }
     let problem = solution(evaluator, &path, exact, (scene, false), until)?;
     if scene.bodies.is_empty() {
-        refuse_wrong_solution(evaluator, &path, &problem, &Survey::of(&problem))?;
+        refuse_wrong_solution(evaluator, &path, &problem, &Survey::new(&problem))?;
         return Ok(Some(problem));
     }
     let each =
@@ -158,7 +158,7 @@ fn manufactured(
     };
     let heat = conduction::problem(evaluator, &path, made.temperature.as_ref(), scene, inputs)?;
     let problem = Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) };
-    refuse_wrong_solution(evaluator, &path, &problem, &Survey::of(&problem))?;
+    refuse_wrong_solution(evaluator, &path, &problem, &Survey::new(&problem))?;
     Ok(Some(problem))
 }
 

@@ -2,12 +2,11 @@
 
 use super::force::ramp;
 use crate::external::ProblemNeeds;
-use crate::testing::doctor::course::AffineField;
-use crate::testing::doctor::course::{Course, Field, displacement, shown, velocity};
-use crate::testing::doctor::course::{minus, size};
+use crate::testing::doctor::course::{
+    AffineField, Course, Field, displacement, minus, shown, size, velocity,
+};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::Examination;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene, Kind};
 
 /// Steps of each run.

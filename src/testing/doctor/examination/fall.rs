@@ -1,12 +1,12 @@
 //! A body in free fall.
 
 use crate::subject::Precision;
-use crate::testing::doctor::course::{Course, displacement, line, shown, shown_vector, velocity};
-use crate::testing::doctor::course::{minus, size, times};
+use crate::testing::doctor::course::{
+    Course, displacement, line, minus, shown, shown_vector, size, times, velocity,
+};
 use crate::testing::doctor::finding::{FindingWeight, SolverFinding};
 use crate::testing::doctor::motion::single;
-use crate::testing::doctor::patient::Examination;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene};
 
 pub(super) const EXAMINATION: Examination = Examination {

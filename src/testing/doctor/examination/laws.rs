@@ -8,12 +8,9 @@
 
 use super::stress::{impulses, inside};
 use crate::mpm::det_of_rows;
-use crate::testing::doctor::course::AffineField;
-use crate::testing::doctor::course::{Course, displacement, shown};
-use crate::testing::doctor::course::{minus, size};
+use crate::testing::doctor::course::{AffineField, Course, displacement, minus, shown, size};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::Examination;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind, SOFT};
 use nalgebra::Matrix3;
 

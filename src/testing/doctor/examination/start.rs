@@ -6,12 +6,11 @@
 
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside};
 use crate::mpm::det_of_rows;
-use crate::testing::doctor::course::AffineField;
-use crate::testing::doctor::course::{Course, displacement, shown};
-use crate::testing::doctor::course::{minus, size, times};
+use crate::testing::doctor::course::{
+    AffineField, Course, displacement, minus, shown, size, times,
+};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::Examination;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {

@@ -2,8 +2,7 @@
 
 use crate::testing::doctor::course::AffineField;
 use crate::testing::doctor::motion::uniform;
-use crate::testing::doctor::patient::Examination;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene, H};
 
 pub(super) const EXAMINATION: Examination = Examination {

@@ -6,11 +6,9 @@
 //! the beginning of the step, as in forward Euler, each step multiplies the amplitude of a mode of
 //! frequency w by `sqrt(1 + w2 dt2)`.
 
-use crate::testing::doctor::course::{AffineField, dot};
-use crate::testing::doctor::course::{Course, shown, velocity};
+use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::Examination;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {

@@ -1,8 +1,9 @@
 //! A body without stress whose parts do not move alike.
 
 use super::seen::UniformMotion;
-use crate::testing::doctor::course::{displacement, shown, shown_vector, velocity};
-use crate::testing::doctor::course::{dot, minus, size, times};
+use crate::testing::doctor::course::{
+    displacement, dot, minus, shown, shown_vector, size, times, velocity,
+};
 use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::patient::Hindrance;
 use std::f64::consts::SQRT_2;

@@ -1,8 +1,9 @@
 //! A body that keeps its shape and does not move as it should.
 
 use super::seen::UniformMotion;
-use crate::testing::doctor::course::{displacement, line, shown, shown_vector, velocity};
-use crate::testing::doctor::course::{dot, minus, size, times};
+use crate::testing::doctor::course::{
+    displacement, dot, line, minus, shown, shown_vector, size, times, velocity,
+};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::Hindrance;
 

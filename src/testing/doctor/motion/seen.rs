@@ -1,7 +1,6 @@
 //! A motion that should be uniform, and its errors.
 
-use crate::testing::doctor::course::{Course, displacement, velocity};
-use crate::testing::doctor::course::{minus, size, times};
+use crate::testing::doctor::course::{Course, displacement, minus, size, times, velocity};
 use crate::testing::doctor::patient::Patient;
 use crate::testing::doctor::scene::BoxScene;
 

@@ -15,15 +15,14 @@
 mod measure;
 mod moduli;
 
-pub(super) use measure::{STEPS, TRAVEL, constant_and_rate, impulses, spreading};
-pub(super) use measure::{inside, largest_entry, mean_tensor};
+pub(super) use measure::{
+    STEPS, TRAVEL, constant_and_rate, impulses, inside, largest_entry, mean_tensor, spreading,
+};
 
 use crate::subject::Precision;
-use crate::testing::doctor::course::size;
-use crate::testing::doctor::course::{Course, shown, velocity};
+use crate::testing::doctor::course::{Course, shown, size, velocity};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::Examination;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC};
 use measure::{MeasuredModuli, STRETCH, moduli_by_momentum};
 
