@@ -1,8 +1,9 @@
-//! Conditions on the faces of a body.
+//! Faces of a body, and conditions on the motion there.
 
 use super::formula::Formula;
 use super::violation::Violation;
 use std::fmt::Debug;
+use std::sync::Arc;
 
 /// A condition on a face of the body, to which the motion is held point by point.
 pub trait Condition: Debug + Send + Sync {
@@ -60,4 +61,20 @@ pub trait FacePoint {
     /// # Errors
     /// The first violation.
     fn continues_on_opposite_face(&self) -> Result<(), Violation>;
+}
+
+/// One face of a box-shaped body.
+#[derive(Debug, Clone)]
+pub struct Face {
+    /// Name that a suite gives it.
+    pub name: &'static str,
+    /// Axis of its normal.
+    pub axis: usize,
+    /// Whether it is the face with the larger coordinate.
+    pub high: bool,
+    /// Length (m) of the axis on which the body moves: a period, where the axis has no end. It is
+    /// that of the body itself, unless a periodic body starts deformed.
+    pub period: f64,
+    /// Condition on the motion there.
+    pub condition: Arc<dyn Condition>,
 }

@@ -7,8 +7,7 @@
 //! lumped mass matrix by central differences in time, and by integration for a body at rest.
 
 use super::check::event::Event;
-use super::condition::FacePoint;
-use super::face::Face;
+use super::condition::{Face, FacePoint};
 use super::formula::Formula;
 use super::motion::{Derivatives, variables};
 use super::problem::Problem;

@@ -27,7 +27,7 @@ pub(super) struct Swelling {
 
 impl Expansion {
     /// The stretch at a temperature, and its gradient.
-    pub(super) fn of(&self, now: &TemperatureDerivatives) -> Swelling {
+    pub(super) fn swelling(&self, now: &TemperatureDerivatives) -> Swelling {
         Swelling {
             theta: 1.0 + self.coefficient * (now.value - self.reference),
             grad: now.grad.map(|slope| self.coefficient * slope),
@@ -97,26 +97,27 @@ pub(super) fn swollen_cauchy(
 pub(super) fn swollen_divergence(
     equation: &Equation,
     dimension: usize,
-    (grad, second): (&Tensor<f64>, &[Tensor<f64>; 3]),
+    grad: &Tensor<f64>,
+    second: &[Tensor<f64>; 3],
     swelling: &Swelling,
 ) -> [f64; 3] {
-    let all = (grad, second);
     match dimension {
         1 => {
-            let [x] = divergence_in(equation, all, swelling);
+            let [x] = divergence_in(equation, grad, second, swelling);
             [x, 0.0, 0.0]
         }
         2 => {
-            let [x, y] = divergence_in(equation, all, swelling);
+            let [x, y] = divergence_in(equation, grad, second, swelling);
             [x, y, 0.0]
         }
-        _ => divergence_in(equation, all, swelling),
+        _ => divergence_in(equation, grad, second, swelling),
     }
 }
 
 fn divergence_in<const D: usize>(
     equation: &Equation,
-    (grad, second): (&Tensor<f64>, &[Tensor<f64>; 3]),
+    grad: &Tensor<f64>,
+    second: &[Tensor<f64>; 3],
     swelling: &Swelling,
 ) -> [f64; D] {
     let slopes = |i: usize, j: usize| std::array::from_fn(|axis| second[i][j][axis]);
@@ -173,7 +174,7 @@ mod tests {
             Some(_) => SmallStrainLaw::new(50.0, 0.0).into(),
             None => HenckyLaw::new(50.0, 0.0).into(),
         };
-        let force = swollen_divergence(&uniaxial, 1, (&bar, &second), &swelling);
+        let force = swollen_divergence(&uniaxial, 1, &bar, &second, &swelling);
         assert!(force[0].abs() < 1e-12, "{force:?}");
     }
 

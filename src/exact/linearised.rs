@@ -70,7 +70,7 @@ mod tests {
         let left = |u| {
             let linearised = Some(Linearised { tolerance: f64::INFINITY, because: String::new() });
             let problem = Problem { linearised, ..bar(u, free()) };
-            boundary(&problem, &Survey::of(&problem)).unwrap()
+            boundary(&problem, &Survey::new(&problem)).unwrap()
         };
         assert!(left("X/50") > 0.1 && left("X/50") == left("-X/50"), "{}", left("-X/50"));
     }

@@ -1,8 +1,13 @@
 //! The continuum problem that an exact solution is held to.
+//!
+//! Stress of a problem's body: that of its law, of its expansion by heat and of its start.
+//!
+//! Manufactured forces that several runs ask for: the cases of a study differ in their methods, but
+//! most have particles at the same places and take the same steps.
 
-use super::expansion::{Swelling, swollen_cauchy};
-use super::face::Face;
-use super::forcing::SharedForces;
+use super::condition::Face;
+use super::equation::complete_in_plane;
+use super::expansion::{Swelling, swollen_cauchy, swollen_divergence, swollen_piola};
 use super::formula::Formula;
 use super::heat::Conduction;
 use super::initial_stress::InitialStress;
@@ -10,11 +15,12 @@ use super::law::Equation;
 use super::linearised::Linearised;
 use super::motion::{Derivatives, Motion, write};
 use super::outline::Outline;
-use super::plane;
+use super::tensor::{Tensor, tensor};
 use super::term::Term;
 use super::truth::Truth;
 use crate::subject::PlaneState;
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// An initial-boundary-value problem on a box or a body of another outline, with its claimed
 /// solution.
@@ -110,7 +116,7 @@ impl Problem {
 
     /// Adds the derivatives across a plane to those of the motion in it.
     pub(super) fn complete(&self, label: &[f64], now: &mut Derivatives) {
-        plane::complete(self.plane, &self.equation, label, now);
+        complete_in_plane(self.plane, &self.equation, label, now);
     }
 
     /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less the terms of the loads.
@@ -119,7 +125,7 @@ impl Problem {
         let balance = self.balance(label, t, &now);
         std::array::from_fn(|i| {
             let stated = self.stated(i, label, t, &now.u);
-            balance[i] - stated - self.resistance(i, (label, t), &now, stated)
+            balance[i] - stated - self.resistance(i, label, t, &now, stated)
         })
     }
 
@@ -130,7 +136,7 @@ impl Problem {
         }
         std::array::from_fn(|i| {
             let stated = self.stated(i, label, t, &now.u);
-            stated + self.resistance(i, (label, t), now, stated)
+            stated + self.resistance(i, label, t, now, stated)
         })
     }
 
@@ -166,7 +172,8 @@ impl Problem {
     pub(super) fn resistance(
         &self,
         i: usize,
-        (label, t): (&[f64], f64),
+        label: &[f64],
+        t: f64,
         now: &Derivatives,
         stated: f64,
     ) -> f64 {
@@ -209,5 +216,137 @@ impl Truth for Problem {
         };
         write(&sigma, self.dimension(), into);
         true
+    }
+}
+
+impl Problem {
+    /// Stretch by temperature at one point and time.
+    pub(super) fn swelling(&self, label: &[f64], t: f64) -> Option<Swelling> {
+        let heat = self.heat.as_ref()?;
+        let expansion = self.terms.iter().find_map(|term| term.expansion())?;
+        Some(expansion.swelling(&heat.temperature.derivatives(label, t)))
+    }
+
+    /// P (Pa), where the motion's derivatives are `now`.
+    pub(super) fn piola(&self, label: &[f64], t: f64, now: &Derivatives) -> Tensor<f64> {
+        let piola = match self.swelling(label, t) {
+            None => self.equation.piola(&now.grad),
+            Some(Swelling { theta, .. }) => {
+                swollen_piola(&self.equation, self.dimension(), &now.grad, theta)
+            }
+        };
+        if self.initial_stress.is_none() {
+            return piola;
+        }
+        let initial = self.initial_stress.piola(label, &now.grad, self.equation.is_finite());
+        tensor(|i, j| piola[i][j] + initial[i][j])
+    }
+
+    /// Cauchy stress (Pa) at `label`, a place of this body, where the motion's gradient is `grad`.
+    pub(super) fn cauchy(&self, label: &[f64], grad: &Tensor<f64>) -> Tensor<f64> {
+        let sigma = self.equation.cauchy(grad);
+        if self.initial_stress.is_none() {
+            return sigma;
+        }
+        let initial = self.initial_stress.cauchy(label, grad, self.equation.is_finite());
+        tensor(|i, j| sigma[i][j] + initial[i][j])
+    }
+
+    /// Div P (N/m3), where the motion's derivatives are `now`.
+    pub(super) fn divergence(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
+        let slopes = (&now.grad, &now.second);
+        let axes = if self.plane == PlaneState::Strain { self.dimension() } else { 3 };
+        let force = match self.swelling(label, t) {
+            None => self.equation.divergence(axes, slopes.0, slopes.1),
+            Some(swelling) => {
+                swollen_divergence(&self.equation, axes, slopes.0, slopes.1, &swelling)
+            }
+        };
+        let hoops = self.hoop_force(label, t, now);
+        let force: [f64; 3] = std::array::from_fn(|i| force[i] + hoops[i]);
+        if self.initial_stress.is_none() {
+            return force;
+        }
+        let initial = self.initial_stress.divergence(label, slopes, self.equation.is_finite());
+        std::array::from_fn(|i| force[i] + initial[i])
+    }
+
+    /// The part of Div P (N/m3) of a body of revolution that is no derivative: `((P_rR - P_tT)/R,
+    /// P_zR/R)` at the radius R (Malvern 1969, appendix II). None of others.
+    pub(super) fn hoop_force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
+        if self.plane != PlaneState::Axisymmetric {
+            return [0.0; 3];
+        }
+        let (radius, piola) = (label[0], self.piola(label, t, now));
+        [(piola[0][0] - piola[2][2]) / radius, piola[1][0] / radius, 0.0]
+    }
+
+    /// Length (m/rad) of the ring at `label`, one but in a body of revolution, and the hoop
+    /// stress that acts against the components of a displacement there (Pa).
+    pub(super) fn ring(&self, label: &[f64], piola: &Tensor<f64>) -> (f64, [f64; 3]) {
+        match self.plane {
+            PlaneState::Axisymmetric => (label[0], [piola[2][2], 0.0, 0.0]),
+            PlaneState::Strain | PlaneState::Stress => (1.0, [0.0; 3]),
+        }
+    }
+}
+
+/// Most numbers that are kept: 32 MiB. The largest of our own suites has three quarters of it.
+const MOST: usize = 1 << 22;
+
+/// Forces by places and time, each computed by the run that asks first. When they are too many, the
+/// rest are computed by each run.
+#[derive(Debug, Default)]
+pub struct SharedForces(Mutex<Tables>);
+
+#[derive(Debug, Default)]
+struct Tables {
+    /// The coordinates of places, one after the other.
+    places: Vec<Vec<f64>>,
+    /// Forces at all places of one number, by that and by the bits of the time.
+    forces: BTreeMap<(usize, u64), Arc<[f64]>>,
+    /// Numbers that are kept.
+    size: usize,
+}
+
+impl SharedForces {
+    /// The number by which forces at `places` are known: the same for the same bits.
+    pub(in crate::exact) fn number_of(&self, places: Vec<f64>) -> usize {
+        let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let bits = f64::to_bits;
+        let is_known =
+            |known: &Vec<f64>| known.iter().copied().map(bits).eq(places.iter().copied().map(bits));
+        let found = tables.places.iter().position(is_known);
+        found.unwrap_or_else(|| {
+            tables.size += places.len();
+            tables.places.push(places);
+            tables.places.len() - 1
+        })
+    }
+
+    /// The forces at the time `t` (s), if they are known.
+    pub(in crate::exact) fn get(&self, places: usize, t: f64) -> Option<Arc<[f64]>> {
+        let tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        tables.forces.get(&(places, t.to_bits())).cloned()
+    }
+
+    /// Keeps forces, if there is room for them.
+    pub(in crate::exact) fn put(&self, places: usize, t: f64, forces: Vec<f64>) {
+        let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if tables.size + forces.len() <= MOST {
+            let size = forces.len();
+            // Another run may have computed the same meanwhile.
+            if tables.forces.insert((places, t.to_bits()), forces.into()).is_none() {
+                tables.size += size;
+            }
+        }
+    }
+
+    /// Forgets all forces: nobody will ask again, or they will be computed again.
+    pub fn clear(&self) {
+        let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        // Runs go on to know their places by number.
+        tables.size = tables.places.iter().map(Vec::len).sum();
+        tables.forces.clear();
     }
 }

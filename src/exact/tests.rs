@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// The balance of momentum in weak form alone.
 fn momentum(problem: &Problem) -> Result<(), Violation> {
-    super::check::weak::momentum(problem, &Survey::of(problem))
+    super::check::weak::momentum(problem, &Survey::new(problem))
 }
 
 const NAMES: [&str; 4] = ["X", "Y", "Z", "t"];
@@ -261,7 +261,7 @@ pub(super) fn bar(displacement: &str, right: Arc<dyn Condition>) -> Problem {
 #[test]
 fn two_differentiations_that_disagree_are_refused() {
     let stairs = bar("X*floor(1e9*t)/1e9", free());
-    let survey = Survey::of(&stairs);
+    let survey = Survey::new(&stairs);
     let found = super::check::differences::differentiation(&stairs, &survey).unwrap_err();
     assert!(found.condition.starts_with("agreement of two differentiations"), "{found}");
 }
@@ -438,7 +438,7 @@ fn what_is_left_is_the_largest_of_all_rims() {
     };
     let any = Linearised { tolerance: f64::INFINITY, because: String::new() };
     let pipe = Problem { linearised: Some(any), ..pipe };
-    let left = super::check::rims::free(&pipe, &Survey::of(&pipe)).unwrap();
+    let left = super::check::pointwise::traction_free_rims(&pipe, &Survey::new(&pipe)).unwrap();
     assert!(left > 0.1, "{left}");
 }
 

@@ -33,19 +33,15 @@
 //! in place.
 
 mod bar;
-mod element;
-mod law;
 mod mass;
 mod mesh;
-mod sampling;
 mod setup;
 
 #[cfg(test)]
 mod tests;
 
 pub use bar::Bar;
-pub use element::Element;
-pub use law::BarLaw;
+pub use mesh::Element;
 pub use setup::{
-    BarLoad, BarSetup, Mass, Sampling, ScalarFunction, SetupError, TimeFunction, pointwise,
+    BarLaw, BarLoad, BarSetup, Mass, Sampling, ScalarFunction, SetupError, TimeFunction, pointwise,
 };

@@ -11,52 +11,43 @@
 //! ```text
 //! particles --P2G--> mass, momentum, force --solve--> acceleration --G2P--> velocity, strain, x
 //! ```
+//!
+//! The layers, each of which imports only those above it:
+//!
+//! ```text
+//! foundation    vectors, registers, threads, grid, particles
+//! basis         basis functions (a family)
+//! kernel        the loops over particles and nodes, compiled for each basis
+//! families      boundary, mass, material, transfer, effect
+//! step          set-up, schedule and passes of a solver
+//! multibody, analysis    several solvers on one grid; questions to a solver
+//! ```
 
-pub(crate) mod analysis;
-pub(crate) mod seeding;
-pub(crate) mod state;
-
-mod algebra;
+mod analysis;
 mod basis;
 mod boundary;
-mod combination;
 mod effect;
-mod family;
-mod frame;
-mod grid;
-mod heat_solver;
+mod foundation;
 mod kernel;
 mod mass;
 pub mod material;
 mod multibody;
-mod packed_grid;
-mod particles;
-mod schedule;
 mod scheme;
-mod setup;
-mod simd;
-mod solver;
-mod stage;
+mod seeding;
 mod step;
-mod stress;
-mod threads;
 mod transfer;
 
-pub use algebra::{Matrix, Vector, cofactor, det, det_of_rows, dyad};
 pub use analysis::stable_time_step::simplest_with_same_response;
 pub use basis::*;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
-pub use combination::{combine, combine_across, combine_bodies};
 pub use effect::*;
-pub use frame::FrameName;
-pub use grid::Grid;
-pub use heat_solver::HeatSolver;
-pub use kernel::contract::Kernel;
-pub use kernel::moments::Moments;
-pub use kernel::request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
-pub use kernel::scalar_contract::Scalars;
-pub use kernel::settings::LoopSettings;
-pub use kernel::tally::Tally;
+pub use foundation::algebra::{Matrix, Vector, cofactor, det, det_of_rows, dyad};
+pub use foundation::grid::Grid;
+pub use foundation::moments::{Moments, WeightMoments};
+pub use foundation::particles::{Block, FrameName, Particles};
+pub use kernel::contract::{
+    Affine, Divergence, G2pRequest, Kernel, LoopSettings, P2gRequest, ParticleField, Scalars, Tally,
+};
 pub use kernel::{kernel, kernel_with};
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
@@ -65,14 +56,14 @@ pub use material::{
     Newtonian, Prestressed, Range, Rigid, StressBlock, StressUpdate,
 };
 pub use multibody::Bodies;
-pub use particles::{Block, Particles};
-pub use scheme::SchemeName;
-pub use seeding::fragments::Fragment;
+pub use scheme::{SchemeName, Stage};
+pub use seeding::Fragment;
 pub use seeding::quadrilateral::Quadrilateral;
-pub use setup::Setup;
-pub use solver::Solver;
-pub use stage::Stage;
-pub use state::initial::complete_start;
+pub use step::combination::{combine, combine_across, combine_bodies};
+pub use step::heat_solver::HeatSolver;
+pub use step::initial::complete_start;
+pub use step::setup::Setup;
+pub use step::solver::Solver;
 pub use transfer::{
     Apic, Blend, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferChoice, TransferKind,
     TransferName, TransferParameter, WithParameter, Xpic, g2p, transfer,

@@ -44,7 +44,7 @@ impl<'a> Checkpoint<'a> {
     }
 
     /// A checkpoint to be read from the bytes of [`Checkpoint::into_bytes`] by the same visits.
-    pub fn of(bytes: &'a [u8]) -> Self {
+    pub fn from_bytes(bytes: &'a [u8]) -> Self {
         Self(Way::In(bytes))
     }
 
@@ -257,7 +257,7 @@ mod tests {
 
     /// Whether it fitted.
     fn taken_back(memory: &mut (impl Memory + ?Sized), bytes: &[u8]) -> bool {
-        let mut checkpoint = Checkpoint::of(bytes);
+        let mut checkpoint = Checkpoint::from_bytes(bytes);
         checkpoint.visit(memory);
         checkpoint.is_used_up()
     }

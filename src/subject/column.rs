@@ -1,4 +1,5 @@
-//! Columns of a subject's state: their size in memory, and their numbers.
+//! Columns of the state of a subject: their size in memory and their numbers, and the cost of a
+//! step: its passes, the particles that they visit, and its columns.
 
 /// Owner of an entry of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,15 +52,15 @@ type WriteNumbers<'a> = Box<dyn Fn(&mut Vec<f64>) + 'a>;
 impl<'a> Column<'a> {
     /// A column with entries for particles.
     pub fn of_particles<T: Entry>(name: &'static str, entries: &'a [T]) -> Self {
-        Self::of(name, Holder::Particle, entries)
+        Self::with_holder(name, Holder::Particle, entries)
     }
 
     /// A column with entries for nodes.
     pub fn of_nodes<T: Entry>(name: &'static str, entries: &'a [T]) -> Self {
-        Self::of(name, Holder::Node, entries)
+        Self::with_holder(name, Holder::Node, entries)
     }
 
-    fn of<T: Entry>(name: &'static str, holder: Holder, entries: &'a [T]) -> Self {
+    fn with_holder<T: Entry>(name: &'static str, holder: Holder, entries: &'a [T]) -> Self {
         let bytes = std::mem::size_of::<T>();
         Self {
             size: ColumnSize { name, holder, entries: entries.len(), bytes },
@@ -103,4 +104,32 @@ pub struct BodyFields {
     pub counts: Vec<usize>,
     /// Fields with an entry for each node.
     pub of_nodes: Vec<StateField>,
+}
+
+/// Cost of one step of a subject: the passes that it computes and the memory that it keeps.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Profile {
+    /// The effects that are active, in their order.
+    pub effects: Vec<&'static str>,
+    /// Particles.
+    pub particles: usize,
+    /// Nodes of the grid.
+    pub nodes: usize,
+    /// Memory; no column is empty.
+    pub columns: Vec<ColumnSize>,
+    /// Passes of one step in their order, from [`Subject::passes`](super::Subject::passes).
+    pub passes: Vec<String>,
+    /// Parts of the passes of one step, and the particles that each visits. A part that is computed
+    /// twice counts twice.
+    pub visits: Vec<(&'static str, u64)>,
+}
+
+impl Profile {
+    /// How many there are of what columns have entries for.
+    pub fn holders(&self, holder: Holder) -> usize {
+        match holder {
+            Holder::Particle => self.particles,
+            Holder::Node => self.nodes,
+        }
+    }
 }

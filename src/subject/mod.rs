@@ -3,25 +3,21 @@
 //! A [`Subject`] can be put on every level of a refinement plan and held against the truth: the
 //! crate's own MPM and FEM, or a solver of yours. The trait is object-safe and flat (`f64` slices,
 //! no type of this crate's algebra), so that a solver in another language can stand behind it.
+//!
+//! Sums over a body.
+//!
+//! Force of walls on a body.
+//!
+//! A solver's account of itself: its name, and the order that it claims.
+//!
+//! Third axis of a two-dimensional body.
 
-mod account;
 mod checkpoint;
 mod column;
-mod plane;
-mod profile;
-mod reaction;
-mod totals;
-
-pub use account::Precision;
-pub(crate) use account::{HIGHEST_ORDER, LONGEST_NAME, is_solver_name};
-pub use checkpoint::{Checkpoint, Memory};
-pub use column::{BodyFields, Column, ColumnSize, Entry, Holder, StateField};
-pub use plane::PlaneState;
-pub use profile::Profile;
-pub use reaction::Reaction;
-pub use totals::Totals;
 
 use crate::named::named;
+pub use checkpoint::{Checkpoint, Memory};
+pub use column::{BodyFields, Column, ColumnSize, Entry, Holder, Profile, StateField};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -254,4 +250,108 @@ pub enum Failure {
     /// A solver that is not of this crate broke, or broke the protocol.
     #[error("the solver {0}")]
     External(String),
+}
+
+/// Sums over the body, p, of what a motion without outer forces keeps; components beyond the
+/// dimension are zero.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Totals {
+    /// `sum m_p` (kg).
+    pub mass: f64,
+    /// `sum m_p v_p` (kg m/s).
+    pub momentum: [f64; 3],
+    /// `sum m_p |v_p|`, against which a change of the momentum is small or not (kg m/s).
+    pub momentum_size: f64,
+    /// `sum m_p x_p x v_p` about the origin, and what particles carry within themselves (kg m2/s).
+    /// In 2-D the third component only; zero in 1-D.
+    pub angular_momentum: [f64; 3],
+    /// The sum of the magnitudes of those terms (kg m2/s).
+    pub angular_momentum_size: f64,
+    /// `sum m_p v_p^2 / 2` (J).
+    pub kinetic_energy: f64,
+    /// Energy that the material stores (J); `None` if its law has none.
+    pub strain_energy: Option<f64>,
+}
+
+impl Totals {
+    /// Adds a particle of this mass (kg), velocity (m/s) and angular momentum (kg m2/s).
+    pub fn add(&mut self, mass: f64, velocity: [f64; 3], spin: [f64; 3]) {
+        let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+        self.mass += mass;
+        self.momentum_size += mass * speed;
+        self.kinetic_energy += 0.5 * mass * speed * speed;
+        self.angular_momentum_size += libm::hypot(libm::hypot(spin[0], spin[1]), spin[2]);
+        for i in 0..3 {
+            self.momentum[i] += mass * velocity[i];
+            self.angular_momentum[i] += spin[i];
+        }
+    }
+
+    /// Kinetic and stored energy together (J).
+    pub fn energy(&self) -> Option<f64> {
+        self.strain_energy.map(|stored| self.kinetic_energy + stored)
+    }
+
+    /// The sums over two bodies.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|i| a[i] + b[i]);
+        Self {
+            mass: self.mass + other.mass,
+            momentum: sum(self.momentum, other.momentum),
+            momentum_size: self.momentum_size + other.momentum_size,
+            angular_momentum: sum(self.angular_momentum, other.angular_momentum),
+            angular_momentum_size: self.angular_momentum_size + other.angular_momentum_size,
+            kinetic_energy: self.kinetic_energy + other.kinetic_energy,
+            strain_energy: self.strain_energy.zip(other.strain_energy).map(|(a, b)| a + b),
+        }
+    }
+}
+
+/// Force of walls on the body, at the beginning of the last step: those of its end are not known
+/// before another step computes them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reaction {
+    /// Time of the force (s).
+    pub time: f64,
+    /// The force (N); components beyond the dimension are zero.
+    pub force: [f64; 3],
+}
+
+/// Longest name of a solver, in bytes.
+pub(crate) const LONGEST_NAME: usize = 64;
+
+/// Largest order that a solver may claim.
+pub(crate) const HIGHEST_ORDER: f64 = 20.0;
+
+/// Whether `name` may be that of a solver: it becomes part of the names of cases and files.
+pub(crate) fn is_solver_name(name: &str) -> bool {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    !name.is_empty() && name.len() <= LONGEST_NAME && name.chars().all(plain)
+}
+
+named! {
+    /// Precision of a solver's numbers.
+    #[derive(Default)]
+    pub enum Precision {
+        /// 53 bits.
+        #[default]
+        Double = "double",
+        /// 24 bits.
+        Single = "single",
+    }
+}
+
+named! {
+    /// State of a two-dimensional body across its plane.
+    #[derive(Default)]
+    pub enum PlaneState {
+        /// Held across: F_33 = 1.
+        #[default]
+        Strain = "strain",
+        /// A plate with free faces: sigma_33 = 0.
+        Stress = "stress",
+        /// The meridian plane (r, z) of a body of revolution: F_33 = r/R.
+        Axisymmetric = "axisymmetric",
+    }
 }

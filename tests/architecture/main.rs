@@ -11,7 +11,7 @@
 //! markdown   text -> headings, links, spans of code, fenced blocks
 //! documents  what they say that the repository does not have
 //! pages      tables of documents that follow from the suites
-//! exercises  pages that add a member to a family, and how they are applied
+//! exercises  pages that add a member to a family, compared with the compiled members
 //! licences   of the crates that a build takes in
 //! defects    seeded defects: what they change is still there
 //! ```
@@ -180,7 +180,7 @@ fn results_have_the_same_bits_everywhere() {
         &rules::platform_calls(&sources),
     );
     hold(
-        "products and sums are fused by `plus_product` of `src/mpm/simd`, in loops over nodes",
+        "products and sums are fused by `plus_product` of `src/mpm/foundation/simd`, in loops over nodes",
         "it rounds once where the formula as written rounds twice, on every processor; elsewhere a \
          fused operation may be a call, and a change between the two changes stored results",
         &rules::fused(&sources),
@@ -332,39 +332,11 @@ fn the_book_has_every_document() {
     assert!(missing.is_empty(), "not in {summary}: {missing:?}");
 }
 
-/// The pages of exercises that are there, with the most files that each may touch.
-fn exercises() -> Vec<(markdown::Document, usize)> {
-    let documents = documents();
-    let page = |name: &str| format!("docs/exercises/{name}.md");
-    let pages = documents.into_iter().filter_map(|document| {
-        let (_, most) = exercises::PAGES.iter().find(|(name, _)| page(name) == document.file)?;
-        Some((document, *most))
-    });
-    pages.collect()
-}
-
 #[test]
-fn exercises_apply_to_the_present_sources() {
-    let table = include_str!("../../docs/exercises/README.md");
-    assert_eq!(exercises().len(), exercises::PAGES.len(), "pages that are there");
-    for (page, most) in exercises() {
-        let file = &page.file;
-        let changes = exercises::changes(&page).unwrap_or_else(|what| panic!("{what}"));
-        let root = source::root();
-        let applied =
-            exercises::check(&changes, root).and_then(|()| exercises::compiled(&changes, root));
-        assert!(applied.is_ok(), "{file}: {}", applied.unwrap_err());
-        let text = std::fs::read_to_string(root.join(file)).expect("a page");
-        let (files, lines) = exercises::counted(&changes);
-        let counted = format!("Files of `src`: {files}. Lines in files that are there: {lines}.");
-        assert!(text.contains(&counted), "{file} must say: {counted}");
-        let name = file.rsplit('/').next().expect("a file");
-        let row = format!("({name}) | {files} | {lines}");
-        assert!(table.contains(&row), "docs/exercises/README.md must say: {row}");
-        assert!(files <= most, "{file} touches {files} files of src/, {most} are wanted");
-        let suites = exercises::suites(&changes);
-        assert_eq!(suites.len(), 1, "{file} adds one suite that uses the new member");
-    }
+fn pages_of_exercises_show_the_compiled_members() {
+    let pages = documents().into_iter().filter(|page| page.file.starts_with("docs/exercises/"));
+    let stale = exercises::stale(&pages.collect::<Vec<_>>());
+    assert!(stale.is_empty(), "\n{}", stale.join("\n"));
 }
 
 #[test]
@@ -389,25 +361,4 @@ fn seeded_defects_apply_to_the_present_sources() {
         }
     }
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
-}
-
-/// Writes a copy of the repository with all exercises applied into the folder that the variable
-/// `EXERCISES` names, and prints their suites: `ci/exercises` builds and runs it.
-#[test]
-#[ignore = "ci/exercises runs it"]
-fn exercises_are_written() {
-    let copy = std::env::var_os("EXERCISES").expect("EXERCISES names a folder");
-    let copy = std::path::Path::new(&copy);
-    for file in source::paths("") {
-        let to = copy.join(&file);
-        std::fs::create_dir_all(to.parent().expect("a folder")).expect("a folder is made");
-        std::fs::copy(source::root().join(&file), to).expect("a file is copied");
-    }
-    for (page, _) in exercises() {
-        let changes = exercises::changes(&page).unwrap_or_else(|what| panic!("{what}"));
-        exercises::apply(&changes, copy).unwrap_or_else(|what| panic!("{}: {what}", page.file));
-        for suite in exercises::suites(&changes) {
-            println!("suite {suite}");
-        }
-    }
 }

@@ -152,43 +152,10 @@ fn a_sound_document_passes(#[case] text: &str) {
     assert_eq!(mistakes(text), [""; 0]);
 }
 
-fn page(text: &str) -> Document {
-    Document::new("docs/exercises/basis.md", text)
-}
-
-/// A page that changes this file.
-fn edit(hunk: &str) -> Result<(), String> {
-    let file = "tests/architecture/planted.rs";
-    let page = page(&format!("File: `{file}`\n\n```diff\n@@\n{hunk}\n```\n"));
-    exercises::changes(&page).and_then(|c| exercises::check(&c, crate::source::root()))
-}
-
-#[rstest]
-#[case::sound(
-    " //! The scanners of words and of documents, held to small texts with planted mistakes.\n+//!",
-    true
-)]
-#[case::lost(" // lines that are not in\n // the file\n+x", false)]
-#[case::twice(" #[rstest]\n+x", false)]
-#[case::no_mark("fn owned", false)]
-fn a_hunk_that_does_not_apply_is_found(#[case] hunk: &str, #[case] sound: bool) {
-    let found = edit(hunk);
-    assert_eq!(found.is_ok(), sound, "{found:?}");
-}
-
-#[rstest]
-fn an_exercise_is_counted() {
-    let text = "File: src/a.rs\n\n```rust\nstruct A;\n```\n\nIn between.\n\n```sh\nls\n```\n\n\
-                File: src/mod.rs\n```diff\n@@\n mod z;\n+mod a;\n@@\n+a\n-b\n```\n\n\
-                File: verification/a.yaml\n```yaml\nsuite: a\n```\n";
-    let changes = exercises::changes(&page(text)).expect("blocks of an exercise");
-    assert_eq!(exercises::counted(&changes), (2, 2), "files and lines");
-    assert_eq!(exercises::suites(&changes), ["a"]);
-}
-
-#[rstest]
-fn a_new_file_that_is_there_is_found() {
-    let page = page("File: Cargo.toml\n```rust\nstruct A;\n```\n");
-    let changes = exercises::changes(&page).expect("a new file");
-    assert!(exercises::check(&changes, crate::source::root()).is_err());
+#[test]
+fn exercise_that_differs_from_the_compiled_member_is_found() {
+    let page = "File: tests/exercises/spin.rs\n\n```rust\nstruct A;\n```\n";
+    let stale = exercises::stale(&[Document::new("docs/exercises/effect.md", page)]);
+    assert!(stale.iter().any(|line| line.contains("spin.rs differs")), "{stale:?}");
+    assert!(stale.iter().any(|line| line.contains("no page shows")), "{stale:?}");
 }

@@ -246,7 +246,10 @@ fn is_platform(name: &str) -> bool {
 /// Fused operations outside the registers, which have the one that all may use.
 pub(crate) fn fused(sources: &[Source]) -> Vec<Breach> {
     let names = ["mul_add", "mul_add_precise", "fma"];
-    names.iter().flat_map(|name| mentions(sources, &[&[name]], "src/mpm/simd/")).collect()
+    names
+        .iter()
+        .flat_map(|name| mentions(sources, &[&[name]], "src/mpm/foundation/simd/"))
+        .collect()
 }
 
 /// Looks at every three tokens in a row.

@@ -191,7 +191,7 @@ fn other_planted_breaches_are_found() {
         ("src/long.rs", &long),
         ("src/tested.rs", &tested),
         ("src/mpm/utils.rs", "mod inner { fn f(x: f64) { x.mul_add(x, x) } }"),
-        ("src/mpm/simd/plain.rs", "fn f(x: f64) { x.mul_add(x, libm::fma(x, x, x)) }"),
+        ("src/mpm/foundation/simd/plain.rs", "fn f(x: f64) { x.mul_add(x, libm::fma(x, x, x)) }"),
         ("src/mpm/tests/common.rs", "use serde_yaml::Value;"),
         ("src/both.rs", "use crate::mpm::Solver;\nuse crate::fem::Bar;"),
     ]);

@@ -8,9 +8,9 @@
 use super::contract::{Basis, Domain};
 use super::product::Product;
 use super::weights_1d::Weights1d;
-use crate::mpm::algebra::array;
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::array;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 
 /// Quadratic Bernstein polynomials, continuous from cell to cell.
 #[derive(Debug, Clone, Copy)]

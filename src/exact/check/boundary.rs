@@ -3,8 +3,7 @@
 use super::event::{AXES, Event, OnFace, SpaceTimeBox};
 use super::friction;
 use super::survey::{self, Magnitudes, Survey};
-use crate::exact::condition::FacePoint;
-use crate::exact::face::Face;
+use crate::exact::condition::{Face, FacePoint};
 use crate::exact::formula::Formula;
 use crate::exact::linearised::share;
 use crate::exact::motion::{Derivatives, variables};
@@ -19,7 +18,7 @@ pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     let left = Cell::new(0.0);
     let mut random = Random::new(3);
     for face in &problem.faces {
-        let on_face = OnFace::of((&problem.from, &problem.to), face.axis, face.high);
+        let on_face = OnFace::new(&problem.from, &problem.to, face.axis, face.high);
         let extent = on_face.extent(&survey::extent(problem));
         let mut found = LargestViolation::default();
         // A load may vary along an axis along which the motion does not.
@@ -86,7 +85,7 @@ impl FacePoint for MovingPoint<'_> {
     fn friction(&self, coefficient: f64) -> Result<(), Violation> {
         let Magnitudes { displacement, velocity, stress, .. } = *self.sizes;
         let sizes = [displacement, velocity, stress];
-        friction::at_wall(self.problem, self.face, &self.event, (coefficient, &self.now), sizes)
+        friction::at_wall(self.problem, self.face, &self.event, coefficient, &self.now, sizes)
     }
 
     fn continues_on_opposite_face(&self) -> Result<(), Violation> {

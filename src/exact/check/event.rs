@@ -26,7 +26,7 @@ impl Event {
         if off.is_finite() && off <= allowed {
             return Ok(());
         }
-        Err(self.violation(condition, Some(expected), found, (Some(allowed), unit)))
+        Err(self.violation(condition, Some(expected), found, Some(allowed), unit))
     }
 
     /// Whether `found` is at most `most`, but for what is allowed.
@@ -34,14 +34,15 @@ impl Event {
         &self,
         allowed: f64,
         condition: String,
-        (most, found): (f64, f64),
+        most: f64,
+        found: f64,
         unit: &'static str,
     ) -> Result<(), Violation> {
         let over = found - most;
         if over.is_finite() && over <= allowed {
             return Ok(());
         }
-        Err(self.violation(condition + " at most", Some(most), found, (Some(allowed), unit)))
+        Err(self.violation(condition + " at most", Some(most), found, Some(allowed), unit))
     }
 
     pub(super) fn violation(
@@ -49,7 +50,8 @@ impl Event {
         condition: String,
         expected: Option<f64>,
         found: f64,
-        (allowed, unit): (Option<f64>, &'static str),
+        allowed: Option<f64>,
+        unit: &'static str,
     ) -> Violation {
         let label = self.label.clone();
         Violation { condition, label, t: self.t, expected, found, allowed, unit }
@@ -126,7 +128,7 @@ pub(crate) struct OnFace {
 
 impl OnFace {
     /// The low or the `high` face of a box on `axis`.
-    pub(crate) fn of((from, to): (&[f64], &[f64]), axis: usize, high: bool) -> Self {
+    pub(crate) fn new(from: &[f64], to: &[f64], axis: usize, high: bool) -> Self {
         let (mut from, mut to) = (from.to_vec(), to.to_vec());
         if high {
             from[axis] = to[axis];

@@ -4,7 +4,7 @@
 //! Forces are those on the reference area, of which both sides of Coulomb's law have the same.
 
 use super::event::{AXES, Event};
-use crate::exact::face::Face;
+use crate::exact::condition::Face;
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::violation::Violation;
@@ -18,7 +18,8 @@ pub(crate) fn at_wall(
     problem: &Problem,
     face: &Face,
     event: &Event,
-    (coefficient, now): (f64, &Derivatives),
+    coefficient: f64,
+    now: &Derivatives,
     [displacement, velocity, stress]: [f64; 3],
 ) -> Result<(), Violation> {
     let (axis, d, tolerance) = (face.axis, problem.dimension(), problem.tolerance);
@@ -32,15 +33,10 @@ pub(crate) fn at_wall(
     let traction: [f64; 3] = std::array::from_fn(|i| outwards * piola[i][axis]);
     let pressure = -outwards * traction[axis];
     let allowed = problem.law_tolerance() * stress;
-    event.judge_most(
-        allowed,
-        condition("which does not pull, traction"),
-        (0.0, -pressure),
-        "Pa",
-    )?;
+    event.judge_most(allowed, condition("which does not pull, traction"), 0.0, -pressure, "Pa")?;
 
     let rub = InterfaceTraction { traction, velocity: now.velocity, pressure, coefficient };
-    coulomb(event, (axis, d), &rub, [allowed, tolerance * velocity], condition)
+    coulomb(event, axis, d, &rub, [allowed, tolerance * velocity], condition)
 }
 
 /// Traction between two surfaces at a point.
@@ -62,7 +58,8 @@ pub(crate) struct InterfaceTraction {
 /// Where the traction along the surface is not that of friction.
 pub(crate) fn coulomb(
     event: &Event,
-    (axis, d): (usize, usize),
+    axis: usize,
+    d: usize,
     rub: &InterfaceTraction,
     [stress, velocity]: [f64; 2],
     condition: impl Fn(&str) -> String,
@@ -75,7 +72,7 @@ pub(crate) fn coulomb(
     let speed = along(&rub.velocity);
     if speed <= velocity {
         let name = condition("which holds a face that rests by at most mu times the pressure,");
-        return event.judge_most(stress, name, (most, along(&rub.traction)), "Pa");
+        return event.judge_most(stress, name, most, along(&rub.traction), "Pa");
     }
     for i in (0..d).filter(|i| *i != axis) {
         let name = condition(&format!("traction in {} against the velocity", AXES[i]));

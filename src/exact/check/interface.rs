@@ -44,7 +44,7 @@ pub fn meets(
 ) -> Result<(), Violation> {
     let Magnitudes { displacement, velocity, stress, .. } = *largest;
     let pair = BodyPair { one, other, axis, sizes: [displacement, velocity, stress] };
-    let on_face = OnFace::of((&one.from, &one.to), axis, true);
+    let on_face = OnFace::new(&one.from, &one.to, axis, true);
     let extent = on_face.extent(&survey::extent(one));
     let mut found = LargestViolation::default();
     for event in extent.spread(FACE_EVENTS, |_| true, &mut Random::new(8)) {
@@ -132,22 +132,22 @@ impl BodyPair<'_> {
         let gap = other.from[axis] - one.to[axis] + (there.u[axis] - here.u[axis]);
         let allowed = tolerance * displacement;
         let name = self.condition("of which none enters the other, overlap");
-        event.judge_most(allowed, name, (0.0, -gap), "m")?;
+        event.judge_most(allowed, name, 0.0, -gap, "m")?;
 
         let forces = self.forces(event, &here, &there);
         self.balance(event, forces)?;
         let ([traction, _], pressure) = (forces, -forces[0][axis]);
         let (allowed, apart) = (one.law_tolerance() * stress, gap > allowed);
         let name = self.condition("and do not pull each other, traction");
-        event.judge_most(allowed, name, (0.0, -pressure), "Pa")?;
+        event.judge_most(allowed, name, 0.0, -pressure, "Pa")?;
         if apart {
             let name = self.condition("push each other only where they touch, pressure");
-            event.judge_most(allowed, name, (0.0, pressure), "Pa")?;
+            event.judge_most(allowed, name, 0.0, pressure, "Pa")?;
         }
         let relative = std::array::from_fn(|i| here.velocity[i] - there.velocity[i]);
         let rub = InterfaceTraction { traction, velocity: relative, pressure, coefficient };
         let residuals = [allowed, tolerance * velocity];
-        coulomb(event, (axis, one.dimension()), &rub, residuals, |what| {
+        coulomb(event, axis, one.dimension(), &rub, residuals, |what| {
             self.condition(&format!("with friction, {what}"))
         })
     }

@@ -2,13 +2,10 @@
 
 pub(crate) mod boundary;
 pub(crate) mod differences;
-mod distinct;
 pub(crate) mod event;
 pub(crate) mod friction;
 pub(crate) mod interface;
-pub(crate) mod loading;
 pub(crate) mod pointwise;
-pub(crate) mod rims;
 pub(crate) mod space_time_patch;
 pub(crate) mod survey;
 pub(crate) mod weak;
@@ -26,7 +23,7 @@ impl Problem {
     /// # Errors
     /// The first [`Violation`].
     pub fn check(&self) -> Result<(), Violation> {
-        self.check_with(&Survey::of(self))
+        self.check_with(&Survey::new(self))
     }
 
     /// Checks the motion as [`check`](Self::check) does, with a `survey` that shares its magnitudes
@@ -39,8 +36,8 @@ impl Problem {
         pointwise::initial(self, survey)?;
         boundary::boundary(self, survey)?;
         boundary::driven(self, survey)?;
-        rims::free(self, survey)?;
-        loading::monotone(self, survey)?;
+        pointwise::traction_free_rims(self, survey)?;
+        pointwise::monotone_loading(self, survey)?;
         differences::differentiation(self, survey)?;
         pointwise::equation(self, survey)?;
         weak::momentum(self, survey)
@@ -56,7 +53,7 @@ impl Problem {
         let each = problems.iter().zip(&surveys).map(|(problem, survey)| {
             let any = Linearised { tolerance: f64::INFINITY, because: String::new() };
             let loose = Self { linearised: Some(any), ..problem.clone() };
-            let left = [boundary::boundary, rims::free, pointwise::equation]
+            let left = [boundary::boundary, pointwise::traction_free_rims, pointwise::equation]
                 .map(|left| left(&loose, survey));
             greatest(left.into_iter().map(|left| left.unwrap_or(f64::NAN)))
         });

@@ -1,7 +1,13 @@
 //! Conditions checked point by point.
+//!
+//! The rims of a body that is no box: free of traction, P n = 0.
+//!
+//! Laws with a memory are known to the truth for loading that never reverses: that it does not is
+//! checked here.
 
 use super::event::{AXES, Event};
-use super::survey::{self, Magnitudes, Survey, SurveyPoint};
+use super::survey;
+use super::survey::{Magnitudes, Survey, SurveyPoint};
 use crate::exact::formula::Formula;
 use crate::exact::linearised::share;
 use crate::exact::problem::Problem;
@@ -15,7 +21,7 @@ pub(crate) fn presence(problem: &Problem, survey: &Survey) -> Result<(), Violati
     for SurveyPoint { event, now, .. } in &survey.points {
         if let Some(u) = now.u.iter().find(|u| !u.is_finite()) {
             let condition = "the demand that the displacement is finite".to_owned();
-            return Err(event.violation(condition, None, *u, (None, "m")));
+            return Err(event.violation(condition, None, *u, None, "m"));
         }
     }
     let first = &first.event;
@@ -25,7 +31,7 @@ pub(crate) fn presence(problem: &Problem, survey: &Survey) -> Result<(), Violati
         return Ok(());
     }
     let condition = "the demand that the displacement is not zero everywhere".to_owned();
-    Err(first.violation(condition, None, 0.0, (None, "m")))
+    Err(first.violation(condition, None, 0.0, None, "m"))
 }
 
 /// u(X, 0) = u0(X) and u_t(X, 0) = v0(X).
@@ -90,4 +96,72 @@ pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violat
         }
     }
     found.into_result().map(|()| left)
+}
+
+/// Holds the traction on every rim against zero, and returns the largest that is left, relative to
+/// the stress.
+pub(crate) fn traction_free_rims(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
+    let Some(outline) = &problem.outline else { return Ok(0.0) };
+    let size = survey.largest.stress;
+    let (allowed, mut left) = (problem.law_tolerance() * size, 0.0);
+    let mut random = Random::new(7);
+    for (number, rim) in outline.rims().into_iter().enumerate() {
+        let mut found = LargestViolation::default();
+        for sample in 0..survey.face_events {
+            let (label, normal) = outline.on_rim(number, &mut random);
+            let t = (sample as f64 + random.unit()) / survey.face_events as f64 * problem.until;
+            let event = Event { label, t: problem.loaded(t) };
+            let now = problem.derivatives(&event.label, event.t);
+            let piola = problem.piola(&event.label, event.t, &now);
+            for i in 0..problem.dimension() {
+                let traction: f64 = piola[i].iter().zip(&normal).map(|(p, n)| p * n).sum();
+                let name = format!("boundary condition: {rim} is free, traction in {}", AXES[i]);
+                found.add(event.judge(allowed, name, (0.0, traction), "Pa"));
+                left = f64::max(left, share(traction, size));
+            }
+        }
+        found.into_result()?;
+    }
+    Ok(left)
+}
+
+/// In uniaxial strain: where the body flows, the stretch never turns back.
+pub(crate) fn monotone_loading(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
+    if !problem.equation.has_history() {
+        return Ok(());
+    }
+    for SurveyPoint { event, now, .. } in &survey.points {
+        if !problem.equation.flows(now.grad[0][0]) {
+            continue;
+        }
+        let outwards = if now.grad[0][0] < 0.0 { -1.0 } else { 1.0 };
+        let back = (outwards * now.grad_rate[0][0]).min(0.0);
+        let allowed = problem.tolerance * now.grad[0][0].abs() / problem.until;
+        let name = "the demand that loading never reverses where the body flows: \
+                    the rate du_X/dX dt, where it turns back,"
+            .to_owned();
+        event.judge(allowed, name, (0.0, back), "1/s")?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::law::J2Law;
+    use crate::exact::tests::{bar, free};
+    use rstest::rstest;
+
+    /// The bar flows beyond a strain of 0.01, and turns back at half of the time.
+    #[rstest]
+    #[case::pulled("0.05*X*t", true)]
+    #[case::pressed("-0.05*X*t", true)]
+    #[case::swings_elastically("0.004*X*sin(20*t)", true)]
+    #[case::pulled_and_let_go("0.1*X*(0.1 + t*(1 - t))", false)]
+    #[case::pressed_and_let_go("-0.1*X*(0.1 + t*(1 - t))", false)]
+    fn what_flows_does_not_turn_back(#[case] displacement: &str, #[case] passes: bool) {
+        let equation = J2Law::new(2.0, 0.0, 0.02, 0.1).into();
+        let problem = Problem { equation, ..bar(displacement, free()) };
+        assert_eq!(monotone_loading(&problem, &Survey::new(&problem)).is_ok(), passes);
+    }
 }

@@ -32,20 +32,23 @@ impl SpaceTimePatch {
     /// A patch in a box, of a run until `until` (s), none longer than `longest` (s).
     pub(crate) fn in_box(
         random: &mut Random,
-        (from, to): (&[f64], &[f64]),
+        from: &[f64],
+        to: &[f64],
         until: f64,
         longest: f64,
     ) -> Self {
         let ends = from.iter().zip(to);
-        let place = ends.map(|(low, high)| interval(random, *low, *high, f64::INFINITY)).unzip();
-        Self::over(random, place, until, longest)
+        let (centre, half) =
+            ends.map(|(low, high)| interval(random, *low, *high, f64::INFINITY)).unzip();
+        Self::over(random, centre, half, until, longest)
     }
 
     /// A patch over a place, its middle and its half-lengths (m), of a run until `until` (s), none
     /// longer than `longest` (s).
     pub(super) fn over(
         random: &mut Random,
-        (mut centre, mut half): (Vec<f64>, Vec<f64>),
+        mut centre: Vec<f64>,
+        mut half: Vec<f64>,
         until: f64,
         longest: f64,
     ) -> Self {
@@ -57,7 +60,7 @@ impl SpaceTimePatch {
 
     /// All of a box, at times about `t` (s) of a run until `until` (s), for no longer than
     /// `longest` (s).
-    pub(super) fn whole((from, to): (&[f64], &[f64]), until: f64, longest: f64, t: f64) -> Self {
+    pub(super) fn whole(from: &[f64], to: &[f64], until: f64, longest: f64, t: f64) -> Self {
         let mut half: Vec<f64> =
             from.iter().zip(to).map(|(low, high)| 0.5 * (high - low)).collect();
         let mut centre: Vec<f64> = from.iter().zip(&half).map(|(low, half)| low + half).collect();

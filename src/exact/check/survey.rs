@@ -130,7 +130,7 @@ pub struct Survey {
 
 impl Survey {
     /// Evaluates the motion of `problem`.
-    pub fn of(problem: &Problem) -> Self {
+    pub fn new(problem: &Problem) -> Self {
         let mut random = Random::new(1);
         let mut spread = |count: usize| -> Vec<SurveyPoint> {
             let events = events(problem, count, &mut random);
@@ -153,7 +153,7 @@ impl Survey {
     /// Evaluates the motions of all bodies of a scene, which share their largest magnitudes and
     /// the number of events on faces.
     pub fn of_each(problems: &[Problem]) -> Vec<Self> {
-        let mut all: Vec<Self> = problems.iter().map(Self::of).collect();
+        let mut all: Vec<Self> = problems.iter().map(Self::new).collect();
         let none = Magnitudes::default();
         let largest = all.iter().fold(none, |most, survey| most.larger(survey.largest));
         let face_events = all.iter().map(|survey| survey.face_events).max().unwrap_or(0);

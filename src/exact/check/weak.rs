@@ -5,11 +5,12 @@
 //! that vanishes on the rim of a patch,
 //! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`; of a body of revolution with
 //! `R dX` in the place of dX, and less `P_tT phi` in the radial component.
+//!
+//! Points of a raster at which a motion is the same, since it does not vary along some axis.
 
-use super::distinct::DistinctPlaces;
 use super::space_time_patch::{AxisPoint, Densities, Raster, SpaceTimePatch, bump, labels};
 use super::survey::{Magnitudes, Survey};
-use crate::exact::motion::Derivatives;
+use crate::exact::motion::{Derivatives, Motion};
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
@@ -42,12 +43,13 @@ fn crossing(problem: &Problem) -> f64 {
 
 /// A random patch of the body.
 fn draw(random: &mut Random, problem: &Problem) -> SpaceTimePatch {
-    let (ends, longest) = ((&problem.from[..], &problem.to[..]), WAVES * crossing(problem));
+    let (from, to) = (&problem.from[..], &problem.to[..]);
+    let longest = WAVES * crossing(problem);
     match &problem.outline {
-        None => SpaceTimePatch::in_box(random, ends, problem.until, longest),
+        None => SpaceTimePatch::in_box(random, from, to, problem.until, longest),
         Some(outline) => {
-            let place = outline.patch(random);
-            SpaceTimePatch::over(random, place, problem.until, longest)
+            let (centre, half) = outline.patch(random);
+            SpaceTimePatch::over(random, centre, half, problem.until, longest)
         }
     }
 }
@@ -69,9 +71,10 @@ pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violati
         balance(problem, draw(&mut random, problem), &survey.largest)?;
     }
     for event in survey.active(count, |sizes| sizes.stress) {
-        let (ends, longest) = ((&problem.from[..], &problem.to[..]), WAVES * crossing(problem));
+        let (from, to) = (&problem.from[..], &problem.to[..]);
+        let longest = WAVES * crossing(problem);
         let whole = match &problem.outline {
-            None => SpaceTimePatch::whole(ends, problem.until, longest, event.t),
+            None => SpaceTimePatch::whole(from, to, problem.until, longest, event.t),
             Some(_) => draw(&mut random, problem),
         };
         balance(problem, whole.about(event, &mut random), &survey.largest)?;
@@ -217,7 +220,7 @@ fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> 
     let Raster { points, times } = raster;
     let labels = labels(points);
     let motion = &problem.motion;
-    let distinct = DistinctPlaces::of(motion, points.len(), times.len());
+    let distinct = DistinctPlaces::new(motion, points.len(), times.len());
     let at = distinct.first.iter().map(|point| labels[*point].as_slice());
     let mut places = if only_first { motion.slopes_at_places(at) } else { motion.at_places(at) };
     let mut fields = vec![Derivatives::default(); distinct.first.len()];
@@ -248,4 +251,60 @@ fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> 
         }
     }
     all
+}
+
+/// The places of a raster at which a motion differs.
+pub(super) struct DistinctPlaces {
+    /// The first point of the raster at each place.
+    pub(super) first: Vec<usize>,
+    /// The place of each point.
+    pub(super) of_point: Vec<usize>,
+}
+
+impl DistinctPlaces {
+    /// Those of a raster of `count` points, `per_axis` of them along each axis, the first axis
+    /// running fastest.
+    pub(super) fn new(motion: &Motion, count: usize, per_axis: usize) -> Self {
+        let varying: Vec<bool> =
+            (0..motion.dimension()).map(|axis| motion.varies_along(axis)).collect();
+        let of_point: Vec<usize> =
+            (0..count).map(|point| place(point, per_axis, &varying)).collect();
+        let mut first = Vec::new();
+        for (point, place) in of_point.iter().enumerate() {
+            if *place == first.len() {
+                first.push(point);
+            }
+        }
+        Self { first, of_point }
+    }
+}
+
+/// The place of a point: its number on a raster of the axes along which the motion varies.
+fn place(mut point: usize, per_axis: usize, varying: &[bool]) -> usize {
+    let (mut place, mut stride) = (0, 1);
+    for varies in varying {
+        if *varies {
+            place += stride * (point % per_axis);
+            stride *= per_axis;
+        }
+        point /= per_axis;
+    }
+    place
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_along_an_axis_of_no_change_are_one_place() {
+        let of = |varying: &[bool; 3]| (0..27).map(|point| place(point, 3, varying)).collect();
+        let all: Vec<usize> = of(&[true, true, true]);
+        assert!(all.into_iter().eq(0..27));
+        let middle: Vec<usize> = of(&[false, true, false]);
+        assert_eq!(middle[..9], [0, 0, 0, 1, 1, 1, 2, 2, 2]);
+        assert_eq!(middle[9..18], middle[..9]);
+        let ends: Vec<usize> = of(&[true, false, true]);
+        assert_eq!((ends[2], ends[5], ends[9], ends[26]), (2, 2, 3, 8));
+    }
 }

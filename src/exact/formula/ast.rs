@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::binary::Binary;
+use super::builtin::Binary;
 use super::unary::Unary;
 
 /// A parsed formula, not yet bound: its names have no meaning yet.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::ast::Expr;
 use super::bind::ProgramBuilder;
-use super::error::FormulaError;
+use super::lexer::FormulaError;
 use super::number::Number;
 use super::program::{Instruction, Operand, read, run};
 use super::scope::Scope;

@@ -1,9 +1,18 @@
 //! Formulas of place and time at many places and many times.
+//!
+//! A program taken apart by what its steps depend on: the place, the time, or both.
+//!
+//! Sums are written out and registers named anew, so that each step is a node that is computed once
+//! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node depends on the place or
+//! the time if one of its arguments does. Each part of the split keeps its nodes in their old
+//! order, so that every number is computed by the operations that would compute it without the
+//! split: it has the same bits.
 
 use super::bound::Formula;
+use super::builtin::Binary;
 use super::number::Number;
-use super::program::{read, run};
-use super::split::Split;
+use super::program::{Action, Instruction, Operand, read, run};
+use std::collections::BTreeMap;
 
 /// Formulas of the same variables, the last of which is the time, evaluated at the same places
 /// again and again.
@@ -79,5 +88,200 @@ impl<T: Number> Hoisted<T> {
     /// Operations that are left for each evaluation.
     pub fn operations(&self) -> usize {
         self.split.rest.code.len()
+    }
+}
+
+/// Dependence of a node on place and time, as bits: two nodes together depend on the union.
+type Dependence = usize;
+const NOTHING: Dependence = 0;
+const PLACE: Dependence = 1;
+const TIME: Dependence = 2;
+const BOTH: Dependence = 3;
+
+/// The steps of some formulas. One that is taken twice, be it in two formulas, is one node.
+#[derive(Default)]
+struct Nodes {
+    list: Vec<SsaNode>,
+    /// The number of each node under its text, which tells 0 from -0 as `==` does not.
+    known: BTreeMap<String, usize>,
+}
+
+/// A step, whose registers are the numbers of nodes.
+struct SsaNode {
+    action: Action,
+    dependence: Dependence,
+}
+
+/// A program that leaves what others need of it in its first registers.
+#[derive(Debug, Clone, Default)]
+pub(super) struct PartProgram {
+    pub(super) code: Vec<Instruction>,
+    pub(super) registers: usize,
+    /// Number of values that are left for the rest.
+    pub(super) kept: usize,
+}
+
+/// Formulas of the same variables, time being the last of them, in three parts.
+#[derive(Debug, Clone)]
+pub(super) struct Split {
+    /// Steps that depend on the place only, over the variables.
+    pub(super) place: PartProgram,
+    /// Steps that depend on the time at most, over the variables.
+    pub(super) time: PartProgram,
+    /// The rest. Its variables are the values kept by `time`, followed by those kept by `place`.
+    pub(super) rest: PartProgram,
+    /// Where the rest leaves the values of the formulas.
+    pub(super) results: Vec<Operand>,
+}
+
+impl Split {
+    pub(super) fn new(formulas: &[Formula], variables: usize) -> Self {
+        let mut nodes = Nodes::default();
+        for i in 0..variables {
+            let dependence = if i + 1 == variables { TIME } else { PLACE };
+            nodes.list.push(SsaNode { action: Action::Copy(Operand::Variable(i)), dependence });
+        }
+        let results: Vec<Operand> =
+            formulas.iter().map(|formula| unroll(formula, &mut nodes)).collect();
+        let nodes = nodes.list;
+        let homes = Homes::new(&nodes, &results);
+        Self {
+            place: homes.part(&nodes, PLACE),
+            time: homes.part(&nodes, TIME),
+            rest: homes.part(&nodes, BOTH),
+            results: results.iter().map(|result| homes.seen(*result, BOTH)).collect(),
+        }
+    }
+}
+
+impl Nodes {
+    /// The node of a step.
+    fn push(&mut self, action: Action) -> Operand {
+        let next = self.list.len();
+        let node = *self.known.entry(format!("{action:?}")).or_insert(next);
+        if node == next {
+            let dependence =
+                action.arguments().fold(NOTHING, |dependence, operand| match operand {
+                    Operand::Register(node) => dependence | self.list[node].dependence,
+                    _ => dependence,
+                });
+            self.list.push(SsaNode { action, dependence });
+        }
+        Operand::Register(node)
+    }
+}
+
+/// Appends the steps of a formula, sums written out, and returns where its value is.
+fn unroll(formula: &Formula, nodes: &mut Nodes) -> Operand {
+    // What each register holds: a constant, or the value of a node.
+    let mut held = vec![Operand::Constant(0.0); formula.registers()];
+    let now = |held: &[Operand], operand| match operand {
+        Operand::Register(register) => held[register],
+        Operand::Variable(variable) => Operand::Register(variable),
+        Operand::Constant(_) => operand,
+    };
+    let mut at = 0;
+    while let Some(Instruction { action, to }) = formula.code().get(at) {
+        at += 1;
+        held[*to] = match action {
+            Action::Copy(a) => now(&held, *a),
+            Action::Next(end) => {
+                let sum = Action::Binary(Binary::Add, held[*to], now(&held, end.term));
+                if let Operand::Constant(index) = held[to + 1]
+                    && index < end.last
+                {
+                    held[to + 1] = Operand::Constant(index + 1.0);
+                    at = end.body;
+                }
+                nodes.push(sum)
+            }
+            action => nodes.push(action.map(|operand| now(&held, operand))),
+        };
+    }
+    now(&held, formula.result())
+}
+
+/// Where every node is computed, part by part, and in which register.
+struct Homes {
+    dependence: Vec<Dependence>,
+    /// For each part, the register of each node that it computes.
+    registers: [Vec<Option<usize>>; 4],
+    kept: [usize; 4],
+}
+
+impl Homes {
+    /// From the results back: whatever is needed, where it is computed.
+    fn new(nodes: &[SsaNode], results: &[Operand]) -> Self {
+        let mut homes = Self {
+            dependence: nodes.iter().map(|node| node.dependence).collect(),
+            registers: std::array::from_fn(|_| vec![None; nodes.len()]),
+            kept: [0; 4],
+        };
+        let mut wanted: [Vec<bool>; 4] = std::array::from_fn(|_| vec![false; nodes.len()]);
+        let mut ask = |operand: Operand, reader: Dependence, wanted: &mut [Vec<bool>; 4]| {
+            let Operand::Register(node) = operand else { return };
+            let home = home(homes.dependence[node], reader);
+            wanted[home][node] = true;
+            if home != reader && homes.registers[home][node].is_none() {
+                homes.registers[home][node] = Some(homes.kept[home]);
+                homes.kept[home] += 1;
+            }
+        };
+        for result in results {
+            ask(*result, BOTH, &mut wanted);
+        }
+        for (i, node) in nodes.iter().enumerate().rev() {
+            for reader in [PLACE, TIME, BOTH] {
+                if wanted[reader][i] {
+                    for argument in node.action.arguments() {
+                        ask(argument, reader, &mut wanted);
+                    }
+                }
+            }
+        }
+        for part in [PLACE, TIME, BOTH] {
+            let mut next = homes.kept[part];
+            for (register, wanted) in homes.registers[part].iter_mut().zip(&wanted[part]) {
+                if *wanted && register.is_none() {
+                    *register = Some(next);
+                    next += 1;
+                }
+            }
+        }
+        homes
+    }
+
+    /// The nodes of one part as a program.
+    fn part(&self, nodes: &[SsaNode], part: Dependence) -> PartProgram {
+        let mut code = Vec::new();
+        for (node, register) in nodes.iter().zip(&self.registers[part]) {
+            if let Some(to) = *register {
+                let action = node.action.map(|operand| self.seen(operand, part));
+                code.push(Instruction { action, to });
+            }
+        }
+        PartProgram { registers: code.len(), code, kept: self.kept[part] }
+    }
+
+    /// Where the part `reader` finds an argument.
+    fn seen(&self, operand: Operand, reader: Dependence) -> Operand {
+        let Operand::Register(node) = operand else { return operand };
+        let home = home(self.dependence[node], reader);
+        let register = self.registers[home][node].unwrap_or_default();
+        match home {
+            _ if home == reader => Operand::Register(register),
+            TIME => Operand::Variable(register),
+            _ => Operand::Variable(self.kept[TIME] + register),
+        }
+    }
+}
+
+/// The part that computes what `reader` reads. What depends on nothing is computed where it is
+/// read; for the rest, which runs most often, it is computed with what depends on the time.
+fn home(dependence: Dependence, reader: Dependence) -> Dependence {
+    match (dependence, reader) {
+        (NOTHING, BOTH) => TIME,
+        (NOTHING, _) => reader,
+        _ => dependence,
     }
 }

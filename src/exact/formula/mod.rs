@@ -43,34 +43,27 @@
 //! ```
 
 mod ast;
-mod binary;
 mod bind;
 mod bound;
 mod builtin;
-mod error;
-mod hint;
 mod hoisted;
 mod jet;
-mod lambert;
 mod lexer;
 mod number;
 mod parser;
 mod program;
 mod scope;
-mod several;
 mod slope;
 mod smooth;
-mod split;
 mod unary;
 
 pub use ast::Expr;
-pub use binary::Binary;
 pub use bound::Formula;
-pub use error::FormulaError;
+pub use builtin::Binary;
 pub use hoisted::Hoisted;
 pub use jet::Jet;
-pub use number::Number;
+pub use lexer::FormulaError;
+pub use number::{Number, NumberBatch};
 pub use scope::Scope;
-pub use several::NumberBatch;
 pub use slope::Slope;
 pub use unary::Unary;

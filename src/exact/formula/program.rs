@@ -3,7 +3,7 @@
 //! There is no recursion here: sums jump back, and user functions have been put in place. The
 //! depth of a formula therefore costs no stack.
 
-use super::binary::Binary;
+use super::builtin::Binary;
 use super::number::Number;
 use super::unary::Unary;
 

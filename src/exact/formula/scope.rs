@@ -5,8 +5,7 @@ use std::ops::Range;
 
 use super::ast::Expr;
 use super::builtin::is_reserved;
-use super::error::FormulaError;
-use super::lexer::is_name;
+use super::lexer::{FormulaError, is_name};
 
 /// The constants and the functions that formulas may use.
 #[derive(Debug, Clone, Default)]

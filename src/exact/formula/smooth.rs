@@ -1,7 +1,7 @@
 //! Formulas that have no kink.
 
-use super::binary::Binary;
 use super::bound::Formula;
+use super::builtin::Binary;
 use super::program::{Action, Operand};
 use super::unary::Unary;
 

@@ -1,14 +1,24 @@
 //! Every condition that a heat problem puts on its temperature.
+//!
+//! The heat equation in weak form, on random patches of space and time: it sees what a kink in the
+//! temperature hides from the equation point by point, a source of heat on a surface.
+//!
+//! For any smooth `phi` that vanishes on the rim of a patch,
+//! `int int (rho0 c T phi_t - k J C^-1 Grad T . Grad phi + rho0 s phi) dX dt = 0`.
+//!
+//! The temperature at many places and times, and the largest terms of its equation.
 
-use super::condition::HeatFacePoint;
+use super::field;
 use super::field::TemperatureDerivatives;
-use super::magnitudes::{HeatMagnitudes, HeatPoint, extent, interior, needed_and_stated};
-use super::problem::{Conduction, HeatFace};
-use super::{equation, weak};
+use super::problem::{Conduction, HeatFace, HeatFacePoint};
 use crate::exact::check::differences::{DIFFERENCE_TOLERANCE, away_from_kinks, step};
-use crate::exact::check::event::{Event, FACE_EVENTS, OnFace, SpaceTimeBox, greatest};
+use crate::exact::check::event::{
+    EVENTS, Event, FACE_EVENTS, OnFace, SpaceTimeBox, greatest, largest,
+};
+use crate::exact::check::space_time_patch::{Densities, Raster, SpaceTimePatch, bump, labels};
+use crate::exact::check::weak::{Sums, balances, patches};
 use crate::exact::formula::Formula;
-use crate::exact::motion::{Derivatives, variables};
+use crate::exact::motion::{Derivatives, Motion, variables};
 use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
@@ -20,7 +30,7 @@ impl Conduction {
     /// The first [`Violation`].
     pub fn check(&self) -> Result<(), Violation> {
         let points = interior(self);
-        let largest = HeatMagnitudes::of(self, &points);
+        let largest = HeatMagnitudes::from_points(self, &points);
         presence(&points, &largest)?;
         initial(self, &largest)?;
         boundary(self, &largest)?;
@@ -28,7 +38,7 @@ impl Conduction {
             differences(self, event, &largest)
         })?;
         equation(self, &points, largest.terms)?;
-        weak::balance(self, &largest)
+        balance(self, &largest)
     }
 }
 
@@ -75,7 +85,7 @@ fn boundary(problem: &Conduction, sizes: &HeatMagnitudes) -> Result<(), Violatio
     let mut random = Random::new(3);
     for face in &problem.faces {
         let mut found = LargestViolation::default();
-        let on_face = OnFace::of((&problem.from, &problem.to), face.axis, face.high);
+        let on_face = OnFace::new(&problem.from, &problem.to, face.axis, face.high);
         for event in on_face.extent(&extent(problem)).spread(FACE_EVENTS, |_| true, &mut random) {
             let (motion, now) = problem.now(&event.label, event.t);
             let inflow = inflow_at(problem, face, &motion, &now);
@@ -181,7 +191,7 @@ fn differences(
         divergence += (high - low) / (2.0 * step);
         size += (high.abs() + low.abs()) / step;
     }
-    let exact = problem.conductivity * equation::divergence(problem.dimension(), &motion, &now);
+    let exact = problem.conductivity * field::divergence(problem.dimension(), &motion, &now);
     let name = "agreement of two differentiations of Div Q".to_owned();
     let allowed = DIFFERENCE_TOLERANCE * largest.divergence + 1e-9 * size;
     event.judge(allowed, name, (divergence, exact), "W/m3")
@@ -197,4 +207,134 @@ fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(),
         found.add(point.0.judge(problem.tolerance * size, name, (needed, stated), "W/kg"));
     }
     found.into_result()
+}
+
+/// Checks the balance of heat on random patches. Fields far below the `largest` do not count.
+pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violation> {
+    let densities = Densities {
+        stored: problem.density * problem.capacity * largest.range,
+        flow: largest.inflow,
+        supply: problem.density * largest.terms,
+    };
+    let mut random = Random::new(6);
+    let smooth =
+        problem.temperature.is_smooth() && problem.motion.as_ref().is_none_or(Motion::is_smooth);
+    for _ in 0..patches(smooth) {
+        let (from, to) = (&problem.from[..], &problem.to[..]);
+        let patch = SpaceTimePatch::in_box(&mut random, from, to, problem.until, f64::INFINITY);
+        let d = problem.dimension();
+        // A constant temperature stores nothing: without it the terms are those that matter.
+        let middle = problem.temperature.at(&patch.centre[..d], patch.centre[d]);
+        let condition = "heat balance across kinks (the heat equation";
+        balances(patch, condition, &densities, |raster, smallest| {
+            [sums(problem, raster, smallest, middle)]
+        })?;
+    }
+    Ok(())
+}
+
+/// The balance on a raster of a patch, of the temperature beyond `middle` (K).
+fn sums(problem: &Conduction, raster: &Raster, smallest: f64, middle: f64) -> Sums {
+    let d = problem.dimension();
+    let Raster { points, times } = raster;
+    let labels = labels(points);
+    let all_labels = || labels.iter().map(Vec::as_slice);
+    let mut warm = problem.temperature.at_places(all_labels());
+    let mut places = problem.motion.as_ref().map(|motion| motion.at_places(all_labels()));
+    let (mut all, mut motion) = (Sums::new(smallest), Derivatives::default());
+    for time in times {
+        warm.set_time(time.at);
+        if let Some(places) = &mut places {
+            places.set_time(time.at);
+        }
+        for (place, point) in points.iter().enumerate() {
+            if let Some(places) = &mut places {
+                places.derivatives(place, &mut motion);
+            }
+            let now = warm.derivatives(place);
+            let mut event = [*time; 4];
+            event[..d].copy_from_slice(point);
+            let (phi, slope) = bump(&event[..=d]);
+            let stored = problem.density * problem.capacity * (now.value - middle) * slope[d];
+            let inflow = problem.inflow(&motion, &now);
+            let flow: f64 = (0..d).map(|a| inflow[a] * slope[a]).sum();
+            let source = problem.source(&labels[place], time.at, &motion, &now);
+            let source = problem.density * source * phi;
+            let size = stored.abs() + flow.abs() + source.abs();
+            all.add(-stored, source - flow, size, &event[..=d]);
+        }
+    }
+    all
+}
+
+/// A place and time, with the motion and the temperature there.
+pub(super) type HeatPoint = (Event, Derivatives, TemperatureDerivatives);
+
+/// The box of the body, and the times of the run.
+pub(super) fn extent(problem: &Conduction) -> SpaceTimeBox<'_> {
+    SpaceTimeBox { from: &problem.from, to: &problem.to, start: 0.0, end: problem.until }
+}
+
+/// Events spread over the body and the run.
+pub(super) fn interior(problem: &Conduction) -> Vec<HeatPoint> {
+    let events = extent(problem).spread(EVENTS, |_| true, &mut Random::new(1));
+    let point = |event: Event| {
+        let (motion, now) = problem.now(&event.label, event.t);
+        (event, motion, now)
+    };
+    events.into_iter().map(point).collect()
+}
+
+/// The largest magnitudes of a temperature and of the terms of its equation; NaN if any is NaN.
+pub(super) struct HeatMagnitudes {
+    /// Temperature (K).
+    pub(super) value: f64,
+    /// Difference of the highest and the lowest temperature (K).
+    pub(super) range: f64,
+    /// Rate (K/s).
+    pub(super) rate: f64,
+    /// Gradient (K/m).
+    pub(super) gradient: f64,
+    /// Second derivatives (K/m2).
+    pub(super) curvature: f64,
+    /// Flow of heat (W/m^(D-1)).
+    pub(super) inflow: f64,
+    /// Divergence of the flow (W/m^D).
+    pub(super) divergence: f64,
+    /// Sum of all terms of the heat equation (W/kg).
+    pub(super) terms: f64,
+}
+
+impl HeatMagnitudes {
+    pub(super) fn from_points(problem: &Conduction, points: &[HeatPoint]) -> Self {
+        let of = |quantity: &dyn Fn(&HeatPoint) -> f64| {
+            greatest(points.iter().map(|point| quantity(point).abs()))
+        };
+        let d = problem.dimension();
+        let lowest = points.iter().fold(f64::INFINITY, |low, point| low.min(point.2.value));
+        Self {
+            range: of(&|(_, _, now)| now.value - lowest),
+            value: of(&|(_, _, now)| now.value),
+            rate: of(&|(_, _, now)| now.rate),
+            gradient: of(&|(_, _, now)| largest(&now.grad)),
+            curvature: of(&|(_, _, now)| greatest(now.second.iter().map(largest))),
+            inflow: of(&|(_, motion, now)| largest(&problem.inflow(motion, now))),
+            divergence: of(&|(_, motion, now)| {
+                problem.conductivity * field::divergence(d, motion, now)
+            }),
+            terms: of(&|point| {
+                let (needed, stated) = needed_and_stated(problem, point);
+                let stored = problem.capacity * point.2.rate;
+                stored.abs() + (needed - stored).abs() + stated.abs()
+            }),
+        }
+    }
+}
+
+/// The heat source (W/kg) that the temperature needs, and the stated one.
+pub(super) fn needed_and_stated(
+    problem: &Conduction,
+    (event, motion, now): &HeatPoint,
+) -> (f64, f64) {
+    (problem.balance(motion, now), problem.source(&event.label, event.t, motion, now))
 }

@@ -1,12 +1,17 @@
 //! The heat problem that a temperature is held to.
+//!
+//! Thermal conditions on the faces of a body.
+//!
+//! The source of heat as a suite states it.
+//!
+//! The manufactured source of a run: at the same places, step after step.
 
-use super::condition::ThermalCondition;
-use super::equation::{divergence, slope};
-use super::field::{Temperature, TemperatureDerivatives};
-use super::source::source_at;
+use super::field::{Temperature, TemperatureDerivatives, TemperaturePlaces, divergence, slope};
 use crate::exact::formula::Formula;
-use crate::exact::motion::{Derivatives, Motion};
+use crate::exact::motion::{Derivatives, Motion, Places, variables};
 use crate::exact::truth::Truth;
+use crate::exact::violation::Violation;
+use std::fmt::Debug;
 use std::sync::Arc;
 
 /// One face of a box-shaped body.
@@ -117,5 +122,91 @@ impl Truth for Conduction {
 
     fn temperature(&self, label: &[f64], t: f64) -> Option<f64> {
         Some(self.temperature.at(label, t))
+    }
+}
+
+/// A thermal condition on one face of the body, to which the temperature is held point by point.
+pub trait ThermalCondition: Debug + Send + Sync {
+    /// Holds the temperature at `point` to the condition.
+    ///
+    /// # Errors
+    /// The first violation.
+    fn check(&self, point: &dyn HeatFacePoint) -> Result<(), Violation>;
+}
+
+/// A point of a face at a time of the run, and what can be demanded of the temperature there: that
+/// it has a value, that heat enters, or that it goes on behind the face.
+pub trait HeatFacePoint {
+    /// A formula of the coordinates and t, here and now.
+    fn value(&self, formula: &Formula) -> f64;
+
+    /// The temperature (K).
+    fn temperature(&self) -> f64;
+
+    /// Largest temperature in the body (K).
+    fn largest_temperature(&self) -> f64;
+
+    /// `T = given` (K).
+    ///
+    /// # Errors
+    /// The violation.
+    fn has_temperature(&self, given: f64) -> Result<(), Violation>;
+
+    /// Heat that enters, per reference area (W/m^(D-1)), is `given`: on a face that is `what`,
+    /// where `size` is that of the terms that `given` is made of.
+    ///
+    /// # Errors
+    /// The violation.
+    fn lets_in(&self, what: &str, given: f64, size: f64) -> Result<(), Violation>;
+
+    /// Temperature and flow of heat are those on the opposite face.
+    ///
+    /// # Errors
+    /// The first violation.
+    fn continues_on_opposite_face(&self) -> Result<(), Violation>;
+}
+
+/// The source (W/kg) at the reference position `label` (m), a time (s) and a temperature (K).
+/// Variables of `formula` are the coordinates, t and, where it was bound to that too, T.
+pub fn source_at(formula: &Formula, label: &[f64], t: f64, temperature: f64) -> f64 {
+    let mut all = [0.0; 5];
+    all[..4].copy_from_slice(&variables(label, t));
+    all[label.len() + 1] = temperature;
+    formula.eval(&all[..formula.variables()])
+}
+
+/// The manufactured source of heat at places that have been given once.
+pub struct HeatForcing {
+    problem: Conduction,
+    warm: Box<dyn TemperaturePlaces>,
+    motion: Option<Box<dyn Places>>,
+}
+
+impl HeatForcing {
+    /// The source of `problem` at `labels` (m), D numbers each.
+    pub fn new<'a>(problem: &Conduction, labels: impl Iterator<Item = &'a [f64]>) -> Self {
+        let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
+        let all = || labels.iter().map(Vec::as_slice);
+        Self {
+            warm: problem.temperature.at_places(all()),
+            motion: problem.motion.as_ref().map(|motion| motion.at_places(all())),
+            problem: problem.clone(),
+        }
+    }
+
+    /// Fills in the source (W/kg) at each place at time `t` (s), as
+    /// [`Conduction::manufactured_source`] gives it for one. Allocates nothing.
+    pub fn at(&mut self, t: f64, into: &mut [f64]) {
+        self.warm.set_time(t);
+        if let Some(motion) = &mut self.motion {
+            motion.set_time(t);
+        }
+        let mut moved = Derivatives::default();
+        for (place, source) in into.iter_mut().enumerate() {
+            if let Some(motion) = &mut self.motion {
+                motion.derivatives(place, &mut moved);
+            }
+            *source = self.problem.balance(&moved, &self.warm.derivatives(place));
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Temperatures that solve the heat equation, and wrong ones that must be refused.
 
-use super::magnitudes::{HeatMagnitudes, interior};
+use super::check::{HeatMagnitudes, interior};
 use super::{Conduction, HeatFace, HeatFacePoint, HeatForcing, Temperature, ThermalCondition};
 use crate::exact::formula::{Expr, Formula, Scope};
 use crate::exact::random::Random;
@@ -142,8 +142,8 @@ fn heat_flows_through_a_periodic_face() {
 fn a_warm_body_hides_no_kink(#[values("0", "1e6")] warm: &str) {
     let kink = format!("{warm} + abs(X - 0.4)");
     let problem = insulated(1, &kink);
-    let largest = HeatMagnitudes::of(&problem, &interior(&problem));
-    let found = super::weak::balance(&problem, &largest).unwrap_err();
+    let largest = HeatMagnitudes::from_points(&problem, &interior(&problem));
+    let found = super::check::balance(&problem, &largest).unwrap_err();
     assert!(found.condition.contains("heat balance"), "{found}");
 }
 

@@ -70,7 +70,7 @@ mod tests {
         let j: f64 = stretches.iter().product();
         let along =
             |i: usize| 2.0 * mu * (stretches[i] - 1.0) + lambda * (j - 1.0) * j / stretches[i];
-        assert_stress_along_axes(&solid, (stretches, angle), along, 1e-13);
+        assert_stress_along_axes(&solid, stretches, angle, along, 1e-13);
     }
 
     /// `R^T F` is symmetric, and R keeps lengths.

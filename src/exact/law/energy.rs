@@ -30,7 +30,8 @@ pub(super) fn assert_stress_is_derivative(law: &impl ConstitutiveLaw) {
 /// third: `P(Q F) = Q P(F)`.
 pub(super) fn assert_stress_along_axes(
     law: &impl ConstitutiveLaw,
-    (stretches, angle): ([f64; 3], f64),
+    stretches: [f64; 3],
+    angle: f64,
     along: impl Fn(usize) -> f64,
     max_relative: f64,
 ) {

@@ -71,7 +71,7 @@ mod tests {
         let Lame { lambda, mu } = solid.0;
         let log: f64 = stretches.iter().map(|stretch| libm::log(*stretch)).sum();
         let along = |i: usize| (lambda * log + 2.0 * mu * libm::log(stretches[i])) / stretches[i];
-        assert_stress_along_axes(&solid, (stretches, angle), along, 1e-11);
+        assert_stress_along_axes(&solid, stretches, angle, along, 1e-11);
     }
 
     /// Nothing shears at this point, but it does beside it: the derivative must not be lost.

@@ -3,15 +3,11 @@
 //! Their rims carry no traction, which is all that a suite can say of them, but for the sides of a
 //! quadrilateral that lie on a face.
 
-mod ball_in_box;
-mod moments;
 mod piece;
 mod polygon;
 mod round;
-mod side;
 #[cfg(test)]
 mod tests;
-mod triangle;
 
 pub use piece::{Cut, Piece, join_small};
 pub use polygon::Polygon;

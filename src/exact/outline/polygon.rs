@@ -1,8 +1,5 @@
-//! Bodies with straight sides in the plane.
+//! Polygons: their sides, their triangles, and their moments.
 
-use super::moments::AreaMoments;
-use super::side::{Point, cross, distance, meet, side, turn};
-use super::triangle::{TriangleCorners, clip, triangles};
 use super::{Cut, Outline, Piece, ROUNDING};
 use crate::exact::random::Random;
 
@@ -51,7 +48,7 @@ impl Polygon {
             let piece = sides
                 .iter()
                 .fold(one.to_vec(), |left, (from, to)| clip(&left, |p| turn(from, to, p)));
-            AreaMoments::of(&[piece], &one[0]).area
+            AreaMoments::from_pieces(&[piece], &one[0]).area
         };
         let pairs =
             self.triangles.iter().flat_map(|one| other.triangles.iter().map(move |two| (one, two)));
@@ -75,12 +72,12 @@ impl Polygon {
 
     /// The piece that convex `parts` make of a share; none where there is next to nothing.
     fn piece(parts: &[Vec<Point>], centre: &Point, half: &Point) -> Option<Piece> {
-        let AreaMoments { area, first, .. } = AreaMoments::of(parts, centre);
+        let AreaMoments { area, first, .. } = AreaMoments::from_pieces(parts, centre);
         if !(area > ROUNDING * 4.0 * half[0] * half[1]) {
             return None;
         }
         let place: Point = [0, 1].map(|axis| centre[axis] + first[axis] / area);
-        let spread = AreaMoments::of(parts, &place).second.map(|moment| moment / area);
+        let spread = AreaMoments::from_pieces(parts, &place).second.map(|moment| moment / area);
         let joint = |(axis, sign): (usize, f64)| {
             let is_at = |p: &Point| {
                 (sign * (p[axis] - centre[axis]) - half[axis]).abs() <= 1e-9 * half[axis]
@@ -158,7 +155,7 @@ impl Outline for Polygon {
 
     fn volume_within(&self, from: &[f64], to: &[f64]) -> f64 {
         let parts = self.triangles.iter().map(|corners| inside(corners, from, to));
-        AreaMoments::of(&parts.collect::<Vec<_>>(), &self.corners[0]).area
+        AreaMoments::from_pieces(&parts.collect::<Vec<_>>(), &self.corners[0]).area
     }
 
     fn trace(&self) -> Vec<(f64, f64)> {
@@ -227,4 +224,148 @@ fn inside(corners: &TriangleCorners, from: &[f64], to: &[f64]) -> Vec<Point> {
     [0, 1].into_iter().fold(corners.to_vec(), |left, axis| {
         clip(&clip(&left, |p| p[axis] - from[axis]), |p| to[axis] - p[axis])
     })
+}
+
+/// Area, first and second moments of convex polygons.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct AreaMoments {
+    /// Area (m2).
+    pub(super) area: f64,
+    /// Integral of the place (m3).
+    pub(super) first: Point,
+    /// Integrals of the products of coordinates: xx, xy, yy (m4).
+    pub(super) second: [f64; 3],
+}
+
+impl AreaMoments {
+    /// The moments about `origin`.
+    pub(super) fn from_pieces(pieces: &[Vec<Point>], origin: &Point) -> Self {
+        let mut all = Self::default();
+        for corners in pieces {
+            for pair in corners.windows(2).skip(1) {
+                all.add([corners[0], pair[0], pair[1]].map(|p| side(origin, &p)));
+            }
+        }
+        all
+    }
+
+    /// Adds a triangle: the mean of the product of linear functions over it is a twelfth of the
+    /// sum of their products at the corners and of the product of their sums.
+    fn add(&mut self, corners: TriangleCorners) {
+        let [a, b, c] = &corners;
+        let area = 0.5 * turn(a, b, c);
+        let sum = [0, 1].map(|axis| corners.iter().map(|p| p[axis]).sum::<f64>());
+        self.area += area;
+        for axis in 0..2 {
+            self.first[axis] += area * sum[axis] / 3.0;
+        }
+        for (into, (i, k)) in self.second.iter_mut().zip([(0, 0), (0, 1), (1, 1)]) {
+            let products: f64 = corners.iter().map(|p| p[i] * p[k]).sum();
+            *into += area / 12.0 * (products + sum[i] * sum[k]);
+        }
+    }
+}
+
+/// A point in the plane (m).
+pub(super) type Point = [f64; 2];
+
+/// From `a` to `b` (m).
+pub(super) fn side(a: &Point, b: &Point) -> Point {
+    [b[0] - a[0], b[1] - a[1]]
+}
+
+/// Third component of the cross product, positive where `b` is to the left of `a`.
+pub(super) fn cross(a: &Point, b: &Point) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// Twice the area of a triangle (m2), positive where its corners go round counter-clockwise.
+pub(super) fn turn(a: &Point, b: &Point, c: &Point) -> f64 {
+    cross(&side(a, b), &side(a, c))
+}
+
+/// Whether two sides have a point in common other than the corner between them.
+pub(super) fn meet(corners: &[Point], first: usize, second: usize) -> bool {
+    let n = corners.len();
+    let ends = |i: usize| (&corners[i], &corners[(i + 1) % n]);
+    let ((a, b), (c, d)) = (ends(first), ends(second));
+    // A side that turns back lies on the one before.
+    let back = |from: &Point, corner: &Point, to: &Point| {
+        let (before, after) = (side(from, corner), side(corner, to));
+        turn(from, corner, to) == 0.0 && before[0] * after[0] + before[1] * after[1] < 0.0
+    };
+    if second == first + 1 {
+        return back(a, b, d);
+    }
+    if first == 0 && second == n - 1 {
+        return back(c, a, b);
+    }
+    let apart = |a: &Point, b: &Point, c: &Point, d: &Point| {
+        let (left, right) = (turn(a, b, c), turn(a, b, d));
+        (left > 0.0 && right > 0.0) || (left < 0.0 && right < 0.0)
+    };
+    let beside = |axis: usize| {
+        a[axis].max(b[axis]) < c[axis].min(d[axis]) || c[axis].max(d[axis]) < a[axis].min(b[axis])
+    };
+    !(apart(a, b, c, d) || apart(c, d, a, b) || beside(0) || beside(1))
+}
+
+/// Distance of `p` from the line between `a` and `b` (m).
+pub(super) fn distance(a: &Point, b: &Point, p: &Point) -> f64 {
+    let (along, to) = (side(a, b), side(a, p));
+    let square = along[0] * along[0] + along[1] * along[1];
+    let share = ((along[0] * to[0] + along[1] * to[1]) / square).clamp(0.0, 1.0);
+    libm::hypot(to[0] - share * along[0], to[1] - share * along[1])
+}
+
+/// Three corners, counter-clockwise.
+pub(super) type TriangleCorners = [Point; 3];
+
+/// The simple polygon of these corners, counter-clockwise, as triangles that do not overlap, by
+/// cutting off ears (Meisters 1975, Polygons have ears).
+pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
+    let mut left: Vec<usize> = (0..corners.len()).collect();
+    let mut found = Vec::new();
+    while left.len() > 2 {
+        let n = left.len();
+        let ear = |i: usize| [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
+        let at = |i: usize| ear(i).map(|k| corners[k]);
+        let is_free = |i: &usize| {
+            let ([a, b, c], own) = (at(*i), ear(*i));
+            let inside = |p: &Point| {
+                [(a, b), (b, c), (c, a)].iter().all(|(from, to)| turn(from, to, p) >= 0.0)
+            };
+            turn(&a, &b, &c) > 0.0 && left.iter().all(|k| own.contains(k) || !inside(&corners[*k]))
+        };
+        // A corner on a straight line takes no area with it. Where rounding hides all ears, the
+        // largest goes: areas with their signs add up all the same.
+        let area = |i: &usize| at(*i).map(|p| side(&at(*i)[0], &p));
+        let area = |i: &usize| cross(&area(i)[1], &area(i)[2]);
+        let flat = (0..n).find(|i| area(i) == 0.0);
+        let largest = || (0..n).max_by(|i, k| area(i).total_cmp(&area(k)));
+        let Some(next) = flat.or_else(|| (0..n).find(is_free)).or_else(largest) else { break };
+        if flat.is_none() {
+            found.push(at(next));
+        }
+        left.remove(next);
+    }
+    found
+}
+
+/// The part of a convex polygon where `height` is not negative, a linear function of the place
+/// (Sutherland & Hodgman 1974, Reentrant polygon clipping).
+pub(super) fn clip(corners: &[Point], height: impl Fn(&Point) -> f64) -> Vec<Point> {
+    let mut kept = Vec::with_capacity(corners.len() + 1);
+    for (i, to) in corners.iter().enumerate() {
+        let from = &corners[(i + corners.len() - 1) % corners.len()];
+        let (before, after) = (height(from), height(to));
+        if (before < 0.0) != (after < 0.0) {
+            let share = before / (before - after);
+            kept.push([0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis])));
+        }
+        if after >= 0.0 {
+            kept.push(*to);
+        }
+    }
+    kept
 }

@@ -1,8 +1,6 @@
 //! Polygons: what is one, and what the shares of a lattice have of it.
 
-use super::moments::AreaMoments;
-use super::side::Point;
-use super::triangle::triangles;
+use super::polygon::{AreaMoments, Point, triangles};
 use super::{Cut, Outline, Piece, Polygon, join_small};
 use crate::exact::random::Random;
 use approx::assert_relative_eq;
@@ -180,7 +178,7 @@ proptest! {
 fn sums_over_particles_are_of_second_order(#[case] corners: &[[f64; 2]]) {
     let body = polygon(corners);
     let parts: Vec<Vec<Point>> = triangles(corners).into_iter().map(Vec::from).collect();
-    let exact = AreaMoments::of(&parts, &[0.0; 2]).second;
+    let exact = AreaMoments::from_pieces(&parts, &[0.0; 2]).second;
     let error = |count: i32| {
         let sum = |sum: f64, Piece { volume, place: [x, y], .. }: Piece| sum + volume * x * (x + y);
         exact[0] + exact[1] - particles(&body, count).into_iter().fold(0.0, sum)

@@ -1,10 +1,8 @@
 //! Promises of the finite element method, held against this one.
 
+mod convergence;
 mod discretisation;
 mod equilibrium;
-mod refusal;
-mod space;
-mod time;
 
 use std::f64::consts::PI;
 

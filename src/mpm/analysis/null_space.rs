@@ -8,12 +8,11 @@
 //! in for its inverse, so that a round applies the map to the grid and back, the operator of PIC
 //! and XPIC, once.
 
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::request::ParticleField;
-use crate::mpm::particles::Particles;
-use crate::mpm::solver::Solver;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::kernel::contract::{Kernel, ParticleField};
+use crate::mpm::step::solver::Solver;
 
 /// Energy of the residual, as a share of the whole, that counts as rounding.
 const ROUNDING: f64 = 1e-26;

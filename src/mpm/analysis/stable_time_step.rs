@@ -17,12 +17,11 @@
 //! Sources: von Neumann's analysis (the suite `courant-limit` has the closed forms); for the
 //! dependence on the place of particles also Ni & Zhang (2020), IJNME 121.
 
-use crate::mpm::algebra::Vector;
-use crate::mpm::schedule::passes_of;
-use crate::mpm::scheme::SchemeName;
-use crate::mpm::setup::Setup;
-use crate::mpm::solver::Solver;
-use crate::mpm::stage::Stage;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::scheme::{SchemeName, Stage};
+use crate::mpm::step::schedule::passes_of;
+use crate::mpm::step::setup::Setup;
+use crate::mpm::step::solver::Solver;
 use crate::mpm::transfer::{TransferChoice, TransferKind, TransferName, kick};
 use crate::subject::{Checkpoint, Failure};
 
@@ -68,7 +67,7 @@ impl<const D: usize> Solver<D> {
         let (mut dt, mut rounds) = (longest, rounds);
         for _ in 0..REPEATS {
             let speed = SPEED * self.setup.grid.h / longest;
-            let square = self.square_of_frequency(&start, &mut mode, (dt, speed), rounds)?;
+            let square = self.square_of_frequency(&start, &mut mode, dt, speed, rounds)?;
             let stable = (2.0 / (square + held)).sqrt();
             if stable.is_nan() {
                 return Err(Failure::Solve("the body has no highest frequency".to_owned()));
@@ -87,7 +86,8 @@ impl<const D: usize> Solver<D> {
         &mut self,
         start: &[u8],
         mode: &mut [Vector<D>],
-        (dt, speed): (f64, f64),
+        dt: f64,
+        speed: f64,
         rounds: u32,
     ) -> Result<f64, Failure> {
         let still = vec![Vector::zeros(); mode.len()];
@@ -156,7 +156,7 @@ impl<const D: usize> Solver<D> {
     }
 
     fn restore(&mut self, start: &[u8]) {
-        self.visit_state(&mut Checkpoint::of(start));
+        self.visit_state(&mut Checkpoint::from_bytes(start));
     }
 
     /// All that a response changes, and with it what material and effects keep between stresses.

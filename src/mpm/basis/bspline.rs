@@ -8,14 +8,12 @@
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain};
-use super::product::Product;
-use super::product_batch::ProductBatch;
-use super::weights_1d::Weights1d;
-use super::weights_1d_batch::{Weights1dBatch, WeightsSimd};
-use crate::mpm::algebra::array;
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{F64x4, LANES, Plain, Simd};
+use super::product::{Product, ProductBatch};
+use super::weights_1d::{Weights1d, Weights1dBatch, WeightsSimd};
+use crate::mpm::foundation::algebra::array;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{F64x4, LANES, Plain, Simd};
 
 /// Quadratic B-splines.
 #[derive(Debug, Clone, Copy)]
@@ -154,7 +152,8 @@ fn along_wall<const D: usize, const K: usize>(
 fn put_right<const D: usize, const K: usize>(
     grid: &Grid<D>,
     axis: usize,
-    (cell, xi): ([f64; LANES], [f64; LANES]),
+    cell: [f64; LANES],
+    xi: [f64; LANES],
     lane: usize,
     weights: &mut Weights1dBatch<K>,
 ) {
@@ -230,7 +229,7 @@ macro_rules! bspline {
                     let (low, high) =
                         uniform_cells($degree, locator.ends[axis], locator.periodic[axis]);
                     if !cell.are_in(low, high) {
-                        put_right(grid, axis, (cell.into(), xi.into()), lane, weights);
+                        put_right(grid, axis, cell.into(), xi.into(), lane, weights);
                     }
                 }
                 inside

@@ -1,9 +1,9 @@
 //! Cells of particles, four at a time.
 
-use crate::mpm::algebra::{Vector, array};
-use crate::mpm::grid::{Grid, WHOLE};
-use crate::mpm::packed_grid::Layout;
-use crate::mpm::simd::{F64x4, LANES, Simd};
+use crate::mpm::foundation::algebra::{Vector, WHOLE, array};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::packed_grid::Layout;
+use crate::mpm::foundation::simd::{F64x4, LANES, Simd};
 
 /// Parts of the functions that a pass needs besides their values.
 #[derive(Debug, Clone, Copy)]

@@ -21,15 +21,14 @@
 //! map of the whole domain is affine, so R keeps the sign of its determinant. Moving single corners
 //! to the wall would not keep it.
 
-use super::contract::{Basis, Domain};
-use super::patch::{NodeWeight, Patch, WeightMoments};
-use super::product::Product;
-use super::product_batch::ProductBatch;
+use super::contract::{Basis, Domain, NodeWeight, Patch};
+use super::product::{Product, ProductBatch};
 use super::weights_1d::Weights1d;
-use crate::mpm::algebra::{Matrix, Vector, array, cofactor, det};
-use crate::mpm::grid::{Grid, floor};
-use crate::mpm::packed_grid::Layout;
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::{Matrix, Vector, array, cofactor, det, floor};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::WeightMoments;
+use crate::mpm::foundation::packed_grid::Layout;
+use crate::mpm::foundation::particles::Particles;
 
 /// CPDI with parallelogram domains.
 #[derive(Debug, Clone, Copy)]
@@ -163,7 +162,7 @@ impl Basis for Cpdi {
 mod tests {
     use super::*;
     use crate::mpm::basis::Linear;
-    use crate::mpm::particles::Block;
+    use crate::mpm::foundation::particles::Block;
     use approx::assert_abs_diff_eq;
     use rstest::rstest;
 

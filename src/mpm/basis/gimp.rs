@@ -5,17 +5,21 @@
 //! several dimensions the domain stays aligned with the axes. uGIMP keeps the reference size; in
 //! the contiguous-particle form (Wallstedt & Guilkey 2008) the half-length on an axis follows the
 //! diagonal of F, so that domains neither part nor overlap. At walls the domain is cut off.
+//!
+//! Domains of GIMP along one axis, and the functions there: hats averaged over a domain from `low`
+//! to `high`.
+//!
+//! Four particles at a time while their domains have at most three nodes; otherwise one particle at
+//! a time, in groups of three nodes.
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain};
-use super::domain_1d::{AT_ONCE, Domain1d, Domain1dSimd};
-use super::product::Product;
-use super::product_batch::ProductBatch;
-use super::weights_1d::Weights1d;
-use crate::mpm::algebra::{Matrix, array};
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{F64x4, LANES, Simd};
+use super::product::{Product, ProductBatch};
+use super::weights_1d::{Weights1d, WeightsSimd};
+use crate::mpm::foundation::algebra::{Matrix, array};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{F64x4, LANES, Plain, Simd};
 
 /// GIMP with domains of constant size.
 #[derive(Debug, Clone, Copy)]
@@ -166,3 +170,180 @@ macro_rules! gimp {
 
 gimp!(UniformGimp, Fixed);
 gimp!(ContiguousGimp, Follows);
+
+/// Functions of a group: all functions along an axis while the domain is not longer than a cell.
+pub(in crate::mpm) const AT_ONCE: usize = 3;
+
+/// Largest half-length of a domain, in cells; longer domains are cut to it.
+const LONGEST: f64 = 2.5;
+
+/// The hat of a node at distance z, in cells.
+fn hat(z: f64) -> f64 {
+    (1.0 - z.abs()).max(0.0)
+}
+
+/// Its integral from minus infinity.
+fn integral(z: f64) -> f64 {
+    let z = z.clamp(-1.0, 1.0);
+    if z < 0.0 { 0.5 * (1.0 + z) * (1.0 + z) } else { 0.5 + z - 0.5 * z * z }
+}
+
+/// Domains of four particles along one axis, in cells.
+#[derive(Clone, Copy)]
+pub(in crate::mpm) struct Domain1dSimd<S: Simd> {
+    /// The particle and the ends of its domain.
+    at: S::F64x4,
+    low: S::F64x4,
+    high: S::F64x4,
+    /// First node of the domain.
+    pub(in crate::mpm) first: S::F64x4,
+}
+
+impl<S: Simd> Domain1dSimd<S> {
+    /// The domain at `at`, cut off at walls: at the first node and this last one, if there are any.
+    #[inline(always)]
+    pub(in crate::mpm) fn new(at: S::F64x4, half: S::F64x4, last: Option<f64>) -> Self {
+        let half = half.abs().at_most(LONGEST);
+        let (mut low, mut high) = (at - half, at + half);
+        if let Some(last) = last {
+            (low, high) = (low.at_least(0.0), high.at_most(last));
+        }
+        Self { at, low, high, first: low.floor() }
+    }
+
+    /// Distance of the last of [`AT_ONCE`] nodes beyond the domain, negative if there are more
+    /// nodes.
+    #[inline(always)]
+    pub(in crate::mpm) fn spare(&self) -> S::F64x4 {
+        self.first + (AT_ONCE - 1) as f64 - self.high
+    }
+
+    /// Functions of domains that end before the third node. The branches of [`integral`] and
+    /// [`hat`] are known there; results have the same bits.
+    #[inline(always)]
+    pub(in crate::mpm) fn along(&self, simd: S, h: f64, inverse_h: f64) -> WeightsSimd<S, AT_ONCE> {
+        let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
+        let rising = |z: S::F64x4| (z + 1.0) * 0.5 * (z + 1.0);
+        let falling = |z: S::F64x4| z + 0.5 - z * 0.5 * z;
+        let node: [_; AT_ONCE] = array(zero, |k| self.first + k as f64);
+        let (low, high) =
+            ([self.low - node[0], self.low - node[1]], |k: usize| self.high - node[k]);
+        let high = [high(0).at_most(1.0), high(1), high(2).at_least(-1.0)];
+        let (left, right) = (high[1].at_most(0.0), high[1].at_least(0.0));
+        let share = (self.high - self.low).inverse();
+        let weight = [
+            (falling(high[0]) - falling(low[0])) * share,
+            (rising(left) + right - right * 0.5 * right - rising(low[1])) * share,
+            rising(high[2]) * share,
+        ];
+        let slope = [
+            (one - high[0] - (one - low[0])) * share * inverse_h,
+            (one - high[1].abs() - (low[1] + 1.0)) * share * inverse_h,
+            (high[2] + 1.0) * share * inverse_h,
+        ];
+        let offset = array(zero, |k| (node[k] - self.at) * h);
+        let (mut mean, mut second) = (weight[0] * offset[0], weight[0] * offset[0] * offset[0]);
+        for k in 1..AT_ONCE {
+            mean += weight[k] * offset[k];
+            second += weight[k] * offset[k] * offset[k];
+        }
+        // A domain that is cut off is not centred on its particle.
+        WeightsSimd { weight, slope, offset, variance: second - mean * mean }
+    }
+}
+
+/// The domain of one particle along one axis.
+#[derive(Clone, Copy)]
+pub(in crate::mpm) struct Domain1d {
+    extent: Domain1dSimd<Plain>,
+    /// Groups of [`AT_ONCE`] nodes.
+    pub(in crate::mpm) groups: usize,
+}
+
+impl Domain1d {
+    #[inline(always)]
+    pub(in crate::mpm) fn new<const D: usize>(
+        grid: &Grid<D>,
+        at: f64,
+        half: f64,
+        axis: usize,
+    ) -> Self {
+        let last = (!grid.periodic[axis]).then_some(grid.cells[axis] as f64);
+        let extent = Domain1dSimd::<Plain>::new(Plain.splat(at), Plain.splat(half), last);
+        let [spare, ..]: [f64; LANES] = extent.spare().into();
+        let groups = if spare >= 0.0 { 1 } else { 2 + (-spare / AT_ONCE as f64) as usize };
+        Self { extent, groups }
+    }
+
+    /// The functions of a group.
+    #[inline(always)]
+    pub(in crate::mpm) fn along<const D: usize>(
+        &self,
+        grid: &Grid<D>,
+        axis: usize,
+        group: usize,
+    ) -> Weights1d<AT_ONCE> {
+        if self.groups > 1 {
+            return self.one_of_many(grid, axis, group);
+        }
+        let first = <[f64; LANES]>::from(self.extent.first)[0];
+        let along = self.extent.along(Plain, grid.h, grid.inverse_h());
+        along.take(0, grid.wrap_signed(first, axis))
+    }
+
+    /// Functions of a group of a domain of any length, zero beyond the domain and beyond a wall.
+    #[inline(always)]
+    fn one_of_many<const D: usize>(
+        &self,
+        grid: &Grid<D>,
+        axis: usize,
+        group: usize,
+    ) -> Weights1d<AT_ONCE> {
+        let Domain1dSimd { at, low, high, first } = self.extent;
+        let [at, low, high, first] =
+            [at, low, high, first].map(|four| <[f64; LANES]>::from(four)[0]);
+        let first = first + (group * AT_ONCE) as f64;
+        let (share, node) = (1.0 / (high - low), |k: usize| first + k as f64);
+        let (low, high) = (|k| low - node(k), |k| high - node(k));
+        Weights1d::new(
+            grid.wrap_signed(first, axis),
+            array(0.0, |k| (integral(high(k)) - integral(low(k))) * share),
+            array(0.0, |k| (hat(high(k)) - hat(low(k))) * share * grid.inverse_h()),
+            array(0.0, |k| (node(k) - at) * grid.h),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::foundation::algebra::Vector;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// The functions of a short domain have the same bits by both ways.
+        #[test]
+        fn a_short_domain_has_the_functions_of_any(
+            at in 0.0..=5.0_f64,
+            half in 0.0..1.0_f64,
+            whole: bool,
+            periodic: bool,
+        ) {
+            let grid = Grid::<1>::new(Vector::<1>::new(0.0), 0.3, [5], [periodic], [6]);
+            let at = if whole { libm::round(at) } else { at };
+            for half in [half, 0.5 * libm::round(2.0 * half), libm::fabs(at - libm::round(at)), 1e-9 * half] {
+                let alone = Domain1d::new(&grid, at, half, 0);
+                if alone.groups > 1 || half == 0.0 {
+                    continue;
+                }
+                let (short, any) = (alone.along(&grid, 0, 0), alone.one_of_many(&grid, 0, 0));
+                prop_assert_eq!(short.first, any.first);
+                prop_assert_eq!(short.weight, any.weight);
+                prop_assert_eq!(short.slope, any.slope);
+                prop_assert_eq!(short.offset, any.offset);
+                let [_, mean, second] = any.moments();
+                prop_assert_eq!(short.variance, second - mean * mean);
+            }
+        }
+    }
+}

@@ -4,11 +4,11 @@ use super::{
     Basis, BasisName, CellLocator, Domain, Patch, PatchBatch, WeightNeeds, contract, product,
     weights_1d, with_basis,
 };
-use crate::mpm::algebra::{Matrix, Vector, dyad};
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::Layout;
-use crate::mpm::particles::{Block, Particles};
-use crate::mpm::simd::{LANES, Plain};
+use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::packed_grid::Layout;
+use crate::mpm::foundation::particles::{Block, Particles};
+use crate::mpm::foundation::simd::{LANES, Plain};
 use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
@@ -143,7 +143,7 @@ fn differentiate<B: Basis, const D: usize>(periodic: bool) {
 /// Patches that are computed for four particles at once are those of each alone, to the bit.
 fn fill<B: Basis, const D: usize>(periodic: bool) {
     let grid = grid::<B, D>(periodic);
-    let layout = Layout::of(&grid);
+    let layout = Layout::new(&grid);
     for four in points(&grid).chunks_exact(LANES) {
         let mut particles = particle(&grid, four[0]);
         particles.x = four.to_vec();

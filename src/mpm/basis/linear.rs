@@ -6,14 +6,12 @@
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain};
-use super::product::Product;
-use super::product_batch::ProductBatch;
-use super::weights_1d::Weights1d;
-use super::weights_1d_batch::WeightsSimd;
-use crate::mpm::algebra::array;
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{LANES, Plain, Simd};
+use super::product::{Product, ProductBatch};
+use super::weights_1d::{Weights1d, WeightsSimd};
+use crate::mpm::foundation::algebra::array;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{LANES, Plain, Simd};
 
 /// The hats along an axis, at `xi` from 0 to 1 within a cell.
 #[inline(always)]

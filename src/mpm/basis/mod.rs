@@ -4,30 +4,22 @@ mod bspline;
 mod cell_locator;
 mod contract;
 mod cpdi;
-mod domain_1d;
 mod gimp;
 #[cfg(test)]
 pub(in crate::mpm) mod laws;
 mod linear;
 mod node_accumulator;
-mod patch;
 mod product;
-mod product_batch;
-mod sums;
 mod weights_1d;
-mod weights_1d_batch;
 
 pub use cell_locator::{CellLocator, WeightNeeds};
-pub use contract::{Basis, Domain};
-pub use patch::{NodeTerm, NodeWeight, Patch, PatchBatch, WeightMoments};
-pub use product::Product;
-pub use product_batch::ProductBatch;
-pub use weights_1d::Weights1d;
-pub use weights_1d_batch::Weights1dBatch;
+pub use contract::{Basis, Domain, NodeTerm, NodeWeight, Patch, PatchBatch};
+pub use product::{Product, ProductBatch};
+pub use weights_1d::{Weights1d, Weights1dBatch};
 
-use super::algebra::Vector;
-use super::family::family;
-use super::grid::Grid;
+use super::foundation::algebra::Vector;
+use super::foundation::family::family;
+use super::foundation::grid::Grid;
 
 family! {
     /// Names of the basis functions that suites may choose.

@@ -4,9 +4,9 @@
 //! overlap with the sums of others; in 1-D there are no others, and each particle would wait for
 //! the store of the one before. The sums are the same, in the same order.
 
-use crate::mpm::algebra::array;
-use crate::mpm::packed_grid::{FieldViewMut, PackedNode};
-use crate::mpm::simd::Simd;
+use crate::mpm::foundation::algebra::array;
+use crate::mpm::foundation::packed_grid::{FieldViewMut, PackedNode};
+use crate::mpm::foundation::simd::Simd;
 
 /// Field under way, with the sums of K nodes in a row.
 #[derive(Debug)]

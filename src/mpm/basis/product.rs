@@ -1,11 +1,18 @@
-//! Products of one-dimensional functions: the patch of most bases.
+//! Products of one-dimensional functions, the patch of most bases: one particle, a batch, and the
+//! loops of P2G and G2P over the nodes of a batch.
+//!
+//! Sums of G2P are factorised by axes: a node costs a product and a sum for each function, not for
+//! each axis.
 
-use super::patch::{NodeWeight, Patch, WeightMoments};
-use super::product_batch::ProductBatch;
-use super::weights_1d::{Weights1d, product};
-use crate::mpm::algebra::{Matrix, Vector, array};
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::Layout;
+use super::contract::{NodeTerm, NodeWeight, Patch, PatchBatch};
+use super::node_accumulator::NodeAccumulator;
+use super::weights_1d::{Weights1d, Weights1dBatch, lane_functions, product};
+use crate::mpm::foundation::algebra::{Matrix, Vector, array};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::WeightMoments;
+use crate::mpm::foundation::packed_grid::{FieldView, FieldViewMut, Layout, Node4, PackedNode};
+use crate::mpm::foundation::simd::{BATCH, F64Batch, LANES, Register, Simd, registers_of};
+use std::ops::Range;
 
 /// All products of K functions along each axis, K at most 4.
 #[derive(Debug, Clone, Copy)]
@@ -87,5 +94,313 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
             }
             visit(NodeWeight { node: grid.node(&index), weight, gradient: &gradient, offset });
         }
+    }
+}
+
+/// Batch of [`Product`](super::Product)s. With `OUTWARD = 1` the gradient of a function is its
+/// weight times a vector of the patch, as for the corners of [CPDI](super::Cpdi); with 0 it is the
+/// derivative.
+#[derive(Debug)]
+pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0> {
+    /// Index of the first node of each patch in a packed field.
+    pub(in crate::mpm) start: [u32; BATCH],
+    /// Functions along each axis.
+    pub(in crate::mpm) axes: [Weights1dBatch<K>; D],
+    /// Vectors that turn weights into gradients (1/m).
+    pub(in crate::mpm) outward: [[Vector<D>; BATCH]; OUTWARD],
+    /// Weights of the rows of a plane times those of the planes.
+    row_weights: [[F64Batch; K]; K],
+}
+
+/// `sum + a b`, where there is a sum.
+#[inline(always)]
+fn plus_product<F: Register>(sum: Option<F>, a: F, b: f64) -> F {
+    match sum {
+        Some(sum) => sum.plus_product(a, b),
+        None => a * b,
+    }
+}
+
+impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
+    /// Rows of a plane, and planes: one where there is no such axis.
+    pub(in crate::mpm) const ROWS: usize = if D > 1 { K } else { 1 };
+    pub(in crate::mpm) const PLANES: usize = if D > 2 { K } else { 1 };
+
+    /// Stores the starts of four patches.
+    #[inline(always)]
+    pub(in crate::mpm) fn put_starts(&mut self, lane: usize, starts: [u32; LANES]) {
+        self.start[lane % BATCH / LANES * LANES..][..LANES].copy_from_slice(&starts);
+    }
+
+    #[inline(always)]
+    pub(in crate::mpm) fn start(&self, lane: usize) -> usize {
+        self.start[lane % BATCH] as usize
+    }
+
+    /// Weight of function `k` along `axis`, one where there is no such axis.
+    #[inline(always)]
+    pub(in crate::mpm) fn weight(&self, lane: usize, axis: usize, k: usize) -> f64 {
+        if axis < D { self.axes[axis].weight[k].get(lane) } else { 1.0 }
+    }
+
+    /// Weight of row `j` in plane `k`.
+    #[inline(always)]
+    fn row_weight(&self, lane: usize, j: usize, k: usize) -> f64 {
+        if D > 2 { self.row_weights[k][j].get(lane) } else { self.weight(lane, 1, j) }
+    }
+
+    /// Adds `flux . grad` of row `j` in plane `k` without its part along the first axis.
+    #[inline(always)]
+    fn flux_across<F: Register>(
+        &self,
+        lane: usize,
+        sum: Option<F>,
+        flux: &[F; D],
+        j: usize,
+        k: usize,
+    ) -> F {
+        let along = self.axes[1].slope[j].get(lane) * self.weight(lane, 2, k);
+        let sum = plus_product(sum, flux[1], along);
+        if D == 2 {
+            return sum;
+        }
+        sum.plus_product(flux[2], self.axes[2].slope[k].get(lane) * self.weight(lane, 1, j))
+    }
+
+    /// The flux as a part of the value, where gradients are weights times a vector.
+    #[inline(always)]
+    fn fold_flux<F: Register>(&self, lane: usize, term: NodeTerm<F, D>) -> NodeTerm<F, D> {
+        let (Some(outward), Some(flux)) = (self.outward.first(), term.flux) else { return term };
+        let outward = &outward[lane % BATCH];
+        let mut value = flux[0] * outward[0];
+        for axis in 1..D {
+            value += flux[axis] * outward[axis];
+        }
+        if let Some(own) = term.value {
+            value = own + value;
+        }
+        NodeTerm { value: Some(value), flux: None, ..term }
+    }
+
+    /// Adds the term of particle `lane` to its nodes. Node (i, j, k) takes
+    /// `first_i weight_jk + row_jk weight_i`: a product and a sum twice, not for each axis.
+    #[inline(always)]
+    fn add<S: Simd, N: PackedNode>(
+        &self,
+        lane: usize,
+        term: NodeTerm<N::Lanes<S>, D>,
+        accumulator: &mut NodeAccumulator<'_, S, N, K>,
+    ) {
+        let NodeTerm { value, slope, flux } = self.fold_flux(lane, term);
+        let (start, x, weights) =
+            (self.start(lane), &self.axes[0], lane_functions(&self.axes[0].weight, lane));
+        // Loops, as closures are not always inlined.
+        let (mut first, mut rise) = ([None; K], [None; K]);
+        for i in 0..K {
+            if let Some(slope) = &slope {
+                first[i] = Some(slope[0] * x.weighted_offset[i].get(lane));
+                if D > 1 {
+                    rise[i] = Some(slope[1] * self.axes[1].offset_from_mean[i].get(lane));
+                }
+            }
+            if let Some(flux) = &flux {
+                first[i] = Some(plus_product(first[i], flux[0], x.slope[i].get(lane)));
+            }
+        }
+        for k in 0..Self::PLANES {
+            let mut of_plane = value;
+            if D > 2
+                && let (Some(value), Some(slope)) = (value, &slope)
+            {
+                let offset = self.axes[2].offset_from_mean[k].get(lane);
+                of_plane = Some(value.plus_product(slope[2], offset));
+            }
+            for j in 0..Self::ROWS {
+                let (weight, mut of_row) = (self.row_weight(lane, j, k), of_plane);
+                if let (Some(value), Some(rise)) = (of_plane, rise[j]) {
+                    of_row = Some(value + rise);
+                }
+                if let (true, Some(value)) = (D > 1, of_row) {
+                    of_row = Some(value * weight);
+                }
+                if let (true, Some(flux)) = (D > 1, &flux) {
+                    of_row = Some(self.flux_across(lane, of_row, flux, j, k));
+                }
+                accumulator.add::<D>(
+                    start,
+                    (j, k),
+                    #[inline(always)]
+                    |i, node| {
+                        let Some(first) = first[i] else {
+                            return match of_row {
+                                // A sum waits for that of the particle before: along one axis the
+                                // term is made beside it.
+                                Some(row) if D == 1 => node + row * weights[i],
+                                Some(row) => node.plus_product(row, weights[i]),
+                                None => node,
+                            };
+                        };
+                        match of_row {
+                            Some(row) if D == 1 => node + (row * weights[i] + first),
+                            Some(row) => {
+                                node.plus_product(first, weight).plus_product(row, weights[i])
+                            }
+                            None => node + first * weight,
+                        }
+                    },
+                );
+            }
+        }
+    }
+}
+
+impl<const D: usize, const K: usize, const OUTWARD: usize> PatchBatch<D>
+    for ProductBatch<D, K, OUTWARD>
+{
+    fn none() -> Self {
+        Self {
+            start: [0; BATCH],
+            axes: [Weights1dBatch::NONE; D],
+            outward: [[Vector::zeros(); BATCH]; OUTWARD],
+            row_weights: [[F64Batch::ZERO; K]; K],
+        }
+    }
+
+    #[inline(always)]
+    fn compute_row_weights<S: Simd>(&mut self, simd: S, lanes: &Range<usize>) {
+        if D > 2 {
+            for register in registers_of(lanes) {
+                for k in 0..K {
+                    let plane = self.axes[2].weight[k].load(simd, register);
+                    for j in 0..K {
+                        let row = self.axes[1].weight[j].load(simd, register);
+                        self.row_weights[k][j].store(register, row * plane);
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn compute_offsets<S: Simd>(
+        &mut self,
+        simd: S,
+        lanes: &Range<usize>,
+        h: f64,
+        mean: Option<&Vector<D>>,
+    ) {
+        for register in registers_of(lanes) {
+            for axis in 0..D {
+                self.axes[axis].center_offsets(simd, register, h, mean.map(|mean| mean[axis]));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn divide<S: Simd>(&self, lane: usize, columns: &[S::F64x4; D]) -> [S::F64x4; D] {
+        array(columns[0], |axis| columns[axis] * self.axes[axis].inverse.get(lane))
+    }
+
+    #[inline(always)]
+    fn scatter<S: Simd, N: PackedNode, T>(
+        &self,
+        simd: S,
+        field: FieldViewMut<'_, N>,
+        particles: impl Iterator<Item = (usize, T)>,
+        term: impl Fn(usize, T) -> NodeTerm<N::Lanes<S>, D>,
+    ) {
+        let mut accumulator = NodeAccumulator::new(simd, field);
+        for (lane, particle) in particles {
+            self.add(lane, term(lane, particle), &mut accumulator);
+        }
+        accumulator.flush();
+    }
+
+    #[inline(always)]
+    fn gather<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4 {
+        self.sums(simd, lane, field, &[[0.0; K]; D]).0
+    }
+
+    #[inline(always)]
+    fn gather_moment<S: Simd>(
+        &self,
+        simd: S,
+        lane: usize,
+        field: &FieldView<'_>,
+    ) -> (S::F64x4, [S::F64x4; D]) {
+        let axis = |axis: usize| lane_functions(&self.axes[axis].weighted_offset, lane);
+        self.sums(simd, lane, field, &array([0.0; K], axis))
+    }
+
+    #[inline(always)]
+    fn gather_gradient<S: Simd>(
+        &self,
+        simd: S,
+        lane: usize,
+        field: &FieldView<'_>,
+    ) -> (S::F64x4, [S::F64x4; D]) {
+        if let Some(outward) = self.outward.first() {
+            let (sum, outward) = (self.gather(simd, lane, field), &outward[lane % BATCH]);
+            return (sum, array(sum, |axis| sum * outward[axis]));
+        }
+        let axis = |axis: usize| lane_functions(&self.axes[axis].slope, lane);
+        self.sums(simd, lane, field, &array([0.0; K], axis))
+    }
+}
+
+/// `sum_k row_k factors_k`.
+#[inline(always)]
+fn dot<S: Simd, const K: usize>(simd: S, row: &[Node4], factors: &[f64; K]) -> S::F64x4 {
+    let mut sum = simd.load(row[0].0) * factors[0];
+    for k in 1..K {
+        sum = sum.plus_product(simd.load(row[k].0), factors[k]);
+    }
+    sum
+}
+
+/// Adds term `k` of a sum, which begins with term 0.
+#[inline(always)]
+fn put<F: Register>(sum: &mut F, k: usize, a: F, b: f64) {
+    *sum = if k == 0 { a * b } else { sum.plus_product(a, b) };
+}
+
+impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
+    /// `sum_i field_i N_i`, and for each axis the same with its functions replaced by `others`.
+    #[inline(always)]
+    pub(super) fn sums<S: Simd>(
+        &self,
+        simd: S,
+        lane: usize,
+        field: &FieldView<'_>,
+        others: &[[f64; K]; D],
+    ) -> (S::F64x4, [S::F64x4; D]) {
+        let (start, weights) = (self.start(lane), lane_functions(&self.axes[0].weight, lane));
+        let zero = simd.splat(0.0);
+        let (mut sum, mut other) = (zero, [zero; D]);
+        for k in 0..Self::PLANES {
+            let (mut plane, mut across, mut along) = (zero, zero, zero);
+            for j in 0..Self::ROWS {
+                let row = field.row::<K>(start + field.layout.row(j, k));
+                let (terms, others_of_row) = (dot(simd, row, &weights), dot(simd, row, &others[0]));
+                if D == 1 {
+                    return (terms, [others_of_row; D]);
+                }
+                let weight = self.weight(lane, 1, j);
+                put(&mut plane, j, terms, weight);
+                put(&mut across, j, others_of_row, weight);
+                put(&mut along, j, terms, others[1][j]);
+            }
+            if D == 2 {
+                return (plane, array(zero, |axis| if axis == 0 { across } else { along }));
+            }
+            let weight = self.weight(lane, 2, k);
+            put(&mut sum, k, plane, weight);
+            put(&mut other[0], k, across, weight);
+            if D > 2 {
+                put(&mut other[1], k, along, weight);
+                put(&mut other[2], k, plane, others[2][k]);
+            }
+        }
+        (sum, other)
     }
 }

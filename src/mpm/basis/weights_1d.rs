@@ -1,4 +1,9 @@
-//! Weights of a particle along one axis.
+//! Weights along one axis, of one particle and of a batch of particles.
+
+use super::cell_locator::WeightNeeds;
+use crate::mpm::foundation::algebra::array;
+use crate::mpm::foundation::moments::SMALLEST;
+use crate::mpm::foundation::simd::{F64Batch, F64x4, Simd};
 
 /// K neighbouring functions along one axis.
 #[derive(Debug, Clone, Copy)]
@@ -58,4 +63,156 @@ pub(in crate::mpm) fn product<const D: usize>(
         product *= moments[axis][order(axis)];
     }
     product
+}
+
+/// K neighbouring functions of four particles, in registers.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::mpm) struct WeightsSimd<S: Simd, const K: usize> {
+    /// Values.
+    pub(in crate::mpm) weight: [S::F64x4; K],
+    /// Derivatives (1/m).
+    pub(in crate::mpm) slope: [S::F64x4; K],
+    /// Positions from the particle (m).
+    pub(in crate::mpm) offset: [S::F64x4; K],
+    /// `sum weight offset^2` (m^2), about their mean.
+    pub(in crate::mpm) variance: S::F64x4,
+}
+
+impl<S: Simd, const K: usize> WeightsSimd<S, K> {
+    /// Stores what `needs` lists.
+    #[inline(always)]
+    pub(in crate::mpm) fn put(
+        self,
+        register: usize,
+        needs: WeightNeeds,
+        weights: &mut Weights1dBatch<K>,
+    ) {
+        for k in 0..K {
+            weights.weight[k].store(register, self.weight[k]);
+        }
+        if needs.slopes {
+            for k in 0..K {
+                weights.slope[k].store(register, self.slope[k]);
+            }
+        }
+        if needs.offsets {
+            for k in 0..K {
+                weights.offset[k].store(register, self.offset[k]);
+            }
+            weights.variance.store(register, self.variance);
+        }
+    }
+
+    /// Functions of one particle.
+    #[inline(always)]
+    pub(in crate::mpm) fn take(&self, lane: usize, first: usize) -> Weights1d<K> {
+        let of = |functions: &[S::F64x4; K]| array(0.0, |k| functions[k].into()[lane]);
+        Weights1d {
+            first,
+            weight: of(&self.weight),
+            slope: of(&self.slope),
+            offset: of(&self.offset),
+            variance: self.variance.into()[lane],
+        }
+    }
+}
+
+/// K neighbouring functions of a batch of particles, in memory.
+#[derive(Debug, Clone, Copy)]
+pub struct Weights1dBatch<const K: usize> {
+    /// Values.
+    pub(in crate::mpm) weight: [F64Batch; K],
+    /// Derivatives (1/m).
+    pub(in crate::mpm) slope: [F64Batch; K],
+    /// Positions from the particle (m).
+    pub(in crate::mpm) offset: [F64Batch; K],
+    /// `sum weight offset^2` (m^2), about the mean where a particle has no other functions.
+    pub(in crate::mpm) variance: F64Batch,
+    /// Offset from a mean (m).
+    pub(in crate::mpm) offset_from_mean: [F64Batch; K],
+    /// Offset from the mean times weight (m).
+    pub(in crate::mpm) weighted_offset: [F64Batch; K],
+    /// The inverse of the variance (1/m^2), zero where there is none.
+    pub(in crate::mpm) inverse: F64Batch,
+}
+
+impl<const K: usize> Weights1dBatch<K> {
+    /// No functions.
+    pub(in crate::mpm) const NONE: Self = Self {
+        weight: [F64Batch::ZERO; K],
+        slope: [F64Batch::ZERO; K],
+        offset: [F64Batch::ZERO; K],
+        variance: F64Batch::ZERO,
+        offset_from_mean: [F64Batch::ZERO; K],
+        weighted_offset: [F64Batch::ZERO; K],
+        inverse: F64Batch::ZERO,
+    };
+
+    /// Stores the functions of one particle.
+    #[inline(always)]
+    pub(in crate::mpm) fn put(&mut self, lane: usize, along: &Weights1d<K>) {
+        for k in 0..K {
+            self.weight[k].0[lane] = along.weight[k];
+            self.slope[k].0[lane] = along.slope[k];
+            self.offset[k].0[lane] = along.offset[k];
+        }
+        self.variance.0[lane] = along.variance;
+    }
+
+    /// Computes offsets from `mean` (m), or from the mean of the functions of each particle, and
+    /// the inverse of the variance. Offsets are multiplied by weights before any sum: near a wall
+    /// the offset is small where the weight is not, and rounding must not reach the inertia tensor.
+    #[inline(always)]
+    pub(in crate::mpm) fn center_offsets<S: Simd>(
+        &mut self,
+        simd: S,
+        register: usize,
+        h: f64,
+        mean: Option<f64>,
+    ) {
+        let zero = simd.splat(0.0);
+        let load = |functions: &[F64Batch; K]| -> [S::F64x4; K] {
+            array(zero, |k| functions[k].load(simd, register))
+        };
+        let (weight, offset) = (load(&self.weight), load(&self.offset));
+        let mean = mean.map_or_else(
+            || {
+                let mut mean = weight[0] * offset[0];
+                for k in 1..K {
+                    mean += weight[k] * offset[k];
+                }
+                mean
+            },
+            |mean| simd.splat(mean),
+        );
+        for k in 0..K {
+            let from_mean = offset[k] - mean;
+            self.offset_from_mean[k].store(register, from_mean);
+            self.weighted_offset[k].store(register, from_mean * weight[k]);
+        }
+        let inverse = self.variance.load(simd, register).inverse_above(SMALLEST * h * h);
+        self.inverse.store(register, inverse);
+    }
+}
+
+/// Functions of particle `lane` of a batch.
+#[inline(always)]
+pub(super) fn lane_functions<const K: usize>(functions: &[F64Batch; K], lane: usize) -> [f64; K] {
+    array(0.0, |k| functions[k].get(lane))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::foundation::simd::{LANES, Plain};
+
+    #[test]
+    fn an_axis_without_a_moment_has_no_inverse() {
+        let mut weights = Weights1dBatch::<2>::NONE;
+        for (lane, variance) in [0.25, 1e-20, 0.0, f64::NAN].into_iter().enumerate() {
+            weights.variance.0[LANES + lane] = variance;
+        }
+        weights.center_offsets(Plain, 1, 1.0, None);
+        assert_eq!(weights.inverse.0[LANES..2 * LANES], [4.0, 0.0, 0.0, 0.0]);
+    }
 }

@@ -1,7 +1,7 @@
-//! Contract of a boundary condition with the rest of the solver.
+//! Contract of a boundary condition with the rest of the solver, and the faces of the grid.
 
-use super::face::Side;
-use crate::mpm::algebra::Vector;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
 use crate::subject::{Checkpoint, Column};
 
 /// An advance of the grid's velocities: `v += dt a`.
@@ -63,4 +63,22 @@ pub trait Boundary<const D: usize>: Send {
 
     /// Sets the constrained components of a nodal field to zero.
     fn clear(&self, field: &mut [Vector<D>]);
+}
+
+/// The low or the high end of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Where the coordinate is smallest.
+    Low,
+    /// Where the coordinate is largest.
+    High,
+}
+
+/// The nodes of `grid` on one face, in their order.
+pub(in crate::mpm) fn nodes<const D: usize>(grid: &Grid<D>, axis: usize, side: Side) -> Vec<usize> {
+    let index = match side {
+        Side::Low => 0,
+        Side::High => grid.counts[axis] - 1,
+    };
+    (0..grid.nodes()).filter(|&i| grid.index_on_axis(i, axis) == index).collect()
 }

@@ -1,9 +1,8 @@
 //! A wall to which the body sticks: v = 0.
 
-use super::contract::{Advance, Boundary};
-use super::face::{Side, nodes};
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
+use super::contract::{Advance, Boundary, Side, nodes};
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
 use crate::subject::Column;
 
 /// A face of the grid whose nodes do not move.

@@ -10,13 +10,13 @@
 //! not move as the other body.)
 //!
 //! Nodes keep their contact state between two advances: velocities mapped in between follow it.
+//!
+//! Contact state under Coulomb friction, of a node at a wall or of two bodies at a node.
 
-use super::contact_state::ContactState;
-use super::contract::{Advance, Boundary};
-use super::face::{Side, nodes};
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
-use crate::subject::{Checkpoint, Column};
+use super::contract::{Advance, Boundary, Side, nodes};
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::subject::{Checkpoint, Column, Entry, Memory};
 
 /// A face of the grid with friction.
 #[derive(Debug, Clone)]
@@ -103,6 +103,32 @@ impl<const D: usize> Boundary<D> for Friction {
 
     fn clear(&self, field: &mut [Vector<D>]) {
         self.hold(field);
+    }
+}
+
+/// State of a contact by Coulomb's law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::mpm) enum ContactState {
+    /// They do not touch.
+    Separated,
+    /// They slide along each other.
+    Slip,
+    /// They move as one.
+    Stick,
+}
+
+impl Entry for ContactState {}
+
+impl Memory for ContactState {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let mut number = *self as u64;
+        checkpoint.visit(&mut number);
+        match number {
+            0 => *self = Self::Separated,
+            1 => *self = Self::Slip,
+            2 => *self = Self::Stick,
+            _ => checkpoint.refuse(),
+        }
     }
 }
 

@@ -6,19 +6,16 @@
 //! 2008), so holding their coefficients holds the wall. Where faces meet, a later condition of the
 //! list overrides an earlier one.
 
-pub(crate) mod contact_state;
-
 mod contract;
-mod face;
 mod fixed;
 mod friction;
 mod prescribed;
 mod roller;
 
-pub use contract::{Advance, Boundary};
-pub use face::Side;
-pub(super) use face::nodes;
+pub(super) use contract::nodes;
+pub use contract::{Advance, Boundary, Side};
 pub use fixed::Fixed;
+pub(super) use friction::ContactState;
 pub use friction::Friction;
 pub(super) use prescribed::continued;
 pub use prescribed::{Prescribed, VelocityField};

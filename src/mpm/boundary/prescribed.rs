@@ -4,11 +4,10 @@
 //! the grid is where the wall is, so a wall may slide along itself as far as it likes, but move
 //! along its normal only by a small part of a cell.
 
-use super::contract::{Advance, Boundary};
-use super::face::{Side, nodes};
-use crate::mpm::algebra::Vector;
+use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::basis::BasisName;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
 use crate::subject::Column;
 
 /// A velocity (m/s) as a function of place and time.

@@ -1,9 +1,8 @@
 //! A frictionless wall, or a plane of symmetry: v . n = 0, and no force along the wall.
 
-use super::contract::{Advance, Boundary};
-use super::face::{Side, nodes};
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
+use super::contract::{Advance, Boundary, Side, nodes};
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
 use crate::subject::Column;
 
 /// A face of the grid along which the body slides.

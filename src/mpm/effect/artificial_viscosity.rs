@@ -10,7 +10,7 @@
 //! makes new stresses, which a law in rate form adds to the old ones, it is taken out again.
 
 use super::contract::Effect;
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column};
 
 /// An artificial viscosity.

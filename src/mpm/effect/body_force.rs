@@ -5,10 +5,10 @@
 //! the start of the step, where its stress is too: the leapfrog of the scheme keeps its order.
 
 use super::contract::Effect;
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 use crate::subject::Column;
 
 /// Writes the force per unit mass (m/s2) of every particle at a time (s), from their reference and

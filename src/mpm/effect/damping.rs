@@ -11,7 +11,7 @@
 //! damped velocities.
 
 use super::contract::Effect;
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::particles::Particles;
 
 /// A rate of damping alpha(t) (1/s).
 pub struct Damping(pub Box<dyn Fn(f64) -> f64 + Send>);

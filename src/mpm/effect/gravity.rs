@@ -4,10 +4,10 @@
 //! nodal mass, and no particle is visited.
 
 use super::contract::Effect;
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 
 /// Gravity, b(t) (m/s2).
 pub struct Gravity<const D: usize>(pub Box<dyn Fn(f64) -> Vector<D> + Send>);

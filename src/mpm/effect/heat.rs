@@ -22,10 +22,10 @@
 
 use super::contract::Effect;
 use super::thermal_face::ThermalBoundary;
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure, Site};
 
 /// Writes the heat per unit mass and time (W/kg) of every particle at a time (s).
@@ -125,7 +125,7 @@ impl<const D: usize> Heat<D> {
             visits += particles.len() as u64 * kernel.support();
         }
         for face in &mut self.faces {
-            visits += face.let_in(t, particles, kernel, grid, (&self.temperature, flow));
+            visits += face.let_in(t, particles, kernel, grid, &self.temperature, flow);
         }
         visits
     }
@@ -174,7 +174,7 @@ impl<const D: usize> Effect<D> for Heat<D> {
             *flow = if *m > 0.0 { *flow / (self.capacity * *m) } else { 0.0 };
         }
         for face in &self.faces {
-            face.hold_rate((t, dt), &mut self.flow);
+            face.hold_rate(t, dt, &mut self.flow);
         }
         let mut temperature = std::mem::take(&mut particles.temperature);
         kernel.g2p_scalar(grid, &self.flow, particles, dt, &mut temperature);

@@ -7,10 +7,10 @@
 //! the plane. The weights of force and rate are the same: what the rate takes, the force gives.
 
 use super::contract::Effect;
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 use crate::subject::Column;
 
 /// The hoops of all particles.

@@ -11,7 +11,7 @@
 //! As it acts on nodes, what no node sees of FLIP's velocities is left as it is.
 
 use super::contract::Effect;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::grid::Grid;
 
 /// The share zeta, 0 <= zeta < 1, of the unbalanced force.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,17 +3,20 @@
 
 mod contract;
 mod hoop;
-mod mapped_face;
-mod strain;
+/// The effect that `docs/exercises/effect.md` adds.
+#[cfg(test)]
+#[allow(unreachable_pub)] // public where the page puts it
+#[path = "../../../tests/exercises/spin.rs"]
+mod spin;
 mod surface;
 mod thermal_face;
 
 pub use body_force::ForceField;
 pub use contract::Effect;
+pub(super) use contract::strain;
 pub use heat::HeatSource;
 pub use hoop::Hoop;
 pub use pressure::PressureField;
-pub(super) use strain::strain;
 pub use surface::Placement;
 pub use thermal_face::{HeatInflow, ScalarField, Thermal, ThermalBoundary};
 pub use traction::TractionField;

@@ -5,9 +5,9 @@
 //! step, in USF and USL in the next.
 
 use super::contract::Effect;
-use crate::mpm::algebra::Vector;
 use crate::mpm::boundary::{VelocityField, continued};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column};
 
 /// Prescribed velocity v(X, t) (m/s) of a set of particles.

@@ -4,10 +4,10 @@
 //! that is uniform in the reference configuration, and follows the particles.
 
 use super::contract::Effect;
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 use crate::subject::Column;
 
 /// A total force f(t) (N, per m^(3-D) of thickness) on a set.

@@ -11,9 +11,9 @@
 //! scene leaves out have no part in it. Neglected: heat absorbed by the expansion.
 
 use super::contract::Effect;
-use crate::mpm::algebra::Matrix;
+use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::{Material, StressUpdate};
-use crate::mpm::particles::Particles;
 use crate::subject::{Checkpoint, Column};
 
 /// Expansion by temperature; an effect that keeps temperatures comes before it.

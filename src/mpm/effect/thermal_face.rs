@@ -9,12 +9,12 @@
 //! Areas are those of the reference body, as with tractions. The face stays where the grid ends.
 
 use super::surface::{Placement, Surface};
-use crate::mpm::algebra::Vector;
 use crate::mpm::basis::BasisName;
 use crate::mpm::boundary::{Side, nodes};
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 use crate::subject::Column;
 
 /// A number as a function of place and time (s).
@@ -88,7 +88,7 @@ impl<const D: usize> ThermalBoundary<D> {
     }
 
     /// The same for their rates (K/s) from `t` to `t + dt`.
-    pub(super) fn hold_rate(&self, (t, dt): (f64, f64), rate: &mut [f64]) {
+    pub(super) fn hold_rate(&self, t: f64, dt: f64, rate: &mut [f64]) {
         if let Thermal::Temperature(value) = &self.condition {
             for (i, x) in &self.nodes {
                 rate[*i] = (value(x, t + dt) - value(x, t)) / dt;
@@ -104,7 +104,8 @@ impl<const D: usize> ThermalBoundary<D> {
         particles: &Particles<D>,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
-        (temperature, flow): (&[f64], &mut [f64]),
+        temperature: &[f64],
+        flow: &mut [f64],
     ) -> u64 {
         // A face whose temperature is given has neither a layer nor shares.
         self.gather_shares(particles, kernel, grid);

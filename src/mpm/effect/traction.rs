@@ -7,11 +7,11 @@
 
 use super::contract::Effect;
 use super::surface::{Placement, Surface};
-use crate::mpm::algebra::Vector;
 use crate::mpm::boundary::Side;
-use crate::mpm::grid::Grid;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::particles::Particles;
 use crate::subject::Column;
 
 /// A traction (Pa, per reference area) as a function of the place in the reference configuration

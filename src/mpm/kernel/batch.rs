@@ -1,12 +1,13 @@
-//! Batches of particles with their patches of nodes.
+//! Batches of particles: their patches of nodes, moments of their weights, and their matrices as
+//! columns in registers.
 
-use super::inertia::inertia;
-use super::moments::InertiaTensor;
-use crate::mpm::basis::{Basis, CellLocator, Patch, WeightNeeds};
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::Layout;
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{BATCH, LANES, Simd};
+use crate::mpm::basis::{Basis, CellLocator, Patch, PatchBatch, WeightNeeds};
+use crate::mpm::foundation::algebra::{Matrix, Vector, array};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::{InertiaTensor, WeightMoments};
+use crate::mpm::foundation::packed_grid::Layout;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{BATCH, LANES, Simd};
 use std::marker::PhantomData;
 use std::ops::Range;
 
@@ -90,4 +91,74 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
         }
         ALL
     }
+}
+
+/// Mean and second moments of the weights of particle `p`, from all its patches.
+#[inline(always)]
+pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
+    grid: &Grid<D>,
+    particles: &Particles<D>,
+    p: usize,
+) -> InertiaTensor<D> {
+    let mut all = WeightMoments { first: Vector::zeros(), second: Matrix::zeros() };
+    let mut one = InertiaTensor { mean: Vector::zeros(), second: Matrix::zeros() };
+    let mut patches = 0;
+    B::patches(grid, particles, p, |patch| {
+        one = InertiaTensor::diagonal(patch.variance());
+        patches += 1;
+        if !B::ONE_PATCH {
+            let weight_moments = patch.weight_moments();
+            all.first += weight_moments.first;
+            all.second += weight_moments.second;
+        }
+    });
+    // A single patch is a product of one-dimensional functions.
+    if B::ONE_PATCH || patches == 1 { one } else { InertiaTensor::full(&all) }
+}
+
+/// Columns of a matrix, each in a register from lane `from` on.
+#[inline(always)]
+pub(super) fn columns<S: Simd, const D: usize>(
+    simd: S,
+    matrix: &Matrix<D>,
+    from: usize,
+) -> [S::F64x4; D] {
+    array(simd.load([0.0; 4]), |axis| {
+        let mut lanes = [0.0; 4];
+        for row in 0..D {
+            lanes[(from + row) % LANES] = matrix[(row, axis)];
+        }
+        simd.load(lanes)
+    })
+}
+
+/// Writes a matrix by its columns from lane `from` on, number by number: store-to-load forwarding
+/// fails for a matrix that is stored as a whole.
+#[inline(always)]
+pub(super) fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(
+    matrix: &mut Matrix<D>,
+    columns: &[F; D],
+    from: usize,
+) {
+    for axis in 0..D {
+        let lanes = columns[axis].into();
+        for row in 0..D {
+            matrix[(row, axis)] = lanes[(from + row) % LANES];
+        }
+    }
+}
+
+/// Columns of `matrix D_p^-1`, each in a register from lane `from` on, with the inertia tensor of
+/// all patches of the particle, or without it that of its only patch.
+#[inline(always)]
+pub(super) fn divide<B: Basis, S: Simd, const D: usize>(
+    (simd, patches, lane): (S, &Batch<B, D>, usize),
+    of_all: Option<&InertiaTensor<D>>,
+    (matrix, from): (&[S::F64x4; D], usize),
+    h: f64,
+) -> [S::F64x4; D] {
+    let Some(of_all) = of_all else { return patches.divide::<S>(lane, matrix) };
+    let mut whole = Matrix::zeros();
+    put_columns(&mut whole, matrix, from);
+    columns(simd, &of_all.divide(&whole, h), from)
 }

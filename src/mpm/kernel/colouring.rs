@@ -8,14 +8,14 @@
 //! The cuts depend on the particles only, not on the number of threads, and so do the bits. A small
 //! scene, or one whose particles are in no spatial order, is one block.
 
-use super::settings::LoopSettings;
-use crate::mpm::algebra::Matrix;
+use super::contract::LoopSettings;
 use crate::mpm::basis::{Basis, Domain};
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::{MARGIN, layers};
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::BATCH;
-use crate::mpm::threads::RowChunks;
+use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::packed_grid::{MARGIN, layers};
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::BATCH;
+use crate::mpm::foundation::threads::RowChunks;
 use std::ops::Range;
 
 /// Chunks of the smallest block, the units in which layers are looked up.
@@ -65,7 +65,10 @@ impl Span {
     }
 
     /// Extent of these particles. One whose position is NaN has no nodes.
-    fn of<B: Basis, const D: usize>(particles: &Particles<D>, these: Range<usize>) -> Self {
+    fn from_particles<B: Basis, const D: usize>(
+        particles: &Particles<D>,
+        these: Range<usize>,
+    ) -> Self {
         let (mut span, x) = (Self::NONE, &particles.x[these.clone()]);
         if B::DOMAIN == Domain::Point {
             // Several chains: in one, each minimum would wait for the one before.
@@ -139,7 +142,8 @@ impl Blocks {
         if COUNTS.iter().any(enough) {
             self.spans.resize(total.div_ceil(chunk), Span::NONE);
             RowChunks { length: 1, few: CHUNKS }.each(&mut self.spans, &|k, span| {
-                span[0] = Span::of::<B, D>(particles, k * chunk..total.min((k + 1) * chunk));
+                span[0] =
+                    Span::from_particles::<B, D>(particles, k * chunk..total.min((k + 1) * chunk));
             });
         }
         let mut counts = COUNTS.into_iter().filter(enough);
@@ -178,10 +182,10 @@ impl Blocks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::algebra::Vector;
     use crate::mpm::basis::laws::exercise::QuadraticBernstein;
     use crate::mpm::basis::{BasisName, with_basis};
-    use crate::mpm::particles::Block;
+    use crate::mpm::foundation::algebra::Vector;
+    use crate::mpm::foundation::particles::Block;
     use rstest::rstest;
 
     /// A body in a grid that is long along its last axis, its particles a little displaced.

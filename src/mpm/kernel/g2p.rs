@@ -1,14 +1,13 @@
 //! G2P: velocity, first moment and gradient in one visit to the nodes of a particle.
 
-use super::batch::{ALL, Batch, ParticleBatches};
-use super::matrix_columns::{divide, put_columns};
-use super::moments::InertiaTensor;
-use super::request::G2pRequest;
+use super::batch::{ALL, Batch, ParticleBatches, divide, put_columns};
+use super::contract::G2pRequest;
 use crate::mpm::basis::{Basis, PatchBatch, WeightNeeds};
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::FieldView;
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{BATCH, F64x4, LANES, Simd, SimdPass, components};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::InertiaTensor;
+use crate::mpm::foundation::packed_grid::FieldView;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{BATCH, F64x4, LANES, Simd, SimdPass, components};
 use std::marker::PhantomData;
 use std::ops::Range;
 
@@ -54,12 +53,7 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
 
     /// Clears the sums of some particles, of which matrices are only where a pass takes them.
     #[inline(always)]
-    fn reset(
-        &mut self,
-        simd: S,
-        (moments, gradients): (bool, bool),
-        left_out: impl Fn(usize) -> bool,
-    ) {
+    fn reset(&mut self, simd: S, moments: bool, gradients: bool, left_out: impl Fn(usize) -> bool) {
         let zero = simd.splat(0.0);
         for lane in (0..BATCH).filter(|lane| left_out(*lane)) {
             (self.change[lane], self.velocity[lane]) = (zero, zero);
@@ -95,7 +89,8 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
         &self,
         simd: S,
         patches: &mut Batch<B, D>,
-        (lanes, of_all): (Range<usize>, Option<&InertiaTensor<D>>),
+        lanes: Range<usize>,
+        of_all: Option<&InertiaTensor<D>>,
         moments: bool,
         sums: &mut G2pSums<S, D>,
     ) {
@@ -204,7 +199,7 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
         let mut sums = G2pSums::zero(simd);
         for first in self.range.clone().step_by(BATCH) {
             if !B::ONE_PATCH {
-                sums.reset(simd, (offsets, slopes), |_| true);
+                sums.reset(simd, offsets, slopes, |_| true);
             }
             let seen = batches.visit(
                 simd,
@@ -212,11 +207,11 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
                 &mut patches,
                 #[inline(always)]
                 |patches, lanes, of_all| {
-                    self.gather_patches(simd, patches, (lanes, of_all), offsets, &mut sums);
+                    self.gather_patches(simd, patches, lanes, of_all, offsets, &mut sums);
                 },
             );
             if seen != ALL {
-                sums.reset(simd, (offsets, slopes), |lane| seen >> lane & 1 == 0);
+                sums.reset(simd, offsets, slopes, |lane| seen >> lane & 1 == 0);
             }
             self.write(first - self.range.start, offsets, &sums);
         }

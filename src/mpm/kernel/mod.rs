@@ -18,41 +18,31 @@
 //! `tests/it/mpm/kernel/textbook.rs` has the same sums as textbook loops. Sums run over particles
 //! and nodes in a fixed order, so that results have the same bits on any processor and number of
 //! threads.
+//!
+//! Loops of P2G and G2P for scalars.
 
 pub(crate) mod contract;
-pub(crate) mod moments;
-pub(crate) mod request;
-pub(crate) mod scalar_contract;
-pub(crate) mod settings;
-pub(crate) mod tally;
 
 mod batch;
 mod colouring;
 mod g2p;
-mod inertia;
-mod matrix_columns;
 mod p2g;
-mod par_split;
 mod parallel;
-mod scalar_loops;
 mod workspace;
 
-use self::inertia::inertia;
+use self::batch::inertia;
 use self::workspace::Workspace;
-use super::algebra::{Matrix, Vector};
 use super::basis::{Basis, BasisName, Domain, with_basis};
-use super::grid::Grid;
-use super::packed_grid::Columns;
-use super::particles::Particles;
+use super::foundation::algebra::{Matrix, Vector};
+use super::foundation::grid::Grid;
+use super::foundation::moments::{InertiaTensor, Moments};
+use super::foundation::packed_grid::Columns;
+use super::foundation::particles::Particles;
 use crate::dimension::with_dimension;
-use contract::Kernel;
-use moments::{InertiaTensor, Moments};
-use request::{G2pRequest, P2gRequest, ParticleField};
-use settings::LoopSettings;
+use contract::{G2pRequest, Kernel, LoopSettings, P2gRequest, ParticleField, Scalars, Tally};
 use std::any::Any;
 use std::marker::PhantomData;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use tally::Tally;
 
 /// Kernel of the basis with this name.
 pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
@@ -253,5 +243,81 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     fn grid(&self, origin: Vector<D>, h: f64, cells: [usize; D], periodic: [bool; D]) -> Grid<D> {
         let counts = std::array::from_fn(|axis| B::count(cells[axis], periodic[axis]));
         Grid::new(origin, h, cells, periodic, counts)
+    }
+}
+
+impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {
+    fn p2g_scalar(
+        &self,
+        particles: &Particles<D>,
+        (value, slope): (&[f64], &[Vector<D>]),
+        grid: &Grid<D>,
+        column: &mut [f64],
+    ) {
+        self.tally.add("p2g scalar", particles.len());
+        column.fill(0.0);
+        for (p, m) in particles.mass.iter().enumerate() {
+            let (value, slope) = (value[p] * *m, slope[p] * *m);
+            B::visit(grid, particles, p, |i| {
+                column[i.node] += (value + slope.dot(&i.offset)) * i.weight;
+            });
+        }
+    }
+
+    fn p2g_flow(
+        &self,
+        particles: &Particles<D>,
+        (slope, factor): (&[Vector<D>], f64),
+        grid: &Grid<D>,
+        column: &mut [f64],
+    ) {
+        self.tally.add("p2g scalar flux", particles.len());
+        column.fill(0.0);
+        for (p, vol) in particles.vol.iter().enumerate() {
+            let flow = slope[p] * (factor * vol);
+            B::visit(grid, particles, p, |i| column[i.node] += flow.dot(i.gradient));
+        }
+    }
+
+    fn p2g_amount(
+        &self,
+        particles: &Particles<D>,
+        p: usize,
+        amount: f64,
+        grid: &Grid<D>,
+        column: &mut [f64],
+    ) {
+        self.tally.add("p2g scalar source", 1);
+        B::visit(grid, particles, p, |i| column[i.node] += amount * i.weight);
+    }
+
+    fn g2p_scalar(
+        &self,
+        grid: &Grid<D>,
+        field: &[f64],
+        particles: &Particles<D>,
+        factor: f64,
+        value: &mut [f64],
+    ) {
+        self.tally.add("g2p scalar", particles.len());
+        for (p, value) in value.iter_mut().enumerate() {
+            let mut sum = 0.0;
+            B::visit(grid, particles, p, |i| sum += field[i.node] * i.weight);
+            *value += sum * factor;
+        }
+    }
+
+    fn g2p_slope(
+        &self,
+        grid: &Grid<D>,
+        field: &[f64],
+        particles: &Particles<D>,
+        slope: &mut [Vector<D>],
+    ) {
+        self.tally.add("g2p scalar gradient", particles.len());
+        for (p, slope) in slope.iter_mut().enumerate() {
+            slope.fill(0.0);
+            B::visit(grid, particles, p, |i| *slope += i.gradient * field[i.node]);
+        }
     }
 }

@@ -1,15 +1,14 @@
 //! P2G: mass, momentum and internal force in one visit to the nodes of a particle.
 
-use super::batch::{Batch, ParticleBatches};
-use super::matrix_columns::{columns, divide};
-use super::moments::InertiaTensor;
-use super::request::{Affine, Divergence, P2gRequest};
-use crate::mpm::algebra::{Vector, array};
+use super::batch::{Batch, ParticleBatches, columns, divide};
+use super::contract::{Affine, Divergence, P2gRequest};
 use crate::mpm::basis::{Basis, NodeTerm, PatchBatch, WeightNeeds};
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::{FieldViewMut, PackedNode, force_lane};
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{BATCH, Simd, SimdPass};
+use crate::mpm::foundation::algebra::{Vector, array};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::InertiaTensor;
+use crate::mpm::foundation::packed_grid::{FieldViewMut, PackedNode, force_lane};
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{BATCH, Simd, SimdPass};
 use std::marker::PhantomData;
 use std::ops::Range;
 

@@ -3,11 +3,15 @@
 //! Even blocks and the odd ones between them form a binary tree of joins: an odd block runs after
 //! both its neighbours, on any thread, and no other block has its nodes. Layers to which no later
 //! block adds are unpacked at once, while they are in the cache.
+//!
+//! Particles of G2P split among threads.
 
 use super::colouring::ParticleBlock;
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::{Columns, FieldViewMut, PackedNode, layers};
-use crate::mpm::threads::join;
+use super::contract::G2pRequest;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::packed_grid::{Columns, FieldViewMut, PackedNode, layers};
+use crate::mpm::foundation::simd::BATCH;
+use crate::mpm::foundation::threads::{FEW, join, split};
 use std::ops::Range;
 
 /// Target of P2G: a packed field, and the columns to which it is unpacked.
@@ -93,4 +97,48 @@ impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
         }
         target.columns.unpack(self.grid, &target.field, done);
     }
+}
+
+impl<const D: usize> G2pRequest<'_, D> {
+    /// Requests for the first `count` particles and for the others.
+    fn split_at(self, count: usize) -> (Self, Self) {
+        let Self { change, mix, .. } = self;
+        let value = split(self.value, count);
+        let moment = split(self.moment, count);
+        let fit = split(self.fit, count);
+        let gradient = split(self.gradient, count);
+        let (dt, advected) = self.advected.unzip();
+        let advected = split(advected, count);
+        let part = |value, moment, fit, gradient, advected| Self {
+            change,
+            mix,
+            value,
+            moment,
+            fit,
+            gradient,
+            advected: dt.zip(advected),
+        };
+        (
+            part(value.0, moment.0, fit.0, gradient.0, advected.0),
+            part(value.1, moment.1, fit.1, gradient.1, advected.1),
+        )
+    }
+}
+
+/// Runs `work` for parts of `range`, each with the request for its particles.
+pub(in crate::mpm) fn par_split<const D: usize>(
+    range: Range<usize>,
+    request: G2pRequest<'_, D>,
+    work: &(dyn Fn(Range<usize>, G2pRequest<'_, D>) + Sync),
+) {
+    if range.len() <= FEW {
+        return work(range, request);
+    }
+    let first = (range.len() / 2).next_multiple_of(BATCH);
+    let middle = range.start + first;
+    let (left, right) = request.split_at(first);
+    join(
+        || par_split(range.start..middle, left, work),
+        || par_split(middle..range.end, right, work),
+    );
 }

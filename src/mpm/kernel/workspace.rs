@@ -1,17 +1,17 @@
 //! P2G and G2P on threads, and the memory that they keep.
 
 use super::colouring::{Blocks, ParticleBlock};
+use super::contract::{G2pRequest, LoopSettings, P2gRequest};
 use super::g2p::{Gather, are_beside};
 use super::p2g::{Scatter, wants_wide_nodes};
-use super::par_split::par_split;
-use super::parallel::{Target, two_colour_schedule};
-use super::request::{G2pRequest, P2gRequest};
-use super::settings::LoopSettings;
-use crate::mpm::algebra::Vector;
+use super::parallel::{Target, par_split, two_colour_schedule};
 use crate::mpm::basis::Basis;
-use crate::mpm::grid::Grid;
-use crate::mpm::packed_grid::{Columns, FieldViewMut, Node4, Node8, PackedField, PackedNode};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::packed_grid::{
+    Columns, FieldViewMut, Node4, Node8, PackedField, PackedNode,
+};
+use crate::mpm::foundation::particles::Particles;
 use fearless_simd::Level;
 use std::marker::PhantomData;
 

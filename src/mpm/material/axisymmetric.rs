@@ -5,8 +5,8 @@
 
 use super::contract::Material;
 use super::stress_update::StressUpdate;
-use crate::mpm::algebra::{Matrix, Vector};
-use crate::mpm::particles::{Block, Particles};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::particles::{Block, Particles};
 use crate::subject::{Checkpoint, Column, Failure};
 
 /// A law in space, of a body in its meridian plane.

@@ -2,8 +2,8 @@
 
 use super::stress_update::StressUpdate;
 #[cfg(test)]
-use crate::mpm::algebra::Matrix;
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
 
 /// Properties of a law that decide what may be stated of its bodies.

@@ -11,8 +11,8 @@ use super::hyperelastic::{set_stress_along_axes, stored_energy};
 use super::linear_elastic::LinearElastic;
 use super::spectral::spectral;
 use super::stress_update::StressUpdate;
-use crate::mpm::algebra::{Matrix, Vector, det};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::{Matrix, Vector, det};
+use crate::mpm::foundation::particles::Particles;
 
 /// Fixed corotated elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,7 +9,7 @@
 //! a tension cut-off, which is no part of the flow rule.
 
 use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
-use crate::mpm::algebra::Vector;
+use crate::mpm::foundation::algebra::Vector;
 
 /// Drucker-Prager elastoplasticity at finite strain, without hardening.
 pub type DruckerPrager = ElastoPlastic<Cone>;

@@ -11,8 +11,8 @@ use super::linear_elastic::LinearElastic;
 use super::plane_stress::{FreeAcross, PlaneStress, lambda_of_plate, thinning};
 use super::spectral::{assembled, half_log, half_log_batch, spectral};
 use super::stress_update::StressUpdate;
-use crate::mpm::algebra::{Matrix, Vector};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::particles::Particles;
 
 /// Hencky elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,9 +2,9 @@
 
 use super::spectral::{MatrixBatch, assembled_batch, spectral_batch};
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::algebra::{Matrix, Vector, det, product};
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{BATCH, F64Batch, vectorized};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, product};
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
 
 /// Sum of the energies of the particles (J), from that per reference volume (J/m^D).
 pub(super) fn stored_energy<const D: usize>(

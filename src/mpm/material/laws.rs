@@ -2,9 +2,16 @@
 //! each says so in its properties and closed forms.
 
 use super::specimen::{FAST, SLOW, Specimen, diagonal, every, scattered, stress};
-use super::{COHESION, FRICTION, FRICTION_ANGLE, MaterialPlan, POISSON, STRENGTH, YIELD};
-use crate::mpm::algebra::{Matrix, det};
+use super::{
+    COHESION, ClosedForms, FRICTION, FRICTION_ANGLE, MaterialPlan, POISSON, STRENGTH, YIELD,
+};
+use crate::mpm::foundation::algebra::{Matrix, det};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
+
+/// The material that `docs/exercises/material.md` adds.
+#[allow(unreachable_pub)] // public where the page puts it
+#[path = "../../../tests/exercises/st_venant_kirchhoff.rs"]
+mod exercise;
 
 /// A rotation about an oblique axis (Rodrigues); in 1-D there is only the identity.
 fn rotation<const D: usize>(angle: f64) -> Matrix<D> {
@@ -226,5 +233,17 @@ fn stretch_has_its_closed_forms() {
         for found in [plane[(1, 1)], space[(1, 1)], space[(2, 2)]] {
             assert_relative_eq!(found, across, epsilon = 1e-12);
         }
+    }
+}
+
+#[test]
+fn material_of_the_exercise_has_its_closed_forms() {
+    let law = exercise::StVenantKirchhoff::new(100.0, 0.3);
+    let mut shear = Matrix::<2>::identity();
+    shear[(0, 1)] = 0.4;
+    let stress = Specimen::with(Box::new(law)).deform(&shear, SLOW);
+    let closed_form = law.simple_shear(0.4);
+    for (component, exact) in [(0, 0), (0, 1), (1, 1)].into_iter().zip(closed_form) {
+        assert_relative_eq!(stress[component], exact, max_relative = 1e-12);
     }
 }

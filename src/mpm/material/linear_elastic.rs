@@ -16,8 +16,8 @@
 use super::contract::{Material, MaterialProperties};
 use super::plane_stress::RatePlaneStress;
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::algebra::{Matrix, det};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::particles::Particles;
 use crate::subject::Failure;
 
 /// Isotropic linear elasticity.
@@ -168,8 +168,8 @@ impl super::contract::ClosedForms for LinearElastic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::algebra::Vector;
-    use crate::mpm::particles::Block;
+    use crate::mpm::foundation::algebra::Vector;
+    use crate::mpm::foundation::particles::Block;
     use approx::assert_relative_eq;
 
     fn one_particle<const D: usize>() -> Particles<D> {

@@ -10,8 +10,8 @@
 
 use super::contract::{Material, MaterialProperties};
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::algebra::{Matrix, det};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::particles::Particles;
 use crate::subject::Failure;
 
 /// An inviscid fluid, linearly compressible.

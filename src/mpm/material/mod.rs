@@ -1,12 +1,11 @@
 //! Materials: the family. A member is one file and one line of `members`; a parameter that no other
-//! material has is one line in `parameter`.
+//! material has is one line at the end of this file.
 
 mod axisymmetric;
 mod contract;
 mod hyperelastic;
 #[cfg(test)]
 mod laws;
-mod parameter;
 mod plane_stress;
 mod plastic_flow;
 mod prestressed;
@@ -16,22 +15,16 @@ mod specimen;
 mod spectral;
 mod stress_update;
 
-#[cfg(test)]
-use contract::ClosedForms;
-pub use contract::{Material, MaterialProperties};
-pub use parameter::{MaterialParameter, Range};
-pub use plastic_flow::ElastoPlastic;
-pub use prestressed::Prestressed;
-pub use stress_update::{StressBlock, StressUpdate};
-
 use crate::members::{each_material, key};
 use crate::subject::PlaneState;
 use axisymmetric::Axisymmetric;
-use parameter::{
-    BULK, COHESION, DENSITY, DILATION, DILATION_ANGLE, FRICTION, FRICTION_ANGLE, HARDENING,
-    POISSON, STRENGTH, VISCOSITY, YIELD, YOUNG,
-};
+#[cfg(test)]
+use contract::ClosedForms;
+pub use contract::{Material, MaterialProperties};
+pub use plastic_flow::ElastoPlastic;
+pub use prestressed::Prestressed;
 use registry::materials;
+pub use stress_update::{StressBlock, StressUpdate};
 
 each_material!(materials);
 
@@ -51,3 +44,58 @@ impl MaterialPlan {
         Some((self.parameter("young")?, self.parameter("poisson")?))
     }
 }
+
+/// A parameter that a suite gives to a material.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MaterialParameter {
+    /// Its name in messages: `Young's modulus`.
+    pub what: &'static str,
+    /// Its letter in reports: `E`.
+    pub symbol: &'static str,
+    /// Its unit, empty for a ratio.
+    pub unit: &'static str,
+    /// Its valid values.
+    pub range: Range,
+}
+
+/// Valid values of a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Range {
+    /// Above zero.
+    Positive,
+    /// Zero or above.
+    NotNegative,
+    /// Above -1 and below 1/2: an isotropic solid is stable there, and compressible.
+    PoissonsRatio,
+    /// Zero or above, and below 90 (degrees).
+    Angle,
+}
+
+const fn parameter(
+    what: &'static str,
+    symbol: &'static str,
+    unit: &'static str,
+    range: Range,
+) -> MaterialParameter {
+    MaterialParameter { what, symbol, unit, range }
+}
+
+const YOUNG: MaterialParameter = parameter("Young's modulus", "E", "Pa", Range::Positive);
+const POISSON: MaterialParameter = parameter("Poisson's ratio", "nu", "", Range::PoissonsRatio);
+const YIELD: MaterialParameter = parameter("the yield stress", "Y", "Pa", Range::Positive);
+const HARDENING: MaterialParameter =
+    parameter("the hardening modulus", "H", "Pa", Range::NotNegative);
+const FRICTION: MaterialParameter =
+    parameter("the coefficient of friction", "eta", "", Range::NotNegative);
+const DILATION: MaterialParameter =
+    parameter("the coefficient of dilation", "etab", "", Range::NotNegative);
+const STRENGTH: MaterialParameter =
+    parameter("the strength without mean stress", "k", "Pa", Range::NotNegative);
+const FRICTION_ANGLE: MaterialParameter =
+    parameter("the friction angle", "phi", "degrees", Range::Angle);
+const DILATION_ANGLE: MaterialParameter =
+    parameter("the dilation angle", "psi", "degrees", Range::Angle);
+const COHESION: MaterialParameter = parameter("the cohesion", "c", "Pa", Range::NotNegative);
+const BULK: MaterialParameter = parameter("the bulk modulus", "K", "Pa", Range::Positive);
+const VISCOSITY: MaterialParameter = parameter("the viscosity", "eta", "Pa s", Range::NotNegative);
+const DENSITY: MaterialParameter = parameter("the density", "rho0", "kg/m3", Range::Positive);

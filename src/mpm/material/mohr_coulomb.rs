@@ -11,7 +11,7 @@
 //! a tension cut-off, which is no part of the flow rule.
 
 use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
-use crate::mpm::algebra::Vector;
+use crate::mpm::foundation::algebra::Vector;
 
 /// Mohr-Coulomb elastoplasticity at finite strain, without hardening.
 pub type MohrCoulomb = ElastoPlastic<Pyramid>;

@@ -9,9 +9,9 @@ use super::hyperelastic::{set_stress_by_batch, stored_energy};
 use super::linear_elastic::LinearElastic;
 use super::plane_stress::{FreeAcross, PlaneStress, thinning};
 use super::stress_update::StressUpdate;
-use crate::mpm::algebra::{Matrix, det};
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{BATCH, F64Batch, ln};
+use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
 
 /// Compressible neo-Hookean elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,8 +5,8 @@
 
 use super::contract::Material;
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::algebra::{Matrix, det};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::particles::Particles;
 use crate::subject::Failure;
 
 /// A law of the whole deformation that is known in plane stress.
@@ -114,7 +114,7 @@ impl<const D: usize, L: Material<D>> Material<D> for RatePlaneStress<L> {
 #[cfg(test)]
 mod tests {
     use super::super::specimen::{SLOW, Specimen, every, in_space, scattered};
-    use crate::mpm::algebra::{Matrix, det};
+    use crate::mpm::foundation::algebra::{Matrix, det};
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 

@@ -16,9 +16,9 @@ use super::spectral::{
     MatrixBatch, VectorBatch, assembled, half_log, half_log_batch, spectral, spectral_batch,
 };
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::algebra::{Matrix, Vector, det, product};
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::{BATCH, vectorized};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, product};
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{BATCH, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Memory};
 
 /// Moduli (Pa) of isotropic elasticity in logarithmic strain.
@@ -284,7 +284,7 @@ impl<S: YieldSurface> super::contract::ClosedForms for ElastoPlastic<S> {
 pub(super) mod path {
     use super::super::MaterialPlan;
     use super::super::specimen::{SLOW, Specimen};
-    use crate::mpm::algebra::{Matrix, Vector, det};
+    use crate::mpm::foundation::algebra::{Matrix, Vector, det};
     use approx::assert_relative_eq;
 
     /// Young's modulus (Pa) and Poisson's ratio from the bulk and the shear modulus (Pa).

@@ -7,8 +7,8 @@
 
 use super::contract::Material;
 use super::stress_update::StressUpdate;
-use crate::mpm::algebra::Matrix;
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
 
 /// A law with an initial stress.
@@ -93,8 +93,8 @@ mod tests {
     use super::super::MaterialPlan;
     use super::super::specimen::{every, scattered};
     use super::*;
-    use crate::mpm::algebra::Vector;
-    use crate::mpm::particles::Block;
+    use crate::mpm::foundation::algebra::Vector;
+    use crate::mpm::foundation::particles::Block;
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 

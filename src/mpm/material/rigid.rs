@@ -3,7 +3,7 @@
 use super::contract::{Material, MaterialProperties};
 use super::stress_update::StressUpdate;
 #[cfg(test)]
-use crate::mpm::algebra::Matrix;
+use crate::mpm::foundation::algebra::Matrix;
 
 /// A rigid body at rest. Nothing is computed for its motion, and its stress is never read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,8 +5,8 @@ use super::{
     COHESION, DILATION, DILATION_ANGLE, FRICTION, FRICTION_ANGLE, Material, MaterialPlan, POISSON,
     STRENGTH, VISCOSITY, YIELD, YOUNG,
 };
-use crate::mpm::algebra::{Matrix, Vector};
-use crate::mpm::particles::{Block, Particles};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::particles::{Block, Particles};
 use crate::subject::{Checkpoint, PlaneState};
 
 /// Length of a step (s) in which nothing viscous counts, and of one in which nothing else does.
@@ -34,10 +34,14 @@ pub(super) struct Specimen<const D: usize>(Box<dyn Material<D>>, Particles<D>);
 
 impl<const D: usize> Specimen<D> {
     pub(super) fn new(plan: MaterialPlan) -> Self {
+        Self::with(plan.build())
+    }
+
+    pub(super) fn with(material: Box<dyn Material<D>>) -> Self {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
         let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
         particles.track_deformation();
-        Self(plan.build(), particles)
+        Self(material, particles)
     }
 
     /// A particle of a body in this state across its plane, if the law is known there.
@@ -85,7 +89,7 @@ impl<const D: usize> Specimen<D> {
         self.0.checkpoint(&mut checkpoint);
         checkpoint.visit(&mut self.1);
         let (left, mut other) = (checkpoint.into_bytes(), Self::new(plan));
-        let mut checkpoint = Checkpoint::of(&left);
+        let mut checkpoint = Checkpoint::from_bytes(&left);
         other.0.checkpoint(&mut checkpoint);
         checkpoint.visit(&mut other.1);
         assert!(checkpoint.is_used_up());

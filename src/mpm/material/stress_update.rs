@@ -5,11 +5,11 @@
 //! blocks    128 particles, whose columns stay in the first cache:  F  ->  law  ->  checks
 //! ```
 
-use crate::mpm::algebra::{Matrix, product};
-use crate::mpm::particles::Particles;
-use crate::mpm::simd::vectorized;
-use crate::mpm::state::finite_check::all_finite;
-use crate::mpm::threads::{FEW, join};
+use crate::mpm::foundation::algebra::{Matrix, product};
+use crate::mpm::foundation::finite_check::all_finite;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::vectorized;
+use crate::mpm::foundation::threads::{FEW, join};
 
 /// Particles of a block: 232 bytes each in 3-D.
 const BLOCK: usize = 128;
@@ -87,7 +87,7 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
     ) {
         state.resize(self.particles.len(), S::default());
         let strain = std::mem::take(&mut self.awaits_strain).then_some(self.dt);
-        self.least_j = visit(StressBlock::of(self.particles), state, strain, law);
+        self.least_j = visit(StressBlock::from_particles(self.particles), state, strain, law);
     }
 
     /// The smallest J, of none infinity; none unless every J is positive and finite and all
@@ -101,7 +101,7 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
 }
 
 impl<'a, const D: usize> StressBlock<'a, D> {
-    fn of(particles: &'a mut Particles<D>) -> Self {
+    fn from_particles(particles: &'a mut Particles<D>) -> Self {
         let Particles { def_grad, grad_v, vol0, vol, sigma, across, stress_across, .. } = particles;
         Self { def_grad, grad_v, vol0, vol, sigma, across, stress_across }
     }
@@ -216,8 +216,8 @@ fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
 mod tests {
     use super::super::specimen::{every, scattered};
     use super::*;
-    use crate::mpm::algebra::{Vector, det};
-    use crate::mpm::particles::Block;
+    use crate::mpm::foundation::algebra::{Vector, det};
+    use crate::mpm::foundation::particles::Block;
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 

@@ -17,15 +17,14 @@
 //! them. Velocities that strain the bodies before or after are corrected likewise, for the strain
 //! alone.
 
-use super::coupling::Coupling;
-use super::interface::InterfaceNodes;
-use crate::mpm::algebra::Vector;
-use crate::mpm::boundary::contact_state::ContactState;
-use crate::mpm::grid::Grid;
-use crate::mpm::schedule::CouplingPoint;
+use super::coupling::{Coupling, InterfaceNodes};
+use crate::mpm::boundary::ContactState;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
 use crate::mpm::scheme::SchemeName;
-use crate::mpm::setup::Setup;
-use crate::mpm::solver::Solver;
+use crate::mpm::step::schedule::CouplingPoint;
+use crate::mpm::step::setup::Setup;
+use crate::mpm::step::solver::Solver;
 use crate::subject::{Checkpoint, Column};
 
 /// Contact between all bodies of a scene.
@@ -44,7 +43,7 @@ pub(in crate::mpm) struct Contact<const D: usize> {
 
 impl<const D: usize> Contact<D> {
     /// Contact between `bodies` with a coefficient of friction.
-    pub(in crate::mpm) fn of(bodies: &[Solver<D>], friction: f64) -> Self {
+    pub(in crate::mpm) fn new(bodies: &[Solver<D>], friction: f64) -> Self {
         let column = |body: &Solver<D>| vec![Vector::zeros(); body.grid().nodes()];
         let strained_first = |body: &&Solver<D>| body.setup.scheme == SchemeName::Usf;
         let pairs: Vec<[usize; 2]> =
@@ -54,7 +53,7 @@ impl<const D: usize> Contact<D> {
             friction,
             states: vec![ContactState::Separated; nodes * pairs.len()],
             pairs,
-            interface: InterfaceNodes::of(bodies),
+            interface: InterfaceNodes::new(bodies),
             outwards: bodies.iter().map(column).collect(),
             mapped: bodies.iter().filter(strained_first).map(column).collect(),
         }

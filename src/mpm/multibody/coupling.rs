@@ -1,7 +1,10 @@
-//! Contract of a coupling of bodies with their steps.
+//! Couplings of bodies at their interface: the contract, the nodes to which more than one body
+//! gives mass, and one velocity field for all.
 
-use crate::mpm::schedule::CouplingPoint;
-use crate::mpm::solver::Solver;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::step::schedule::CouplingPoint;
+use crate::mpm::step::solver::Solver;
 use crate::subject::{Checkpoint, Column};
 
 /// Coupling of two or more bodies at the nodes of their interface.
@@ -23,4 +26,85 @@ pub(in crate::mpm) trait Coupling<const D: usize>: Send {
 
     /// Couples the bodies at one point of a step of `dt` (s).
     fn couple(&mut self, at: CouplingPoint, bodies: &mut [Solver<D>], dt: f64);
+}
+
+/// Nodes at which bodies meet, in their order.
+#[derive(Debug)]
+pub(in crate::mpm) struct InterfaceNodes(Vec<usize>);
+
+impl InterfaceNodes {
+    /// Capacity for all nodes of the grid that `bodies` share.
+    pub(in crate::mpm) fn new<const D: usize>(bodies: &[Solver<D>]) -> Self {
+        Self(Vec::with_capacity(bodies.first().map_or(0, |body| body.grid().nodes())))
+    }
+
+    /// Finds the nodes anew.
+    pub(in crate::mpm) fn find<const D: usize>(&mut self, bodies: &[Solver<D>]) {
+        self.0.clear();
+        let Some(first) = bodies.first() else { return };
+        let present =
+            |node: usize| bodies.iter().filter(|body| body.grid().mass[node] > 0.0).count();
+        self.0.extend((0..first.grid().nodes()).filter(|node| present(*node) > 1));
+    }
+
+    /// The nodes.
+    pub(in crate::mpm) fn nodes(&self) -> &[usize] {
+        &self.0
+    }
+}
+
+/// One velocity field for all bodies.
+pub(in crate::mpm) struct SharedVelocity(InterfaceNodes);
+
+impl SharedVelocity {
+    pub(in crate::mpm) fn new<const D: usize>(bodies: &[Solver<D>]) -> Self {
+        Self(InterfaceNodes::new(bodies))
+    }
+
+    fn share<const D: usize>(
+        &self,
+        bodies: &mut [Solver<D>],
+        field: fn(&mut Grid<D>) -> &mut [Vector<D>],
+    ) {
+        for &i in self.0.nodes() {
+            let (mut mass, mut sum) = (0.0, Vector::zeros());
+            for body in bodies.iter_mut() {
+                let grid = &mut body.setup.grid;
+                mass += grid.mass[i];
+                sum += field(grid)[i] * grid.mass[i];
+            }
+            for body in bodies.iter_mut().filter(|body| body.setup.grid.mass[i] > 0.0) {
+                field(&mut body.setup.grid)[i] = sum / mass;
+            }
+        }
+    }
+}
+
+impl<const D: usize> Coupling<D> for SharedVelocity {
+    fn name(&self) -> Option<&'static str> {
+        None
+    }
+
+    fn columns(&self) -> Vec<Column<'_>> {
+        vec![Column::of_nodes("interface node", self.0.nodes())]
+    }
+
+    fn reads_velocity(&self) -> bool {
+        false
+    }
+
+    fn nodes(&self) -> &[usize] {
+        self.0.nodes()
+    }
+
+    fn couple(&mut self, at: CouplingPoint, bodies: &mut [Solver<D>], _: f64) {
+        match at {
+            CouplingPoint::Mass => self.0.find(bodies),
+            CouplingPoint::Velocity | CouplingPoint::StrainVelocity => {
+                self.share(bodies, |grid| &mut grid.velocity);
+            }
+            CouplingPoint::Strained => {}
+            CouplingPoint::Acceleration => self.share(bodies, |grid| &mut grid.acceleration),
+        }
+    }
 }

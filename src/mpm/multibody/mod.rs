@@ -4,32 +4,26 @@
 //! grid over the same geometry. Each pass is run by all of them; at nodes to which more than one
 //! body gives mass they are then coupled:
 //!
-//! - [`shared_velocity`]: they have one velocity and one acceleration there, as in the original
+//! - [`SharedVelocity`]: they have one velocity and one acceleration there, as in the original
 //!   MPM, which does not know bodies (Sulsky, Chen & Schreyer 1994): they stick together
 //!   permanently;
-//! - [`contact`]: each keeps its own, and they push each other apart where they approach.
+//! - [`Contact`]: each keeps its own, and they push each other apart where they approach.
 //!
 //! A single body has no coupling.
 
 mod contact;
 mod coupling;
-mod failure;
-mod interface;
-mod profile;
-mod shared_velocity;
-mod state;
 
-use super::kernel::tally::Tally;
-use super::schedule::{Coupled, Pass, StepSchedule};
-use super::setup::Setup;
-use super::solver::Solver;
+use super::kernel::contract::Tally;
+use super::step::schedule::{Coupled, Pass, StepSchedule};
+use super::step::setup::Setup;
+use super::step::solver::Solver;
 use crate::subject::{
-    BodyFields, Checkpoint, Failure, Profile, RunCounters, Samples, Subject, Totals,
+    BodyFields, Checkpoint, ColumnSize, Failure, Perturbable, Profile, RunCounters, Samples, Site,
+    Subject, Totals,
 };
 use contact::Contact;
-use coupling::Coupling;
-use failure::among;
-use shared_velocity::SharedVelocity;
+use coupling::{Coupling, SharedVelocity};
 
 /// Bodies that meet on a grid; particles are those of all bodies, one after the other.
 pub struct Bodies<const D: usize> {
@@ -57,8 +51,8 @@ impl<const D: usize> Bodies<D> {
         }
         let coupling: Option<Box<dyn Coupling<D>>> = match friction {
             _ if solvers.len() < 2 => None,
-            Some(friction) => Some(Box::new(Contact::of(&solvers, friction))),
-            None => Some(Box::new(SharedVelocity::of(&solvers))),
+            Some(friction) => Some(Box::new(Contact::new(&solvers, friction))),
+            None => Some(Box::new(SharedVelocity::new(&solvers))),
         };
         let mut bodies = Self { solvers, coupling, schedule: StepSchedule::default() };
         bodies.compile(false);
@@ -78,7 +72,7 @@ impl<const D: usize> Bodies<D> {
     /// Profile of a step of all bodies, with their coupling.
     pub fn profile(&self) -> Profile {
         let coupling = self.coupling.as_deref();
-        profile::of(self.solvers.iter().map(Solver::profile), coupling)
+        joint_profile(self.solvers.iter().map(Solver::profile), coupling)
     }
 
     /// See [`Solver::take_visits`], of all bodies together.
@@ -172,5 +166,100 @@ impl<const D: usize> Subject for Bodies<D> {
             coupling.checkpoint(checkpoint);
         }
         true
+    }
+}
+
+/// The failure of a body whose particles come after `first` others.
+pub(in crate::mpm) fn among(failure: Failure, first: usize) -> Failure {
+    let shifted = |site: Site| match site {
+        Site::Particle(p) => Site::Particle(first + p),
+        other => other,
+    };
+    match failure {
+        Failure::NonFinite { quantity, site } => {
+            Failure::NonFinite { quantity, site: shifted(site) }
+        }
+        Failure::Inverted { site, j } => Failure::Inverted { site: shifted(site), j },
+        Failure::LeftDomain { site, position } => {
+            Failure::LeftDomain { site: shifted(site), position }
+        }
+        other => other,
+    }
+}
+
+/// One profile of all bodies and their coupling. Every body has a grid, so nodes are those of all.
+pub(in crate::mpm) fn joint_profile<const D: usize>(
+    bodies: impl Iterator<Item = Profile>,
+    coupling: Option<&dyn Coupling<D>>,
+) -> Profile {
+    let mut all = Profile::default();
+    for body in bodies {
+        all.particles += body.particles;
+        all.nodes += body.nodes;
+        for effect in body.effects {
+            if !all.effects.contains(&effect) {
+                all.effects.push(effect);
+            }
+        }
+        add_columns(&mut all.columns, body.columns);
+    }
+    if let Some(coupling) = coupling {
+        all.effects.extend(coupling.name());
+        let sizes = coupling.columns().into_iter().map(|column| column.size);
+        all.columns.extend(sizes.filter(|column| column.entries > 0));
+    }
+    all
+}
+
+/// Adds the columns of one body to those of others, each to the one that is the same; a second of
+/// the same body (two walls) to the second.
+fn add_columns(all: &mut Vec<ColumnSize>, body: Vec<ColumnSize>) {
+    let kind = |column: &ColumnSize| (column.name, column.holder, column.bytes);
+    let known = all.len();
+    let mut taken = vec![false; known];
+    for column in body {
+        let same = (0..known).find(|&k| !taken[k] && kind(&all[k]) == kind(&column));
+        match same {
+            Some(k) => {
+                taken[k] = true;
+                all[k].entries += column.entries;
+            }
+            None => all.push(column),
+        }
+    }
+}
+
+impl<const D: usize> Perturbable for Bodies<D> {
+    fn fix_configuration(&mut self) {
+        self.solvers.iter_mut().for_each(Perturbable::fix_configuration);
+        self.compile(true);
+    }
+
+    fn state(&self, state: &mut Vec<f64>) {
+        joined(state, self.solvers.iter(), Perturbable::state);
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        let (mut rest, mut own) = (state, Vec::new());
+        for solver in &mut self.solvers {
+            solver.state(&mut own);
+            let (mine, others) = rest.split_at(own.len().min(rest.len()));
+            solver.set_state(mine);
+            rest = others;
+        }
+    }
+
+    fn sizes(&self, speed: f64, modulus: f64, sizes: &mut Vec<f64>) {
+        joined(sizes, self.solvers.iter(), |solver, own| solver.sizes(speed, modulus, own));
+    }
+}
+
+/// The numbers that `give` writes for each body, body after body.
+fn joined<T>(all: &mut Vec<f64>, each: impl Iterator<Item = T>, give: impl Fn(T, &mut Vec<f64>)) {
+    all.clear();
+    let mut own = Vec::new();
+    for one in each {
+        give(one, &mut own);
+        all.extend_from_slice(&own);
     }
 }

@@ -1,8 +1,8 @@
 //! Panels with four straight sides, filled with particles by the bilinear map of the unit square,
 //! `x = sum_c M_c(s) x_c` with the hats M_c of the corners.
 
-use crate::mpm::algebra::{Matrix, Vector, det};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::{Matrix, Vector, det};
+use crate::mpm::foundation::particles::Particles;
 
 /// A panel in the plane: its corners (m), counter-clockwise, each side turning to the left of the
 /// one before; the first is where the side begins that runs along X most.
@@ -104,7 +104,7 @@ impl Quadrilateral {
 mod tests {
     use super::*;
     use crate::mpm::basis::{Basis, ContiguousGimp, Cpdi, Linear, UniformGimp};
-    use crate::mpm::grid::Grid;
+    use crate::mpm::foundation::grid::Grid;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
     use proptest::prelude::*;
 

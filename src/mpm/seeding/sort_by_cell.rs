@@ -4,9 +4,9 @@
 //! as each meets other nodes than the one before: they are sorted once, before the solver is set
 //! up.
 
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 
 impl<const D: usize> Particles<D> {
     /// Brings the particles into the order of the cells of `grid`, and returns the old index of

@@ -7,12 +7,13 @@
 //! state C = B D^-1 would lose angular momentum.
 
 use super::contract::{Transfer, TransferKind};
-use crate::mpm::algebra::Matrix;
-use crate::mpm::grid::Grid;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::moments::Moments;
-use crate::mpm::kernel::request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::Moments;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::kernel::contract::{
+    Affine, Divergence, G2pRequest, Kernel, P2gRequest, ParticleField,
+};
 use crate::subject::Column;
 
 /// Affine particle in cell.

@@ -4,7 +4,7 @@
 //! al. 2013, with s = 0.95).
 
 use super::contract::Transfer;
-use crate::mpm::kernel::request::G2pRequest;
+use crate::mpm::kernel::contract::G2pRequest;
 
 /// FLIP with a small part of PIC.
 #[derive(Debug, Clone, Copy)]

@@ -4,7 +4,7 @@
 //! Tielen 2015).
 
 use super::contract::Transfer;
-use crate::mpm::kernel::request::G2pRequest;
+use crate::mpm::kernel::contract::G2pRequest;
 
 /// The transfer of the original MPM.
 #[derive(Debug, Clone, Copy)]

@@ -5,11 +5,10 @@
 
 use super::apic::Apic;
 use super::contract::{Transfer, TransferKind};
-use crate::mpm::algebra::Matrix;
-use crate::mpm::grid::Grid;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::request::{Divergence, G2pRequest, P2gRequest};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::kernel::contract::{Divergence, G2pRequest, Kernel, P2gRequest};
 use crate::subject::Column;
 
 /// Moving least squares MPM.

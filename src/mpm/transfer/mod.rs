@@ -1,34 +1,33 @@
 //! Transfers of velocity between particles and grid: the family. A member is one file and one
 //! line below, and another one if suites may give it a parameter.
 
+/// The transfer that `docs/exercises/transfer.md` adds.
+#[cfg(test)]
+#[path = "../../../tests/exercises/aflip.rs"]
+mod aflip;
 mod apic;
 mod blend;
-mod choice;
 mod contract;
 mod flip;
 mod fmpm;
 mod mls;
-mod passes;
 mod pic;
 mod tls;
 mod tpic;
 mod xpic;
 
+use super::foundation::family::{objects, objects_with_parameter};
 pub use apic::Apic;
 pub use blend::Blend;
-pub use choice::TransferChoice;
-pub use contract::{Transfer, TransferKind, TransferParameter};
+pub(in crate::mpm) use contract::kick;
+pub use contract::{Transfer, TransferKind, TransferParameter, g2p};
 pub use flip::Flip;
 pub use fmpm::Fmpm;
 pub use mls::Mls;
-pub use passes::g2p;
-pub(in crate::mpm) use passes::kick;
 pub use pic::Pic;
 pub use tls::Tls;
 pub use tpic::Tpic;
 pub use xpic::Xpic;
-
-use super::family::{objects, objects_with_parameter};
 
 objects! {
     /// Names of the transfers that suites may choose.
@@ -63,5 +62,43 @@ impl TransferName {
     pub fn kind(self) -> TransferKind {
         // The same in every dimension.
         transfer::<1>(self).kind()
+    }
+}
+
+/// A transfer, ready to be made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TransferChoice {
+    /// A registered one.
+    Named(TransferName),
+    /// One with a parameter, in its range.
+    With(WithParameter, u32),
+}
+
+impl From<TransferName> for TransferChoice {
+    fn from(name: TransferName) -> Self {
+        Self::Named(name)
+    }
+}
+
+impl TransferChoice {
+    /// The name as reports spell it: `apic`, `fmpm_8`.
+    pub fn name(self) -> String {
+        match self {
+            Self::Named(name) => name.name().to_owned(),
+            Self::With(name, value) => format!("{}_{value}", name.name()),
+        }
+    }
+
+    /// Kind of the transfer, the same in every dimension.
+    pub fn kind(self) -> TransferKind {
+        self.build::<1>().kind()
+    }
+
+    /// Makes the transfer.
+    pub fn build<const D: usize>(self) -> Box<dyn Transfer<D>> {
+        match self {
+            Self::Named(name) => transfer(name),
+            Self::With(name, value) => with_parameter(name, value),
+        }
     }
 }

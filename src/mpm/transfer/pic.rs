@@ -4,7 +4,7 @@
 //! grid, which damps all that varies within a cell.
 
 use super::contract::Transfer;
-use crate::mpm::kernel::request::G2pRequest;
+use crate::mpm::kernel::contract::G2pRequest;
 
 /// Particle in cell.
 #[derive(Debug, Clone, Copy)]

@@ -5,13 +5,14 @@
 //! inverted; angular momentum is not exact, as the gradient of the basis is no moment.
 
 use super::contract::{Transfer, TransferKind, p2g};
-use crate::mpm::algebra::Matrix;
-use crate::mpm::grid::Grid;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::moments::Moments;
-use crate::mpm::kernel::request::{Affine, Divergence, G2pRequest, P2gRequest, ParticleField};
-use crate::mpm::particles::Particles;
-use crate::mpm::stage::Stage;
+use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::moments::Moments;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::kernel::contract::{
+    Affine, Divergence, G2pRequest, Kernel, P2gRequest, ParticleField,
+};
+use crate::mpm::scheme::Stage;
 use crate::subject::Column;
 
 /// Taylor particle in cell.

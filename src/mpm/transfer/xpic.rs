@@ -7,11 +7,10 @@
 //! through the accelerations.
 
 use super::contract::{Transfer, TransferKind, TransferParameter};
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::request::{G2pRequest, ParticleField};
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::kernel::contract::{G2pRequest, Kernel, ParticleField};
 use crate::subject::Column;
 
 /// Extended particle in cell of order m.

@@ -47,7 +47,7 @@ impl Extremes {
                 all.take(label, &now);
             }
         }
-        let survey = Survey::of(problem);
+        let survey = Survey::new(problem);
         survey.motion().for_each(|(label, now)| all.take(label, now));
         all
     }

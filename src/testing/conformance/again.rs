@@ -1,8 +1,7 @@
 //! The same once more: looked at twice, with half of the step, made anew, interrupted.
 
-use super::breach::Breach;
-use super::record::{RunState, difference, largest, record};
-use super::start::ROUNDING;
+use super::course::ROUNDING;
+use super::record::{Breach, RunState, difference, largest, record};
 use crate::subject::{Checkpoint, Samples, Subject};
 
 /// Makes the subject in its initial state.
@@ -23,7 +22,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     let [first, second, ..] = states else { return None };
     let fastest = largest(&first.samples.velocity);
     let mut halved = Vec::new();
-    let stepped = record(make().ok()?.as_mut(), (1, 0.5 * dt), &mut halved);
+    let stepped = record(make().ok()?.as_mut(), 1, 0.5 * dt, &mut halved);
     if !(fastest > 0.0) || stepped.is_err() {
         return None;
     }
@@ -49,9 +48,9 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
 /// Another subject of the same problem that goes another way. Sums may be made in another order.
 pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let mut subject = make().ok()?;
-    let mut again = vec![RunState::of(subject.as_ref())];
+    let mut again = vec![RunState::from_subject(subject.as_ref())];
     let wanted = "the same course of two subjects of one problem";
-    if let Err(failure) = record(subject.as_mut(), (states.len() - 1, dt), &mut again) {
+    if let Err(failure) = record(subject.as_mut(), states.len() - 1, dt, &mut again) {
         return Some(Breach::new("repeat", wanted, format!("the second one fails: {failure}")));
     }
     let pairs = states.iter().zip(&again).enumerate();
@@ -68,7 +67,7 @@ pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breac
     let found = |wanted: &str, seen: String| vec![Breach::new("restart", wanted, seen)];
     let (Ok(mut subject), Ok(mut fresh)) = (make(), make()) else { return Vec::new() };
     let mut course = Vec::new();
-    if record(subject.as_mut(), (first.len() - 1, dt), &mut course).is_err() {
+    if record(subject.as_mut(), first.len() - 1, dt, &mut course).is_err() {
         return Vec::new();
     }
     let mut written = Checkpoint::empty();
@@ -76,7 +75,7 @@ pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breac
         return Vec::new();
     }
     let bytes = written.into_bytes();
-    let mut read = Checkpoint::of(&bytes);
+    let mut read = Checkpoint::from_bytes(&bytes);
     if !(fresh.checkpoint(&mut read) && read.is_used_up()) {
         let seen = format!("its {} bytes do not fit a subject of the same problem", bytes.len());
         return found("a checkpoint to be taken back by the visits that wrote it", seen);
@@ -87,7 +86,7 @@ pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breac
         (&mut fresh, "the bits of a run that was not interrupted"),
     ] {
         let mut course = Vec::new();
-        let stepped = record(subject.as_mut(), (rest.len(), dt), &mut course);
+        let stepped = record(subject.as_mut(), rest.len(), dt, &mut course);
         let pairs = rest.iter().zip(&course).enumerate();
         let mut off = pairs.filter_map(|(step, (a, b))| {
             let off = difference(&a.samples, &b.samples, 0.0).or_else(|| counted(a, b));

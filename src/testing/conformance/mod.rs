@@ -8,12 +8,10 @@
 //! ```
 
 mod again;
-mod breach;
 mod course;
 mod record;
-mod start;
 
-pub use breach::Breach;
+pub use record::Breach;
 
 use crate::external::{LevelProblem, SolverFactory};
 use crate::study::{lacking, level_problem};
@@ -91,16 +89,16 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
         Ok(subject) => subject,
         Err(why) => return vec![Breach::new("problem", "the problem to be taken again", why)],
     };
-    let mut states = vec![RunState::of(subject.as_ref())];
-    let mut breaches = start::counts(problem, &states[0].samples);
+    let mut states = vec![RunState::from_subject(subject.as_ref())];
+    let mut breaches = course::counts(problem, &states[0].samples);
     if !breaches.is_empty() {
         // Nothing else can be compared.
         return breaches;
     }
-    breaches.extend(start::start(problem, &states[0].samples));
+    breaches.extend(course::start(problem, &states[0].samples));
     breaches.extend(again::sample(subject.as_ref(), &states[0].samples));
     let steps = STEPS.min(problem.steps as usize);
-    if let Err(failure) = record(subject.as_mut(), (steps, problem.dt), &mut states) {
+    if let Err(failure) = record(subject.as_mut(), steps, problem.dt, &mut states) {
         let wanted = format!("{steps} steps of {:e} s on the coarsest level", problem.dt);
         let seen = format!("step {} fails: {failure}", states.len());
         breaches.push(Breach::new("step", wanted, seen));

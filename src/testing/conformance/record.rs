@@ -1,6 +1,7 @@
-//! Runs of a few steps, recorded.
+//! Recorded runs of a few steps, and breaches of the contract.
 
 use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
+use std::fmt;
 
 /// A subject as it shows itself between two steps.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,7 +12,7 @@ pub(super) struct RunState {
 }
 
 impl RunState {
-    pub(super) fn of(subject: &dyn Subject) -> Self {
+    pub(super) fn from_subject(subject: &dyn Subject) -> Self {
         let mut samples = Samples::default();
         subject.sample(&mut samples);
         Self { samples, counters: subject.counters(), totals: subject.totals() }
@@ -21,12 +22,13 @@ impl RunState {
 /// Adds the states after each of so many steps of length `dt` (s), up to one that fails.
 pub(super) fn record(
     subject: &mut dyn Subject,
-    (steps, dt): (usize, f64),
+    steps: usize,
+    dt: f64,
     states: &mut Vec<RunState>,
 ) -> Result<(), Failure> {
     for _ in 0..steps {
         subject.step(dt)?;
-        states.push(RunState::of(subject));
+        states.push(RunState::from_subject(subject));
     }
     Ok(())
 }
@@ -65,4 +67,32 @@ pub(super) fn difference(wanted: &Samples, seen: &Samples, tolerance: f64) -> Op
 /// The largest magnitude of a column.
 pub(super) fn largest(column: &[f64]) -> f64 {
     column.iter().fold(0.0, |most: f64, number| most.max(number.abs()))
+}
+
+/// A breach of the contract of [`Subject`](crate::subject::Subject).
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Breach {
+    /// The part of the contract: `counts`, `labels`, `restart`.
+    pub about: &'static str,
+    /// Behaviour by the contract.
+    pub expected: String,
+    /// Behaviour of the subject.
+    pub seen: String,
+}
+
+impl Breach {
+    pub(super) fn new(
+        about: &'static str,
+        expected: impl Into<String>,
+        seen: impl Into<String>,
+    ) -> Self {
+        Self { about, expected: expected.into(), seen: seen.into() }
+    }
+}
+
+impl fmt::Display for Breach {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: expected {}; seen: {}", self.about, self.expected, self.seen)
+    }
 }

@@ -17,21 +17,16 @@ mod course;
 mod examination;
 mod finding;
 mod motion;
-mod page;
 mod patient;
-mod question;
 mod scene;
-mod vectors;
 
 pub use finding::{
-    DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding,
+    DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding, page,
 };
-pub use page::page;
 
 use crate::external::SolverFactory;
 use examination::ALL;
-use patient::{Hindrance, Patient};
-use question::Examination;
+use patient::{Examination, Hindrance, Patient};
 
 /// Examines a solver, the plainest question first. One that says nothing as long as another has
 /// defects is left out then. `progress` is called with the name of each.

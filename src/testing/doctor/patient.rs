@@ -1,4 +1,4 @@
-//! A solver under examination: the problems that it can take, and its runs.
+//! A solver under examination: the problems that it can take, its runs, and the questions to it.
 
 use super::course::Course;
 use super::finding::SolverFinding;
@@ -124,4 +124,15 @@ impl Patient<'_> {
         }
         Ok(course)
     }
+}
+
+/// One question to a solver.
+pub(super) struct Examination {
+    /// Its name in reports.
+    pub(super) name: &'static str,
+    /// The sight of a sound solver, in one sentence.
+    pub(super) expected: &'static str,
+    /// Examinations without whose soundness this one says nothing.
+    pub(super) after: &'static [&'static str],
+    pub(super) examine: fn(&Patient<'_>) -> Result<Examined, Hindrance>,
 }

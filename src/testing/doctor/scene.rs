@@ -1,7 +1,6 @@
 //! Small scenes, written as suites and handed over like those.
 
-use super::course::Course;
-use super::vectors::AffineField;
+use super::course::{AffineField, Course};
 use crate::external::{LevelProblem, ProblemNeeds};
 use crate::study::{level_problem, needs, subject};
 use crate::suite::yaml::Source;

@@ -1,6 +1,5 @@
-//! Suites as tests.
+//! The gate of a suite: theory, drift of the report from its snapshot, and the time of each case.
 
-use super::{drift, slowest};
 use crate::external::SolverFactory;
 use crate::report;
 use crate::study::{Runner, lacking, under};
@@ -8,11 +7,15 @@ use crate::suite::Suite;
 use crate::suite::yaml::Source;
 use crate::testing::conformance::examined;
 use crate::verify::{CaseOutcome, SuiteOutcome};
+use insta::{Comparator, Settings, Snapshot, assert_snapshot};
 use libtest_mimic::{Completion, Failed, Trial};
 use rayon::prelude::*;
-use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
-use std::time::Instant;
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf, absolute};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
 
 /// A folder of suites, and who is put under them.
 pub(super) struct Gate {
@@ -57,7 +60,7 @@ impl Gate {
             Trial::test(name, move || {
                 let outcomes: Vec<SuiteOutcome> =
                     suites.iter().map(|suite| suite.outcome().clone()).collect();
-                drift::compare(name, &text(&outcomes), &folder)
+                compare_snapshot(name, &text(&outcomes), &folder)
             })
         };
         [trial("OVERVIEW", report::overview), trial("profile", report::profiles)]
@@ -145,7 +148,7 @@ impl SharedSuite {
         self.outcomes[index].get_or_init(|| {
             let start = Instant::now();
             let outcome = self.runner.case(index, &|| ());
-            slowest::record(start.elapsed(), &format!("{}::{}", self.suite.name, outcome.case));
+            record_time(start.elapsed(), &format!("{}::{}", self.suite.name, outcome.case));
             outcome
         })
     }
@@ -170,14 +173,14 @@ impl SharedSuite {
     }
 
     /// Drift; of a suite that was not run there is no report.
-    fn compare(&self) -> Result<Completion, Failed> {
+    fn compare_report(&self) -> Result<Completion, Failed> {
         let outcome = self.outcome();
         if let [first, ..] = &outcome.cases[..]
             && !outcome.cases.iter().any(CaseOutcome::is_tested)
         {
             return Ok(Completion::ignored_with(&first.reason));
         }
-        drift::compare(&self.suite.name, &report::text(outcome), &self.snapshots)?;
+        compare_snapshot(&self.suite.name, &report::text(outcome), &self.snapshots)?;
         Ok(Completion::Completed)
     }
 }
@@ -185,7 +188,9 @@ impl SharedSuite {
 /// The test of the report of a suite.
 fn report(suite: &Arc<SharedSuite>) -> Trial {
     let of_report = Arc::clone(suite);
-    Trial::ignorable_test(format!("{}::report", suite.suite.name), move || of_report.compare())
+    Trial::ignorable_test(format!("{}::report", suite.suite.name), move || {
+        of_report.compare_report()
+    })
 }
 
 /// The tests of the cases of a suite, under a solver or the methods that it lists.
@@ -220,4 +225,102 @@ fn trials(
         Trial::ignorable_test(name, || conforms(solver, suite))
     }));
     (trials, shared)
+}
+
+/// Compares the report of the suite called `suite` with the snapshot of its name in `folder`.
+pub(super) fn compare_snapshot(suite: &str, text: &str, folder: &Path) -> Result<(), Failed> {
+    let mut settings = Settings::clone_current();
+    settings.set_snapshot_path(absolute(folder)?);
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.set_comparator(Box::new(ReportDrift));
+    let compare = || assert_snapshot!(suite, text);
+    let outcome = catch_unwind(AssertUnwindSafe(|| settings.bind(compare)));
+    outcome.map_err(|_| {
+        let file = folder.join(format!("{suite}.snap"));
+        let what = if file.exists() { "has drifted from" } else { "is not yet kept as" };
+        format!(
+            "the report of {suite} {what} {} (the difference stands above).\nIf the change is \
+             meant, accept it with `cargo insta review`, or with `INSTA_UPDATE=always cargo test \
+             {suite}`, and say in the commit why it moved.",
+            file.display()
+        )
+        .into()
+    })
+}
+
+/// Compares reports number by number; see [`report::drift`].
+#[derive(Clone)]
+struct ReportDrift;
+
+impl Comparator for ReportDrift {
+    fn matches(&self, reference: &Snapshot, test: &Snapshot) -> bool {
+        match (reference.as_text(), test.as_text()) {
+            (Some(old), Some(new)) => report::drift::same(&old.to_string(), &new.to_string()),
+            _ => false,
+        }
+    }
+
+    fn dyn_clone(&self) -> Box<dyn Comparator> {
+        Box::new(self.clone())
+    }
+}
+
+static CASES: Mutex<Vec<(Duration, String)>> = Mutex::new(Vec::new());
+
+/// As many as are worth a look.
+const SHOWN: usize = 10;
+
+/// Remembers how long a case took.
+pub(super) fn record_time(time: Duration, case: &str) {
+    CASES.lock().unwrap_or_else(PoisonError::into_inner).push((time, case.to_string()));
+}
+
+/// The slowest cases and suites, if there are enough of them to ask.
+pub(super) fn slowest_cases() -> String {
+    let mut cases = CASES.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    if cases.len() <= SHOWN {
+        return String::new();
+    }
+    cases.sort_by(|a, b| b.cmp(a));
+    let mut text = format!(
+        "the slowest of {} cases, with the time that they waited for each other \
+         (`--test-threads 1`: without)\n",
+        cases.len()
+    );
+    let line = |time: &Duration, name: &str| format!("{:>8.2} s  {name}\n", time.as_secs_f64());
+    text.extend(cases.iter().take(SHOWN).map(|(time, case)| line(time, case)));
+    let mut suites = BTreeMap::<&str, Duration>::new();
+    for (time, case) in &cases {
+        *suites.entry(case.split("::").next().unwrap_or(case)).or_default() += *time;
+    }
+    let mut suites: Vec<_> = suites.into_iter().collect();
+    suites.sort_by_key(|(_, time)| Reverse(*time));
+    text += "of suites:\n";
+    text.extend(suites.iter().take(SHOWN).map(|(suite, time)| line(time, suite)));
+    text + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    /// Whoever has planted a change by hand is told which file, and how a change is accepted.
+    #[test]
+    fn a_difference_says_which_file_and_how_it_is_accepted() {
+        let folder = std::env::temp_dir().join(format!("mpm-verify-drift-{}", std::process::id()));
+        fs::create_dir_all(&folder).expect("a folder");
+        let said = |suite: &str| {
+            let failed =
+                compare_snapshot(suite, "error  1.0e-3\n", &folder).expect_err("a difference");
+            failed.message().unwrap_or_default().to_owned()
+        };
+        fs::write(folder.join("bar.snap"), "---\n---\nerror  1.1e-3\n").expect("a snapshot");
+        let (kept, new) = (said("bar"), said("beam"));
+        fs::remove_dir_all(&folder).expect("the folder");
+        assert!(kept.starts_with("the report of bar has drifted from "), "{kept}");
+        assert!(kept.contains("`INSTA_UPDATE=always cargo test bar`"), "{kept}");
+        assert!(new.starts_with("the report of beam is not yet kept as "), "{new}");
+    }
 }

@@ -4,9 +4,100 @@
 //! snapshot command can accept it away. Drift is the snapshot of a report: `cargo insta review`
 //! shows and accepts it.
 
-mod drift;
 mod gate;
-mod slowest;
-mod suite_folder;
 
-pub use suite_folder::SuiteFolder;
+use crate::external::SolverFactory;
+use gate::Gate;
+use libtest_mimic::Arguments;
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Tests that wait for their cases at once, for each thread that runs cases.
+const WAITING: usize = 4;
+
+/// Suites of a folder as tests: `SUITE::CASE` holds a case to its expectation, `SUITE::report` the
+/// suite's report to its snapshot, `SUITE::conformance` a solver to the contract of a subject;
+/// `FILE::parse` stands for a file that cannot be used.
+///
+/// In `tests/verification.rs`, of which `Cargo.toml` says `harness = false`:
+///
+/// ```no_run
+/// # mod of_yours {
+/// #     use mpm_verify::prelude::*;
+/// #     pub struct MySolver;
+/// #     impl SolverFactory for MySolver {
+/// #         fn name(&self) -> &str { "mine" }
+/// #         fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, String> { todo!() }
+/// #     }
+/// # }
+/// # use of_yours::MySolver;
+/// fn main() -> std::process::ExitCode {
+///     mpm_verify::testing::SuiteFolder::new("verification").judging(MySolver).main()
+/// }
+/// ```
+///
+/// Suites are found when the tests run: a new file brings its tests along.
+pub struct SuiteFolder(Gate);
+
+impl SuiteFolder {
+    /// The suites of a folder under the methods that they list. A relative path is one from the
+    /// root of the package, where tests run.
+    pub fn new(folder: impl Into<PathBuf>) -> Self {
+        let folder = folder.into();
+        Self(Gate { snapshots: folder.clone(), folder, solver: None, with_overview: false })
+    }
+
+    /// A solver in place of the methods of the suites, held to what a suite expects of it, or else
+    /// to the order that it claims. What it lacks is ignored, with the reason, and no pass.
+    #[must_use]
+    pub fn judging(mut self, solver: impl SolverFactory + 'static) -> Self {
+        // The tests live as long as the process; so does the solver.
+        self.0.solver = Some(Box::leak(Box::new(solver)));
+        self
+    }
+
+    /// The folder of the snapshots, if not that of the suites.
+    #[must_use]
+    pub fn snapshots(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.0.snapshots = folder.into();
+        self
+    }
+
+    /// Two snapshots of all suites besides: `OVERVIEW`, what came of each case and the matrix of
+    /// problems and methods, and `profile`, memory and passes of a step.
+    #[must_use]
+    pub fn with_overview(mut self) -> Self {
+        self.0.with_overview = true;
+        self
+    }
+
+    /// Does what the command line of the tests says, which is that of `cargo test` and of nextest.
+    pub fn main(self) -> ExitCode {
+        // A snapshot that differs ends in a panic, whose backtrace tells nobody anything.
+        std::panic::set_hook(Box::new(|panic| eprintln!("{panic}")));
+        if self.run(std::env::args_os()) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    }
+
+    /// Runs the tests that a command line selects, of which the first word is the program, and says
+    /// whether none has failed.
+    pub fn run<Words>(&self, words: Words) -> bool
+    where
+        Words: IntoIterator,
+        Words::Item: Into<OsString> + Clone,
+    {
+        let mut arguments = Arguments::from_iter(words);
+        // Cases run on the threads of rayon, and the thread of a test only waits. A thread that has
+        // done its part of one case takes up another, which then holds up the first.
+        arguments.test_threads =
+            arguments.test_threads.or(Some(WAITING * rayon::current_num_threads()));
+        let found = libtest_mimic::run(&arguments, self.0.trials());
+        eprint!("{}", gate::slowest_cases());
+        let is_whole = arguments.filter.is_none() && arguments.skip.is_empty() && !arguments.list;
+        if is_whole && self.0.solver.is_some() && found.num_passed + found.num_failed == 0 {
+            eprintln!("error: no case is applicable to the solver");
+            return false;
+        }
+        !found.has_failed()
+    }
+}

@@ -7,6 +7,10 @@ pub(crate) mod error_scale;
 mod fields;
 pub(crate) mod judged_sum;
 pub(crate) mod lagrange;
+/// The quantity that `docs/exercises/quantity.md` adds.
+#[cfg(test)]
+#[path = "../../../tests/exercises/mean_stress.rs"]
+mod mean_stress;
 pub(crate) mod norm;
 pub(crate) mod observer;
 pub(crate) mod quantity;

@@ -41,11 +41,11 @@ pub(crate) fn goes_on<S: Subject>(make: impl Fn() -> S, dt: f64, what: &str) -> 
         let left = state(&mut first);
         assert!(state(&mut first) == left, "{what}: a look changes it");
         let mut second = make();
-        let mut checkpoint = Checkpoint::of(&left);
+        let mut checkpoint = Checkpoint::from_bytes(&left);
         assert!(second.checkpoint(&mut checkpoint) && checkpoint.is_used_up(), "{what}: no fit");
         assert_eq!(step(&mut second, STEPS - at), end, "{what}: ends otherwise");
         assert!(seen(&mut second) == whole, "{what}: goes on otherwise after step {at}");
-        let mut torn = Checkpoint::of(&left[..left.len() / 2]);
+        let mut torn = Checkpoint::from_bytes(&left[..left.len() / 2]);
         assert!(second.checkpoint(&mut torn) && !torn.is_used_up(), "{what}: takes half a state");
     }
     end.is_ok()

@@ -113,11 +113,9 @@ fn a_command_line_with_a_mistake_is_not_understood() {
     }
 }
 
-/// Suites that documents show whole, with their places. Those on the pages of exercises use what the
-/// crate does not have: `ci/exercises` runs them.
+/// Suites that documents show whole, with their places.
 fn whole_suites() -> Vec<(String, String)> {
-    let documents = documents().into_iter().filter(|d| !d.file.starts_with("docs/exercises/"));
-    let suites = documents.flat_map(|document| {
+    let suites = documents().into_iter().flat_map(|document| {
         let whole = document.blocks.into_iter().filter(|block| {
             block.language == "yaml" && block.text.lines().any(|line| line.starts_with("suite:"))
         });

@@ -3,20 +3,23 @@
 //! Registers are handed out like a stack. Compiling a node at the register `at` writes to `at` and
 //! above, never below, and returns where the value is: there, in a variable, in a register below
 //! that holds an argument or an index, or nowhere because it is a constant.
+//!
+//! Calls of user functions, whose bodies are put in place.
+//!
+//! Tables, whose name stands for an expression of one variable or constant.
+//!
+//! Sums, which become loops.
 
-mod call;
 mod name;
-mod sum;
-mod table;
 
-use std::collections::BTreeSet;
-
-use super::ast::{Expr, Node, NodeKind};
-use super::binary::Binary;
-use super::error::FormulaError;
+use super::ast::{Expr, Node, NodeKind, Sum};
+use super::builtin;
+use super::builtin::Binary;
+use super::lexer::FormulaError;
 use super::number::whole;
-use super::program::{Action, Instruction, Operand, run};
-use super::scope::Scope;
+use super::program::{Action, Instruction, Loop, Operand, run};
+use super::scope::{Scope, Tabulated};
+use std::collections::BTreeSet;
 
 /// Most nodes of a formula, with those of the functions it calls.
 const MAX_NODES: usize = 100_000;
@@ -178,5 +181,165 @@ fn binary(function: Binary, left: Operand, right: Operand) -> Action {
             None => Action::Binary(function, left, right),
         },
         _ => Action::Binary(function, left, right),
+    }
+}
+
+impl<'a> ProgramBuilder<'a> {
+    /// Compiles the arguments, each once, and then the body with its parameters standing for them.
+    pub(self) fn call(
+        &mut self,
+        frame: &mut Frame<'a>,
+        node: &'a Node,
+        name: &str,
+        arguments: &[usize],
+        at: usize,
+    ) -> Result<Operand, FormulaError> {
+        let Some((name, function)) = self.scope.called(name) else {
+            return Err(self.not_a_function(frame, node, name));
+        };
+        self.uses.insert(name.to_owned());
+        if arguments.len() != function.parameters.len() {
+            let needed = builtin::arguments(function.parameters.len());
+            let message = format!("`{name}` takes {needed}, not {}", arguments.len());
+            return Err(FormulaError::new(node.span.clone(), message));
+        }
+        self.refuse_cycle(node, name)?;
+        let mut at = at;
+        let mut locals = Vec::new();
+        for (parameter, argument) in function.parameters.iter().zip(arguments) {
+            let operand = self.compile(frame, *argument, at)?;
+            at = above(operand, at);
+            locals.push((parameter.as_str(), operand));
+        }
+        let expr = &function.body;
+        let mut inner = Frame { expr, function: Some(name), locals, indices: Vec::new() };
+        self.calls.push(name);
+        let result = self.compile(&mut inner, expr.root(), at);
+        self.calls.pop();
+        result.map_err(|error| error.within(name))
+    }
+
+    fn refuse_cycle(&self, node: &Node, name: &str) -> Result<(), FormulaError> {
+        let Some(first) = self.calls.iter().position(|open| *open == name) else {
+            return Ok(());
+        };
+        let cycle: Vec<String> =
+            self.calls[first..].iter().chain([&name]).map(|name| format!("`{name}`")).collect();
+        let message = format!("functions may not be recursive: {}", cycle.join(" calls "));
+        Err(FormulaError::new(node.head(name), message))
+    }
+}
+
+impl<'a> ProgramBuilder<'a> {
+    /// Compiles the expression of a table, with what it is read by.
+    pub(self) fn table(
+        &mut self,
+        frame: &Frame<'a>,
+        node: &'a Node,
+        (name, table): (&'a str, &'a Tabulated),
+        at: usize,
+    ) -> Result<Operand, FormulaError> {
+        let by = table.by.as_str();
+        let local = frame.locals.iter().find(|(local, _)| *local == by);
+        let constant = self.scope.value(by).map(Operand::Constant);
+        let Some(operand) = local.map(|(_, operand)| *operand).or(constant) else {
+            let message = format!("`{name}` is a table by `{by}`, which is not known here");
+            return Err(FormulaError::new(node.span.clone(), message).help(frame.listing()));
+        };
+        self.uses.insert(name.to_owned());
+        let (expr, locals) = (&table.body, vec![(by, operand)]);
+        let mut inner = Frame { expr, function: Some(name), locals, indices: Vec::new() };
+        let result = self.compile(&mut inner, expr.root(), above(operand, at));
+        result.map_err(|error| error.within(name))
+    }
+}
+
+/// Most terms of a sum.
+const MAX_TERMS: f64 = 100_000.0;
+
+impl<'a> ProgramBuilder<'a> {
+    /// Compiles a sum to a loop, whose total is kept at `at` and whose index in the next register.
+    pub(self) fn sum(
+        &mut self,
+        frame: &mut Frame<'a>,
+        sum: &'a Sum,
+        at: usize,
+    ) -> Result<Operand, FormulaError> {
+        let span = sum.index_span.clone();
+        if frame.locals.iter().any(|(local, _)| *local == sum.index) {
+            let role = if frame.function.is_some() { "a parameter" } else { "a variable" };
+            return Err(FormulaError::new(span, format!("`{}` is already {role}", sum.index)));
+        }
+        self.scope.fresh(&sum.index, span)?;
+        let from = self.bound(frame, sum.from, at)?;
+        let last = self.bound(frame, sum.to, at)?;
+        let terms = last - from + 1.0;
+        if terms > MAX_TERMS {
+            let span = frame.expr.node(sum.from).span.start..frame.expr.node(sum.to).span.end;
+            let message = format!("the sum has {terms} terms, more than {MAX_TERMS}");
+            return Err(FormulaError::new(span, message));
+        }
+        let start = self.code.len();
+        self.append(Action::Copy(Operand::Constant(0.0)), at);
+        self.append(Action::Copy(Operand::Constant(from)), at + 1);
+        let body = self.code.len();
+        let term = self.term(frame, sum, at + 1, terms)?;
+        self.append(Action::Next(Loop { term, last, body }), at);
+        Ok(self.settle(start, at, terms))
+    }
+
+    /// Compiles the body of a sum, which runs once for each of the `terms`.
+    fn term(
+        &mut self,
+        frame: &mut Frame<'a>,
+        sum: &'a Sum,
+        index: usize,
+        terms: f64,
+    ) -> Result<Operand, FormulaError> {
+        let runs = self.runs;
+        self.runs = runs.saturating_mul(terms.max(1.0) as u64);
+        frame.indices.push(Operand::Register(index));
+        let term = self.compile(frame, sum.body, index + 1)?;
+        frame.indices.pop();
+        self.runs = runs;
+        Ok(term)
+    }
+
+    /// The value of a bound of a sum.
+    fn bound(
+        &mut self,
+        frame: &mut Frame<'a>,
+        node: usize,
+        at: usize,
+    ) -> Result<f64, FormulaError> {
+        let message = match self.compile(frame, node, at)? {
+            Operand::Constant(value) if whole(value).is_some() => return Ok(value),
+            Operand::Constant(value) => {
+                format!("a bound of a sum must be a whole number, not {value}")
+            }
+            _ => "a bound of a sum may not depend on a variable or an index".to_owned(),
+        };
+        Err(FormulaError::new(frame.expr.node(node).span.clone(), message))
+    }
+
+    /// Takes back the loop that begins at `start` if it can be evaluated at once: because there
+    /// are no terms, or because it reads nothing but constants and its own registers.
+    fn settle(&mut self, start: usize, at: usize, terms: f64) -> Operand {
+        let own = |operand| match operand {
+            Operand::Constant(_) => true,
+            Operand::Variable(_) => false,
+            Operand::Register(register) => register >= at,
+        };
+        if terms < 1.0 {
+            self.code.truncate(start);
+            return Operand::Constant(0.0);
+        }
+        if !self.code[start..].iter().all(|instruction| instruction.action.arguments().all(own)) {
+            return Operand::Register(at);
+        }
+        let mut registers = vec![0.0; self.registers];
+        run::<f64>(&self.code, start, &[], &mut registers);
+        self.code.truncate(start);
+        Operand::Constant(registers[at])
     }
 }

@@ -1,12 +1,11 @@
-//! Names of a formula: what they stand for, and what is said of those that stand for nothing.
+//! Names of a formula: their meaning, and suggestions for unknown names.
 
 use super::{Frame, ProgramBuilder};
 use crate::exact::formula::ast::Node;
 use crate::exact::formula::builtin;
-use crate::exact::formula::error::FormulaError;
-use crate::exact::formula::hint::{elsewhere, meant};
+use crate::exact::formula::lexer::FormulaError;
 use crate::exact::formula::program::Operand;
-use crate::nearest::by_nearness;
+use crate::nearest::{by_nearness, nearest};
 
 /// Most constants that a message lists.
 const LISTED: usize = 8;
@@ -104,4 +103,26 @@ impl Frame<'_> {
             (Some(name), true) => format!("`{name}` has no parameters"),
         }
     }
+}
+
+/// Names that other languages have and this one writes differently.
+const ELSEWHERE: &[(&str, &str)] = &[
+    ("e", "there is no constant `e`: write `exp(1)`"),
+    ("log", "the natural logarithm is `ln`"),
+    ("pow", "a power is written `a^b`"),
+    ("heaviside", "the unit step is `step`"),
+];
+
+/// Spelling here of a name that other languages have.
+pub(in crate::exact::formula) fn elsewhere(name: &str) -> Option<String> {
+    let known = ELSEWHERE.iter().find(|(foreign, _)| *foreign == name);
+    known.map(|(_, help)| (*help).to_owned())
+}
+
+/// The question whether the nearest candidate is meant, if one is near.
+pub(in crate::exact::formula) fn meant<'a>(
+    name: &str,
+    candidates: impl Iterator<Item = &'a str>,
+) -> Option<String> {
+    nearest(name, candidates).map(|candidate| format!("did you mean `{candidate}`?"))
 }

@@ -5,20 +5,20 @@
 //! Vuik 2019, IJNME 117): the internal force of a uniform stress is zero between any two full
 //! cells, however many particles each holds. Densities of mass and momentum keep their sums in
 //! every cell; the stress is a plain fit. Velocities come back as in FLIP.
+//!
+//! A linear Taylor polynomial through the data of the particles in one cell.
 
-mod fit;
 mod quadrature_points;
 
-use self::fit::Fit;
 use self::quadrature_points::{QuadraturePoint, QuadraturePoints};
 use super::contract::{Transfer, TransferKind};
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
-use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::kernel::request::{G2pRequest, ParticleField};
-use crate::mpm::particles::Particles;
-use crate::mpm::stage::Stage;
+use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::kernel::contract::{G2pRequest, Kernel, ParticleField};
+use crate::mpm::scheme::Stage;
 use crate::subject::Column;
+use std::ops::{Add, Mul, Sub};
 
 /// FLIP with fields reconstructed in cells.
 #[derive(Debug, Clone, Default)]
@@ -139,6 +139,83 @@ fn p2g_momentum<const D: usize>(
     let field = ParticleField { v: &points.v, affine: None };
     kernel.p2g_momentum(points, field, grid, &mut momentum);
     grid.velocity = momentum;
+}
+
+/// The particles that a cell holds.
+struct Fit<'a, const D: usize> {
+    /// Positions of all particles (m), inside the grid on periodic axes.
+    x: &'a [Vector<D>],
+    /// Those in the cell, at least one.
+    members: &'a [usize],
+}
+
+impl<const D: usize> Fit<'_, D> {
+    /// Value at `point` of the polynomial whose integral over the cell is `sum`, and whose slope
+    /// fits the densities that particles have: `f(x) = mean + g . (x - centre)`, g by least squares
+    /// (Wobbes et al. 2019, with the Taylor basis of degree one).
+    fn conserved<T>(
+        &self,
+        point: &QuadraturePoint<D>,
+        sum: T,
+        grid: &Grid<D>,
+        density: impl Fn(usize) -> T,
+    ) -> T
+    where
+        T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
+    {
+        let mean = sum * (1.0 / grid.cell_volume());
+        self.sloped(point, &point.centre, mean, density)
+    }
+
+    /// Value at `point` of the linear least-squares fit.
+    fn free<T>(&self, point: &QuadraturePoint<D>, value: impl Fn(usize) -> T) -> T
+    where
+        T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
+    {
+        let share = 1.0 / self.members.len() as f64;
+        let nothing = value(self.members[0]) * 0.0;
+        let mean = self.members.iter().fold(nothing, |sum, &p| sum + value(p) * share);
+        self.sloped(point, &self.middle(), mean, value)
+    }
+
+    fn middle(&self) -> Vector<D> {
+        let share = 1.0 / self.members.len() as f64;
+        self.members.iter().map(|&p| self.x[p] * share).sum()
+    }
+
+    /// Second moments of the particles (m^2).
+    fn second(&self, about: &Vector<D>) -> Matrix<D> {
+        let arm = |p: usize| self.x[p] - about;
+        self.members.iter().map(|&p| dyad(&arm(p), &arm(p))).sum()
+    }
+
+    /// `mean + g . (x - about)` with the slope g that fits best; no slope where the particles do
+    /// not span all axes among themselves. Through the mean of a cell and a row of particles there
+    /// would be one too, as steep as the row is near to the centre, and masses of nodes below zero.
+    fn sloped<T>(
+        &self,
+        point: &QuadraturePoint<D>,
+        about: &Vector<D>,
+        mean: T,
+        value: impl Fn(usize) -> T,
+    ) -> T
+    where
+        T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
+    {
+        let inverse = spanned(&self.second(&self.middle()), point.smallest)
+            .and_then(|_| spanned(&self.second(about), point.smallest));
+        let Some(inverse) = inverse else { return mean };
+        let reach = inverse * (point.x - about);
+        self.members
+            .iter()
+            .fold(mean, |sum, &p| sum + (value(p) - mean) * (self.x[p] - about).dot(&reach))
+    }
+}
+
+/// The inverse of second moments, if every axis has one.
+fn spanned<const D: usize>(second: &Matrix<D>, smallest: f64) -> Option<Matrix<D>> {
+    let spans = |axis: usize| second[(axis, axis)] > smallest;
+    (0..D).all(spans).then(|| second.try_inverse()).flatten()
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! Quadrature points: the Gauss points of full cells, and the particles themselves in cells
 //! at the rim of the body, where no polynomial may reach beyond it.
 
-use crate::mpm::algebra::Vector;
-use crate::mpm::grid::Grid;
-use crate::mpm::particles::Particles;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Column, Entry};
 
 /// Gauss's rule along an axis, exact for a cubic B-spline times a linear field.

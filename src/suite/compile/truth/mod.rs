@@ -82,7 +82,7 @@ pub(crate) fn refuse_violated(
     }
     let Some(problem) = &plan.exact else { return Ok(()) };
     if problem.bodies.is_empty() {
-        return refuse_wrong_solution(evaluator, &path, problem, &Survey::of(problem));
+        return refuse_wrong_solution(evaluator, &path, problem, &Survey::new(problem));
     }
     interface::refuse_violated_conditions(
         evaluator,

@@ -2,13 +2,12 @@
 
 use super::force::ramp;
 use crate::external::ProblemNeeds;
-use crate::testing::doctor::course::{Course, Field, displacement, shown, velocity};
+use crate::testing::doctor::course::{
+    AffineField, Course, Field, displacement, minus, shown, size, velocity,
+};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene, Kind};
-use crate::testing::doctor::vectors::AffineField;
-use crate::testing::doctor::vectors::{minus, size};
 
 /// Steps of each run.
 const STEPS: u64 = 6;

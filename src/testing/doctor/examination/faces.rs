@@ -2,13 +2,11 @@
 
 use super::stress::largest_entry;
 use super::translation::VELOCITY;
-use crate::testing::doctor::course::shown;
+use crate::testing::doctor::course::{AffineField, shown};
 use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::motion::uniform;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene, ELASTIC, H};
-use crate::testing::doctor::vectors::AffineField;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "faces",

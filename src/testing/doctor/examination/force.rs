@@ -3,13 +3,12 @@
 use super::fall::factor_cause;
 use super::translation::VELOCITY;
 use crate::external::{BodyForceField, ForceSource, LevelProblem};
-use crate::testing::doctor::course::{Course, line, shown, velocity};
+use crate::testing::doctor::course::{
+    AffineField, Course, line, minus, shown, size, times, velocity,
+};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene, H};
-use crate::testing::doctor::vectors::AffineField;
-use crate::testing::doctor::vectors::{minus, size, times};
 use std::sync::{Arc, Mutex, PoisonError};
 
 pub(super) const EXAMINATION: Examination = Examination {

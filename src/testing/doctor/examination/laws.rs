@@ -8,13 +8,10 @@
 
 use super::stress::{impulses, inside};
 use crate::mpm::det_of_rows;
-use crate::testing::doctor::course::{Course, displacement, shown};
+use crate::testing::doctor::course::{AffineField, Course, displacement, minus, shown, size};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind, SOFT};
-use crate::testing::doctor::vectors::AffineField;
-use crate::testing::doctor::vectors::{minus, size};
 use nalgebra::Matrix3;
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -124,7 +121,7 @@ fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFindi
     scene.young = scene.density * H * H;
     let scene = BoxScene { steps: STEPS, dt: 1.0 / STEPS as f64, ..scene };
     let courses = patient.run_all(&[scene.clone(), scene.soft()])?;
-    let impulse = |course: &Course| impulses(course, &scene, (0, 0))[course.last()];
+    let impulse = |course: &Course| impulses(course, &scene, 0, 0)[course.last()];
     let d = scene.dimension;
     // The first Piola stress along the stretch by Simpson's rule: J = F_00, so that P_00 is
     // sigma_00.

@@ -15,7 +15,7 @@ mod units;
 mod vibration;
 mod walls;
 
-use super::question::Examination;
+use super::patient::Examination;
 
 /// Every examination, the plainest first. The first one is the conversation itself.
 pub(super) const ALL: &[Examination] = &[

@@ -1,13 +1,11 @@
 //! A rigid body that fills a periodic axis and moves along it.
 
 use super::translation::VELOCITY;
-use crate::testing::doctor::course::{displacement, shown, velocity};
+use crate::testing::doctor::course::{AffineField, displacement, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::uniform;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene, ELASTIC, FACES, H, Kind};
-use crate::testing::doctor::vectors::AffineField;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "periodic",

@@ -1,13 +1,13 @@
 //! A body at rest, without stress and loads, which stays where it is.
 
 use crate::subject::Precision;
-use crate::testing::doctor::course::{Course, displacement, line, shown, shown_vector, velocity};
+use crate::testing::doctor::course::{
+    Course, displacement, dot, line, minus, shown, shown_vector, size, times, velocity,
+};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::single;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene, H};
-use crate::testing::doctor::vectors::{dot, minus, size, times};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "rest",

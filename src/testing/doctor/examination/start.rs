@@ -6,13 +6,12 @@
 
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside};
 use crate::mpm::det_of_rows;
-use crate::testing::doctor::course::{Course, displacement, shown};
+use crate::testing::doctor::course::{
+    AffineField, Course, displacement, minus, shown, size, times,
+};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind};
-use crate::testing::doctor::vectors::AffineField;
-use crate::testing::doctor::vectors::{minus, size, times};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "start",
@@ -123,7 +122,7 @@ impl Forces {
         let mut measured = [0.0; 3];
         let mut along = vec![0.0; course.states.len()];
         for j in 0..d {
-            let impulse = impulses(course, scene, (0, j));
+            let impulse = impulses(course, scene, 0, j);
             measured[j] = constant_and_rate(&course.times, &impulse)[0];
             along.iter_mut().zip(&impulse).for_each(|(sum, impulse)| *sum += unit[j] * impulse);
         }

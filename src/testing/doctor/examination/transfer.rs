@@ -10,13 +10,10 @@
 //! matrix C is wrong by the factor a, twice as much of a rotation if C is transposed, and nothing
 //! if C is right (Jiang et al. 2015, eq. 8 to 11).
 
-use crate::testing::doctor::course::{Course, shown, velocity};
+use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene, Kind};
-use crate::testing::doctor::vectors::AffineField;
-use crate::testing::doctor::vectors::dot;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "transfer",

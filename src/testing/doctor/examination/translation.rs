@@ -1,10 +1,9 @@
 //! A rigid body at constant speed through several cells, off every lattice.
 
+use crate::testing::doctor::course::AffineField;
 use crate::testing::doctor::motion::uniform;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene, H};
-use crate::testing::doctor::vectors::AffineField;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "translation",

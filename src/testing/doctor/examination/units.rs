@@ -4,8 +4,7 @@ use super::stress::spreading;
 use crate::subject::Precision;
 use crate::testing::doctor::course::{Course, displacement, shown};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::ELASTIC;
 
 pub(super) const EXAMINATION: Examination = Examination {

@@ -6,12 +6,10 @@
 //! the beginning of the step, as in forward Euler, each step multiplies the amplitude of a mode of
 //! frequency w by `sqrt(1 + w2 dt2)`.
 
-use crate::testing::doctor::course::{Course, shown, velocity};
+use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC, Kind};
-use crate::testing::doctor::vectors::{AffineField, dot};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "vibration",

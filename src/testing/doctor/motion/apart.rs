@@ -1,10 +1,11 @@
 //! A body without stress whose parts do not move alike.
 
 use super::seen::UniformMotion;
-use crate::testing::doctor::course::{displacement, shown, shown_vector, velocity};
+use crate::testing::doctor::course::{
+    displacement, dot, minus, shown, shown_vector, size, times, velocity,
+};
 use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::patient::Hindrance;
-use crate::testing::doctor::vectors::{dot, minus, size, times};
 use std::f64::consts::SQRT_2;
 
 /// Distance from the rim (cells) up to which functions see nodes beyond it.
@@ -23,7 +24,7 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
     let again = UniformMotion { course, scene: &soft, ..*motion };
     let (way, speed) = again.off();
     let (_, stiff) = motion.off();
-    let share = first_share(motion);
+    let (low, high) = first_share(motion);
     if is_whole && way.max(speed) <= 1e-3 * stiff.max(motion.patient.rounding()) {
         return Ok(SolverFinding::defect(
             "gradients-do-not-sum-to-zero",
@@ -38,7 +39,7 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
         ));
     }
     let slowed = uneven_drag(&again)?;
-    Ok(slowed.unwrap_or_else(|| weights(motion, share, (way, speed))))
+    Ok(slowed.unwrap_or_else(|| weights(motion, low, high, (way, speed))))
 }
 
 /// Points that slow unevenly, as much in a second whatever the step: weights cost a share of the
@@ -90,7 +91,7 @@ fn first_share(motion: &UniformMotion<'_>) -> (f64, f64) {
 }
 
 /// `soft` are the errors of way and speed without stiffness.
-fn weights(motion: &UniformMotion<'_>, (low, high): (f64, f64), soft: (f64, f64)) -> SolverFinding {
+fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) -> SolverFinding {
     let (way, speed) = motion.off();
     SolverFinding::defect(
         "weights-do-not-sum-to-one",

@@ -1,10 +1,11 @@
 //! A body that keeps its shape and does not move as it should.
 
 use super::seen::UniformMotion;
-use crate::testing::doctor::course::{displacement, line, shown, shown_vector, velocity};
+use crate::testing::doctor::course::{
+    displacement, dot, line, minus, shown, shown_vector, size, times, velocity,
+};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::Hindrance;
-use crate::testing::doctor::vectors::{dot, minus, size, times};
 
 /// Share by which a figure may be off the pattern that explains it.
 const NEAR: f64 = 0.02;

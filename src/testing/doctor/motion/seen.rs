@@ -1,9 +1,8 @@
 //! A motion that should be uniform, and its errors.
 
-use crate::testing::doctor::course::{Course, displacement, velocity};
+use crate::testing::doctor::course::{Course, displacement, minus, size, times, velocity};
 use crate::testing::doctor::patient::Patient;
 use crate::testing::doctor::scene::BoxScene;
-use crate::testing::doctor::vectors::{minus, size, times};
 
 /// Share of an error by which points may differ from their mean and err as one.
 const AS_ONE: f64 = 0.05;

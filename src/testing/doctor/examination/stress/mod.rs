@@ -12,20 +12,18 @@
 //! columns   the columns `stress` and `deformation_gradient`
 //! ```
 
-mod columns;
 mod measure;
 mod moduli;
 
-pub(super) use columns::{inside, largest_entry, mean_tensor};
-pub(super) use measure::{STEPS, TRAVEL, constant_and_rate, impulses, spreading};
+pub(super) use measure::{
+    STEPS, TRAVEL, constant_and_rate, impulses, inside, largest_entry, mean_tensor, spreading,
+};
 
 use crate::subject::Precision;
-use crate::testing::doctor::course::{Course, shown, velocity};
+use crate::testing::doctor::course::{Course, shown, size, velocity};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC};
-use crate::testing::doctor::vectors::size;
 use measure::{MeasuredModuli, STRETCH, moduli_by_momentum};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -123,7 +121,7 @@ fn examine_scene(
     }
     examined.findings.extend(finding);
     if examined.findings.is_empty() {
-        examined.findings = columns::findings(&course, &scene);
+        examined.findings = measure::findings(&course, &scene);
     }
     if examined.findings.is_empty() && measured.viscous_share > 0.05 {
         examined.findings.push(viscosity(&measured));

@@ -1,7 +1,6 @@
 //! Mistakes with characteristic moduli.
 
-use super::columns;
-use super::measure::MeasuredModuli;
+use super::measure::{MeasuredModuli, NEAR as NEAR_FACTOR, factor as column_factor, strain_factor};
 use crate::testing::doctor::course::{Course, shown};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::BoxScene;
@@ -166,10 +165,10 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
     }
     let cause = factors(scene).into_iter().find(|(wanted, _)| is(*wanted));
     let cause = cause.map_or("", |(_, cause)| cause);
-    let column = columns::factor(course, scene);
+    let column = column_factor(course, scene);
     let is_right = column.is_some_and(|column| (column - 1.0).abs() <= 0.25 * (factor - 1.0).abs());
-    let is_alike = column.is_some_and(|column| (column / factor - 1.0).abs() <= columns::NEAR);
-    let strain = columns::strain_factor(course, scene);
+    let is_alike = column.is_some_and(|column| (column / factor - 1.0).abs() <= NEAR_FACTOR);
+    let strain = strain_factor(course, scene);
     let is_strain = strain.is_some_and(|strain| {
         let is_off = (strain - 1.0).abs() > 0.5 * (factor - 1.0).abs();
         is_off && (strain / factor - 1.0).abs() <= NEAR

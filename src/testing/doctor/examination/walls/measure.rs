@@ -1,10 +1,9 @@
 //! Forces of walls, and motions next to them, by the momentum of the halves of a bar.
 
-use crate::testing::doctor::course::{Course, displacement, line, shown, velocity};
+use crate::testing::doctor::course::{AffineField, Course, displacement, line, shown, velocity};
 use crate::testing::doctor::examination::stress::{constant_and_rate, mean_tensor};
 use crate::testing::doctor::patient::{Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
-use crate::testing::doctor::vectors::AffineField;
 
 /// Length of the bar, and distance that waves travel (cells).
 const CELLS: f64 = 16.0;

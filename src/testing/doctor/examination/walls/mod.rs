@@ -17,12 +17,11 @@ mod judge;
 mod measure;
 
 use super::translation::VELOCITY;
+use crate::testing::doctor::course::AffineField;
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::uniform;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::question::Examination;
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC, FACES, H, Kind};
-use crate::testing::doctor::vectors::AffineField;
 use judge::finding;
 use measure::{Wall, bar, walls_across};
 

@@ -1,0 +1,303 @@
+//! Exact sums over the body and over faces of it.
+
+use super::condition::Face;
+use super::gauss::points;
+use super::motion::Derivatives;
+use super::problem::Problem;
+
+/// Up to three components, and the size that an error of their sum is small against.
+type ValueAndSize = ([f64; 3], f64);
+
+/// A quantity per unit of reference volume, or of the area of a face, with its size.
+pub type SumDensity = fn(&SumPoint<'_>) -> ([f64; 3], f64);
+
+/// A point at a time of the run.
+pub struct SumPoint<'a> {
+    problem: &'a Problem,
+    face: Option<&'a Face>,
+    label: &'a [f64],
+    t: f64,
+    now: Derivatives,
+}
+
+impl SumPoint<'_> {
+    /// `rho0 |v|^2 / 2` (J/m3).
+    pub fn kinetic_energy(&self) -> f64 {
+        let square: f64 = self.now.velocity.iter().map(|v| v * v).sum();
+        0.5 * self.problem.density * square
+    }
+
+    /// The energy W that P derives from (J/m3); NaN of a law without one.
+    pub fn stored_energy(&self) -> f64 {
+        self.problem.equation.energy(&self.now.grad).unwrap_or(f64::NAN)
+    }
+
+    /// `rho0 v` (kg/(m2 s)).
+    pub fn momentum(&self) -> [f64; 3] {
+        self.now.velocity.map(|v| self.problem.density * v)
+    }
+
+    /// `x cross rho0 v` about the origin (kg/(m s)).
+    pub fn angular_momentum(&self) -> [f64; 3] {
+        let (u, p) = (self.now.u, self.momentum());
+        let x: [f64; 3] = std::array::from_fn(|i| self.label.get(i).map_or(0.0, |x| x + u[i]));
+        [x[1] * p[2] - x[2] * p[1], x[2] * p[0] - x[0] * p[2], x[0] * p[1] - x[1] * p[0]]
+    }
+
+    /// `P N` on a face (Pa); zero inside the body.
+    pub fn traction(&self) -> [f64; 3] {
+        let Some(face) = self.face else { return [0.0; 3] };
+        let outwards = if face.high { 1.0 } else { -1.0 };
+        let piola = self.problem.piola(self.label, self.t, &self.now);
+        std::array::from_fn(|i| outwards * piola[i][face.axis])
+    }
+}
+
+/// Region of a sum.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SumRegion {
+    /// The whole body.
+    Body,
+    /// Faces of a box, by their numbers.
+    Faces(Vec<usize>),
+}
+
+/// Number of points at most, after the last refinement.
+const MOST_POINTS: usize = 1 << 16;
+
+/// Largest change by the last refinement, over the size of the sum: far below any discretisation
+/// error that is judged, far above what rounding leaves.
+const TOLERANCE: f64 = 1e-10;
+
+/// Intervals of the raster of times at which a size is taken, and which the points are made for.
+const TIMES: usize = 20;
+
+/// A sum of which the exact value is known at any time of the run.
+#[derive(Debug)]
+pub struct BodySum {
+    bodies: Vec<Problem>,
+    density: SumDensity,
+    sites: Vec<SumSite>,
+    size: f64,
+}
+
+/// A point of the quadrature.
+#[derive(Debug)]
+struct SumSite {
+    body: usize,
+    face: Option<usize>,
+    label: Vec<f64>,
+    weight: f64,
+}
+
+impl BodySum {
+    /// The sum of `density` over a `region` of the body of `problem`, with as many points as it
+    /// takes throughout the run.
+    ///
+    /// # Errors
+    /// If it is zero throughout, or if points do not help; in words that follow its name.
+    pub fn new(problem: &Problem, region: &SumRegion, density: SumDensity) -> Result<Self, String> {
+        let bodies =
+            if problem.bodies.is_empty() { vec![problem.clone()] } else { problem.bodies.clone() };
+        let times: Vec<f64> = if problem.at_rest {
+            vec![problem.until]
+        } else {
+            (0..=TIMES).map(|k| problem.until * (k as f64 / TIMES as f64)).collect()
+        };
+        let mut sum = Self { sites: sites(&bodies, region, 1), bodies, density, size: f64::NAN };
+        let mut coarse: Vec<ValueAndSize> = times.iter().map(|t| sum.with_size(*t)).collect();
+        for refinement in 1_u32.. {
+            let sites = sites(&sum.bodies, region, 1 << refinement);
+            if sites.len() > MOST_POINTS {
+                break;
+            }
+            sum.sites = sites;
+            let fine: Vec<ValueAndSize> = times.iter().map(|t| sum.with_size(*t)).collect();
+            sum.size = fine.iter().map(|(_, size)| *size).fold(0.0, f64::max);
+            if sum.size == 0.0 {
+                return Err("is zero throughout".to_owned());
+            }
+            let change = |((a, _), (b, _)): (&ValueAndSize, &ValueAndSize)| {
+                (0..3).all(|i| (a[i] - b[i]).abs() <= TOLERANCE * sum.size)
+            };
+            if fine.iter().zip(&coarse).all(change) {
+                return Ok(sum);
+            }
+            coarse = fine;
+        }
+        Err(format!(
+            "cannot be computed to {TOLERANCE:e}: the motion is not smooth enough to be integrated \
+             with {MOST_POINTS} points"
+        ))
+    }
+
+    /// Largest size of the sum during the run.
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// The sum at time `t` (s); components beyond the dimension are zero.
+    pub fn at(&self, t: f64) -> [f64; 3] {
+        self.with_size(t).0
+    }
+
+    fn with_size(&self, t: f64) -> ValueAndSize {
+        let mut sum = ([0.0; 3], 0.0);
+        for SumSite { body, face, label, weight } in &self.sites {
+            let problem = &self.bodies[*body];
+            let now = problem.derivatives(label, t);
+            let face = face.map(|face| &problem.faces[face]);
+            let (value, size) = (self.density)(&SumPoint { problem, face, label, t, now });
+            for (sum, value) in sum.0.iter_mut().zip(value) {
+                *sum += weight * value;
+            }
+            sum.1 += weight * size;
+        }
+        sum
+    }
+}
+
+/// Points of the quadrature with `panels` on each axis of each body.
+fn sites(bodies: &[Problem], region: &SumRegion, panels: usize) -> Vec<SumSite> {
+    let of_body = |(body, problem): (usize, &Problem)| match region {
+        SumRegion::Body => inside(problem, panels)
+            .into_iter()
+            .map(|(label, weight)| SumSite { body, face: None, label, weight })
+            .collect::<Vec<_>>(),
+        SumRegion::Faces(faces) => {
+            let on = |number: &usize| {
+                let face = Some(*number);
+                let all = on_face(problem, &problem.faces[*number], panels).into_iter();
+                all.map(move |(label, weight)| SumSite { body, face, label, weight })
+            };
+            faces.iter().flat_map(on).collect()
+        }
+    };
+    bodies.iter().enumerate().flat_map(of_body).collect()
+}
+
+fn intervals(problem: &Problem) -> Vec<(f64, f64)> {
+    problem.from.iter().copied().zip(problem.to.iter().copied()).collect()
+}
+
+/// Labels and weights in the body.
+fn inside(problem: &Problem, panels: usize) -> Vec<(Vec<f64>, f64)> {
+    let Some(outline) = &problem.outline else { return points(&intervals(problem), panels) };
+    let charts = outline.charts().into_iter().enumerate();
+    let on_chart = |(chart, intervals): (usize, Vec<(f64, f64)>)| {
+        let place = |(coordinates, weight): (Vec<f64>, f64)| {
+            let (label, volume) = outline.place(chart, &coordinates);
+            (label, weight * volume)
+        };
+        points(&intervals, panels).into_iter().map(place).collect::<Vec<_>>()
+    };
+    charts.flat_map(on_chart).collect()
+}
+
+/// Labels and weights on a face of a box.
+fn on_face(problem: &Problem, face: &Face, panels: usize) -> Vec<(Vec<f64>, f64)> {
+    let mut axes = intervals(problem);
+    let (low, high) = axes.remove(face.axis);
+    let mut all = points(&axes, panels);
+    for (label, _) in &mut all {
+        label.insert(face.axis, if face.high { high } else { low });
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::formula::{Expr, Formula, Scope};
+    use crate::exact::tests::{bar, fixed, held};
+    use crate::exact::{Motion, Round};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+    use std::f64::consts::PI;
+    use std::sync::Arc;
+
+    fn energy(point: &SumPoint<'_>) -> ([f64; 3], f64) {
+        ([point.kinetic_energy(), point.stored_energy(), 0.0], point.kinetic_energy())
+    }
+
+    fn of_vector(value: [f64; 3]) -> ([f64; 3], f64) {
+        (value, value.iter().map(|component| component.abs()).sum())
+    }
+
+    /// A bar of E = rho = 2 that swings between two walls.
+    fn swinging() -> Problem {
+        bar("sin(pi*X)*sin(pi*t)/100", fixed())
+    }
+
+    #[test]
+    fn a_standing_wave_has_its_closed_forms() {
+        let problem = swinging();
+        let sum = |region, density| BodySum::new(&problem, &region, density).unwrap();
+        let energies = sum(SumRegion::Body, energy);
+        let momentum = sum(SumRegion::Body, |point| of_vector(point.momentum()));
+        let left = sum(SumRegion::Faces(vec![0]), |point| of_vector(point.traction()));
+        let both = sum(SumRegion::Faces(vec![0, 1]), |point| of_vector(point.traction()));
+        let speed = PI / 100.0;
+        assert_relative_eq!(energies.size(), 0.5 * speed * speed, max_relative = 1e-12);
+        assert_relative_eq!(both.size(), 4.0 * speed, max_relative = 1e-12);
+        for t in [0.0, 0.3, 0.7] {
+            let (sin, cos) = (libm::sin(PI * t), libm::cos(PI * t));
+            let [kinetic, stored, _] = energies.at(t);
+            assert_relative_eq!(kinetic, 0.5 * (speed * cos).powi(2), max_relative = 1e-12);
+            assert_relative_eq!(stored, 0.5 * (speed * sin).powi(2), max_relative = 1e-12);
+            assert_relative_eq!(momentum.at(t)[0], 4.0 / PI * speed * cos, max_relative = 1e-12);
+            assert_relative_eq!(left.at(t)[0], -2.0 * speed * sin, max_relative = 1e-12);
+            assert_relative_eq!(both.at(t)[0], -4.0 * speed * sin, max_relative = 1e-12);
+        }
+    }
+
+    /// The half that is three times as heavy counts three times.
+    #[test]
+    fn each_body_has_its_density() {
+        let whole = swinging();
+        let half = |from: f64, to: f64, density| Problem {
+            from: vec![from],
+            to: vec![to],
+            density,
+            ..whole.clone()
+        };
+        let problem =
+            Problem { bodies: vec![half(0.0, 0.5, 2.0), half(0.5, 1.0, 6.0)], ..whole.clone() };
+        let density = |point: &SumPoint<'_>| of_vector(point.momentum());
+        let of = |problem| BodySum::new(problem, &SumRegion::Body, density).unwrap().at(0.0)[0];
+        assert_relative_eq!(of(&problem), 2.0 * of(&whole), max_relative = 1e-12);
+    }
+
+    /// A round body of density 2 that turns about the origin, where its centre is: `w I`.
+    #[rstest]
+    #[case::disk(2, 0.0, PI / 2.0)]
+    #[case::annulus(2, 0.5, PI / 2.0 * (1.0 - 0.0625))]
+    #[case::ball(3, 0.0, 8.0 * PI / 15.0)]
+    fn a_round_body_turns(#[case] d: usize, #[case] inner: f64, #[case] inertia: f64) {
+        let bind = |text: &str| {
+            let names = &["X", "Y", "Z"][..d];
+            let names = [names, &["t"]].concat();
+            Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &names).unwrap()
+        };
+        let turned = ["cos(3*t)*X - sin(3*t)*Y - X", "sin(3*t)*X + cos(3*t)*Y - Y", "0"];
+        let problem = Problem {
+            outline: Some(Arc::new(Round { centre: vec![0.0; d], inner, outer: 1.0 })),
+            motion: Motion::new(turned[..d].iter().map(|text| bind(text)).collect()),
+            ..held(d)
+        };
+        let density = |point: &SumPoint<'_>| of_vector(point.angular_momentum());
+        let found = BodySum::new(&problem, &SumRegion::Body, density).unwrap().at(0.4);
+        assert_relative_eq!(found[2], 2.0 * 3.0 * inertia, max_relative = 1e-10);
+        assert!(found[0].abs() + found[1].abs() <= 1e-10, "{found:?}");
+    }
+
+    #[rstest]
+    #[case::a_body_at_rest("0*X", "is zero throughout")]
+    #[case::a_kink("abs(X - 0.3)*sin(t)", "cannot be computed to 1e-10")]
+    fn what_is_not_known_is_refused(#[case] displacement: &str, #[case] reason: &str) {
+        let problem = bar(displacement, fixed());
+        let density = |point: &SumPoint<'_>| of_vector(point.momentum());
+        let found = BodySum::new(&problem, &SumRegion::Body, density).unwrap_err();
+        assert!(found.starts_with(reason), "{found}");
+    }
+}

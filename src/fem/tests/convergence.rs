@@ -1,0 +1,188 @@
+//! Orders in space and in time, on the vibrating bar.
+
+use super::{bar_at_rest, orders, rms, run, vibrating_bar};
+use crate::fem::Element::{Linear, Quadratic};
+use crate::fem::Mass::{Consistent, Lumped};
+use crate::fem::Sampling::{Inside, Nodes};
+use crate::fem::{Bar, BarSetup, Element, Mass, Sampling, pointwise};
+use crate::subject::{Checkpoint, Samples, Start, Subject};
+use rstest::rstest;
+use std::f64::consts::PI;
+
+/// `u = v0/w sin(pi X / (2L)) sin(w t)`.
+fn exact(x: f64, t: f64) -> f64 {
+    let omega = PI / 50.0 * 10.0;
+    0.1 / omega * libm::sin(PI * x / 50.0) * libm::sin(omega * t)
+}
+
+const UNTIL: f64 = 0.5;
+
+/// With this step the error in time is below 1e-12 m, a third of the smallest nodal error met
+/// here, 3e-12 m (quadratic elements, 64 of them); inside the elements 3e-9 m is the smallest.
+const DT: f64 = 2e-5;
+
+/// Order k + 1 inside the elements; 2k at the nodes. Lumping costs the quadratic element nothing,
+/// because it is the quadrature of its Lobatto points, which integrates the mass to degree
+/// 2k - 1: enough for the order of the frequencies, 2k (Fried & Malkus, *Int. J. Solids Struct.*
+/// 11, 1975).
+#[rstest]
+#[case(Linear, Lumped, Inside, 2.0)]
+#[case(Linear, Consistent, Inside, 2.0)]
+#[case(Quadratic, Lumped, Inside, 3.0)]
+#[case(Quadratic, Consistent, Inside, 3.0)]
+#[case(Linear, Lumped, Nodes, 2.0)]
+#[case(Linear, Consistent, Nodes, 2.0)]
+#[case(Quadratic, Lumped, Nodes, 4.0)]
+#[case(Quadratic, Consistent, Nodes, 4.0)]
+fn the_vibrating_bar_shows_the_formal_order(
+    #[case] element: Element,
+    #[case] mass: Mass,
+    #[case] sampling: Sampling,
+    #[case] formal: f64,
+) {
+    let error = |cells| {
+        let bar = run(vibrating_bar(cells, element, mass), UNTIL, DT);
+        rms(&bar, sampling, |x| exact(x, UNTIL))
+    };
+    let observed = orders(&[4, 8, 16, 32, 64].map(error));
+    println!("{element:?} {mass:?} {sampling:?} {observed:.2?}");
+    // The first pair is not asymptotic at the nodes of lumped quadratic elements.
+    for order in &observed[1..] {
+        assert!((order - formal).abs() < 0.25, "{observed:?}");
+    }
+    assert!((observed[3] - formal).abs() < 0.05, "{observed:?}");
+}
+
+/// A column of ten elements (wave speed 10 m/s) on which gravity is switched on at once.
+fn column(start: Start) -> BarSetup {
+    let body_force = Some(pointwise(|_, _| -9.81));
+    BarSetup { cells: 10, start, body_force, ..bar_at_rest(1.0, 1e5, 1e3) }
+}
+
+/// Displacement and velocity somewhere in the column, after 0.1 s in so many steps.
+fn seen(start: Start, steps: u32) -> [f64; 2] {
+    let bar = run(column(start), 0.1, 0.1 / f64::from(steps));
+    [bar.displacement_at(0.77), bar.velocity_at(0.77)]
+}
+
+/// The mesh is fixed, so a run with a much smaller step is exact enough to compare with. Under a
+/// constant load and from rest, [`Start::AtZero`] computes the right motion half a step too early:
+/// its displacement is of first order, its velocity, which is half a step behind, is of second.
+#[rstest]
+#[case(Start::AtZero, [1.0, 2.0])]
+#[case(Start::HalfStepBack, [2.0, 2.0])]
+fn the_start_decides_the_order_in_time(#[case] start: Start, #[case] formal: [f64; 2]) {
+    let reference = seen(Start::HalfStepBack, 51_200);
+    for (quantity, formal) in formal.into_iter().enumerate() {
+        let error = |steps| (seen(start, steps)[quantity] - reference[quantity]).abs();
+        let observed = orders(&[100, 200, 400, 800].map(error));
+        println!("{start:?} {quantity} {observed:.3?}");
+        assert!(observed.iter().all(|order| (order - formal).abs() < 0.1), "{observed:?}");
+    }
+}
+
+#[test]
+fn a_change_of_step_keeps_the_second_order() {
+    let exact = seen(Start::HalfStepBack, 51_200);
+    let error = |pairs: u32| {
+        let mut bar = Bar::new(column(Start::HalfStepBack)).unwrap();
+        let dt = 0.1 / (3.0 * f64::from(pairs));
+        for _ in 0..pairs {
+            bar.step(dt).unwrap();
+            bar.step(2.0 * dt).unwrap();
+        }
+        (bar.displacement_at(0.77) - exact[0]).abs()
+    };
+    let observed = orders(&[50, 100, 200, 400].map(error));
+    assert!(observed.iter().all(|order| (order - 2.0).abs() < 0.1), "{observed:?}");
+}
+
+/// A free bar follows a load that grows, `b = 6 t`, along `u = t^3`: the load of a step is that of
+/// its beginning, where the displacements are.
+#[test]
+fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
+    let error = |steps| {
+        let body_force = Some(pointwise(|_, t| 6.0 * t));
+        let setup = BarSetup { body_force, fixed: [false; 2], ..bar_at_rest(1.0, 1e3, 1e3) };
+        run(setup, 1.0, 1.0 / f64::from(steps)).displacement_at(0.5) - 1.0
+    };
+    let observed = orders(&[20, 40, 80].map(error).map(f64::abs));
+    assert!(observed.iter().all(|order| (order - 2.0).abs() < 1e-3), "{observed:?}");
+}
+
+/// The limits `c dt / h` of the module's overview, each met from both sides.
+#[rstest]
+#[case(Linear, Lumped, 1.0)]
+#[case(Linear, Consistent, 1.0 / libm::sqrt(3.0))]
+#[case(Quadratic, Lumped, 1.0 / libm::sqrt(6.0))]
+#[case(Quadratic, Consistent, 1.0 / libm::sqrt(15.0))]
+fn the_stable_step_is_known(#[case] element: Element, #[case] mass: Mass, #[case] limit: f64) {
+    let survives = |courant: f64| {
+        let mut bar = Bar::new(vibrating_bar(40, element, mass)).unwrap();
+        let dt = courant * (25.0 / 40.0) / 10.0;
+        (0..2000).all(|_| bar.step(dt).is_ok())
+    };
+    assert!(survives(0.98 * limit));
+    assert!(!survives(1.02 * limit));
+}
+
+/// Kinetic and strain energy of linear elements with a lumped mass, `E = 100 Pa`, `rho = 1 kg/m3`.
+fn energy(bar: &Bar) -> f64 {
+    let h = bar.nodes()[1];
+    let last = bar.nodes().len() - 1;
+    let mass = |i| if i == 0 || i == last { 0.5 * h } else { h };
+    let kinetic: f64 = bar.nodal_velocities().enumerate().map(|(i, v)| mass(i) * v * v).sum();
+    let stretched = bar.nodal_displacements().windows(2).map(|u| (u[1] - u[0]) * (u[1] - u[0]));
+    0.5 * (kinetic + stretched.sum::<f64>() * 100.0 / h)
+}
+
+/// A symplectic step keeps the energy near its start, for 100 periods as for one.
+#[rstest]
+fn energy_stays_bounded(#[values(Start::AtZero, Start::HalfStepBack)] start: Start) {
+    let mut bar = Bar::new(BarSetup { start, ..vibrating_bar(16, Linear, Lumped) }).unwrap();
+    let initial = energy(&bar);
+    let mut worst_of_period = || {
+        let mut worst = 0.0_f64;
+        for _ in 0..200 {
+            bar.step(0.05).unwrap();
+            worst = worst.max((energy(&bar) / initial - 1.0).abs());
+        }
+        worst
+    };
+    let worst: Vec<f64> = (0..100).map(|_| worst_of_period()).collect();
+    assert!(worst[0] < 0.02, "{worst:?}");
+    assert!(worst.iter().all(|&now| now < 1.02 * worst[0]), "{worst:?}");
+}
+
+/// All that a look at a bar shows, bit by bit.
+fn bits(bar: &Bar) -> (Vec<u64>, String) {
+    let mut samples = Samples::default();
+    bar.sample(&mut samples);
+    let numbers = samples.displacement.iter().chain(&samples.velocity).map(|x| x.to_bits());
+    (numbers.collect(), format!("{:?} {}", bar.counters(), bar.time()))
+}
+
+#[rstest]
+fn an_interrupted_run_gives_the_bits_of_a_whole_one(
+    #[values(Linear, Quadratic)] element: Element,
+    #[values(Lumped, Consistent)] mass: Mass,
+    #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
+) {
+    let body_force = || Some(pointwise(|x, t| libm::sin(x + 9.0 * t)));
+    let make = || {
+        let setup = BarSetup { start, body_force: body_force(), ..vibrating_bar(6, element, mass) };
+        Bar::new(setup).unwrap()
+    };
+    let (mut whole, mut other) = (make(), make());
+    (0..7).for_each(|_| whole.step(0.01).unwrap());
+    let mut left = Checkpoint::empty();
+    assert!(whole.checkpoint(&mut left));
+    let left = left.into_bytes();
+    let mut left = Checkpoint::from_bytes(&left);
+    assert!(other.checkpoint(&mut left) && left.is_used_up());
+    for _ in 0..5 {
+        whole.step(0.01).unwrap();
+        other.step(0.01).unwrap();
+        assert_eq!(bits(&whole), bits(&other));
+    }
+}

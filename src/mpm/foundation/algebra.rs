@@ -1,0 +1,149 @@
+//! Vectors and matrices of the dimension at hand.
+//!
+//! `nalgebra` needs bounds for determinants of a generic size; these free functions need none.
+
+use crate::dimension::with_dimension;
+use crate::subject::Entry;
+
+/// A vector in D dimensions.
+pub type Vector<const D: usize> = nalgebra::SVector<f64, D>;
+
+/// A D x D matrix.
+pub type Matrix<const D: usize> = nalgebra::SMatrix<f64, D, D>;
+
+/// Row after row; a vector is a matrix of one column.
+impl<const R: usize, const C: usize> Entry for nalgebra::SMatrix<f64, R, C> {
+    fn write(&self, numbers: &mut Vec<f64>) {
+        numbers.extend(self.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<_>>()));
+    }
+}
+
+/// Determinant by expansion; D = 1, 2 or 3.
+///
+/// # Panics
+/// For any other D.
+#[inline(always)]
+pub fn det<const D: usize>(m: &Matrix<D>) -> f64 {
+    let minor = |i: usize, j: usize| m[(1, i)] * m[(2, j)] - m[(1, j)] * m[(2, i)];
+    match D {
+        1 => m[(0, 0)],
+        2 => m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)],
+        3 => m[(0, 0)] * minor(1, 2) - m[(0, 1)] * minor(0, 2) + m[(0, 2)] * minor(0, 1),
+        _ => unreachable!("1, 2 or 3 dimensions"),
+    }
+}
+
+/// Determinant of a tensor in `d` dimensions, row after row; d = 1, 2 or 3.
+pub fn det_of_rows(d: usize, rows: &[f64]) -> f64 {
+    with_dimension!(d, D => det(&Matrix::<D>::from_row_slice(rows)))
+}
+
+/// The matrix of cofactors, `det(m) m^-T`; D = 1, 2 or 3.
+///
+/// # Panics
+/// For any other D.
+pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
+    Matrix::from_fn(|i, j| match D {
+        1 => 1.0,
+        2 if i == j => m[(1 - i, 1 - j)],
+        2 => -m[(1 - i, 1 - j)],
+        3 => {
+            // The indices that follow in the cycle 0, 1, 2, which has the sign built in.
+            let ([i1, j1], [i2, j2]) = ([i, j].map(|k| (k + 1) % 3), [i, j].map(|k| (k + 2) % 3));
+            m[(i1, j1)] * m[(i2, j2)] - m[(i1, j2)] * m[(i2, j1)]
+        }
+        _ => unreachable!("1, 2 or 3 dimensions"),
+    })
+}
+
+/// `a b`, always inlined, as loops over particles need it that are compiled for wider registers.
+#[inline(always)]
+pub(in crate::mpm) fn product<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
+    let mut product = Matrix::zeros();
+    for j in 0..D {
+        for i in 0..D {
+            let mut sum = a[(i, 0)] * b[(0, j)];
+            for k in 1..D {
+                sum += a[(i, k)] * b[(k, j)];
+            }
+            product[(i, j)] = sum;
+        }
+    }
+    product
+}
+
+/// The dyad a b^T.
+pub fn dyad<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> Matrix<D> {
+    a * b.transpose()
+}
+
+/// `[f(0), f(1), ...]`, by way of an array of `nothing`. For the hot loop: `std::array::from_fn`
+/// is not always inlined.
+#[inline(always)]
+pub(in crate::mpm) fn array<const N: usize, T: Copy>(
+    nothing: T,
+    mut f: impl FnMut(usize) -> T,
+) -> [T; N] {
+    let mut array = [nothing; N];
+    for k in 0..N {
+        array[k] = f(k);
+    }
+    array
+}
+
+/// 2^52: numbers from here to twice that are whole, and their last bits are those of the excess.
+pub(in crate::mpm) const WHOLE: f64 = 4_503_599_627_370_496.0;
+
+/// `libm::floor` from -2^51 to 2^51. It is part of the hot loop, where a call would cost more than
+/// all the rest, and a conversion to integers and back as much as the weights.
+#[inline(always)]
+pub(in crate::mpm) fn floor(x: f64) -> f64 {
+    const SHIFT: f64 = 1.5 * WHOLE;
+    let nearest = (x + SHIFT) - SHIFT;
+    nearest - if nearest > x { 1.0 } else { 0.0 }
+}
+
+/// The whole number `x`, from 0 to 2^32, as an integer.
+#[inline(always)]
+pub(in crate::mpm) fn whole(x: f64) -> usize {
+    ((x + WHOLE).to_bits() & 0xffff_ffff) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+
+    #[test]
+    fn determinants_agree_with_the_library() {
+        let m2 = Matrix::<2>::new(1.5, -0.25, 0.5, 2.0);
+        let m3 = Matrix::<3>::new(1.5, -0.25, 0.5, 2.0, 0.75, -1.0, 0.125, 3.0, 1.0);
+        assert_relative_eq!(det(&m2), m2.determinant(), max_relative = 1e-14);
+        assert_relative_eq!(det(&m3), m3.determinant(), max_relative = 1e-14);
+    }
+
+    #[test]
+    fn cofactors_make_the_inverse() {
+        let m1 = Matrix::<1>::new(2.0);
+        let m2 = Matrix::<2>::new(1.5, -0.25, 0.5, 2.0);
+        let m3 = Matrix::<3>::new(1.5, -0.25, 0.5, 2.0, 0.75, -1.0, 0.125, 3.0, 1.0);
+        assert_relative_eq!(cofactor(&m1).transpose() * m1, Matrix::<1>::identity() * det(&m1));
+        assert_relative_eq!(cofactor(&m2).transpose() * m2, Matrix::<2>::identity() * det(&m2));
+        assert_relative_eq!(
+            cofactor(&m3).transpose() * m3,
+            Matrix::<3>::identity() * det(&m3),
+            epsilon = 1e-14
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn inline_floor_equals_the_library_function(x in -1e9..1e9_f64) {
+            for x in [x, libm::floor(x), libm::round(x) + 0.5, 1e-9 * x] {
+                prop_assert_eq!(floor(x), libm::floor(x));
+            }
+            prop_assert_eq!(whole(libm::fabs(libm::floor(x))) as f64, libm::fabs(libm::floor(x)));
+        }
+    }
+}

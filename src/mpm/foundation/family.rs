@@ -1,0 +1,116 @@
+//! Registration: one line makes a member known by name.
+
+/// Declares a family of types that suites choose by name.
+///
+/// `family! { /// docs  pub enum BasisName; with_basis; "linear" => Linear, }` makes the enum of
+/// names and a macro `with_basis!(name, B => expr)`, the one `match` that turns a name into a type.
+/// `"linear" => linear::Linear` also exports the member from its file.
+macro_rules! family {
+    (
+        $(#[$meta:meta])* pub enum $names:ident; $with:ident;
+        $($text:literal => $file:ident::$member:ident,)+
+    ) => {
+        $(pub use self::$file::$member;)+
+
+        $crate::mpm::foundation::family::family! {
+            $(#[$meta])*
+            pub enum $names; $with;
+            $($text => $member,)+
+        }
+    };
+    ($(#[$meta:meta])* pub enum $names:ident; $with:ident; $($text:literal => $member:ident,)+) => {
+        $crate::named::named! {
+            $(#[$meta])*
+            pub enum $names {
+                $(
+                    #[doc = concat!("`", $text, "`, see [`", stringify!($member), "`].")]
+                    $member = $text,
+                )+
+            }
+        }
+
+        $crate::mpm::foundation::family::family!(@with ($) $names $with $($member)+);
+    };
+    (@with ($dollar:tt) $names:ident $with:ident $($member:ident)+) => {
+        macro_rules! $with {
+            ($dollar name:expr, $dollar kind:ident => $dollar body:expr) => {
+                match $dollar name {
+                    $(
+                        $crate::mpm::$names::$member => {
+                            type $dollar kind = $crate::mpm::$member;
+                            $dollar body
+                        }
+                    )+
+                }
+            };
+        }
+        pub(in $crate::mpm) use $with;
+    };
+}
+pub(in crate::mpm) use family;
+
+/// Declares a family of objects that suites choose by name.
+///
+/// `objects! { /// docs  pub enum Names; /// docs  pub fn make -> Trait; "flip" => Flip: Flip, }`
+/// makes the enum of names and a function that builds the object a name stands for, in any
+/// dimension.
+macro_rules! objects {
+    ($(#[$meta:meta])* pub enum $names:ident; $(#[$fn_meta:meta])* pub fn $make:ident -> $contract:ident;
+        $($text:literal => $member:ident: $build:expr,)+
+    ) => {
+        $crate::named::named! {
+            $(#[$meta])*
+            pub enum $names {
+                $(
+                    #[doc = concat!("`", $text, "`: `", stringify!($build), "`.")]
+                    $member = $text,
+                )+
+            }
+        }
+
+        $(#[$fn_meta])*
+        pub fn $make<const D: usize>(name: $names) -> Box<dyn $contract<D>> {
+            match name {
+                $($names::$member => Box::new($build),)+
+            }
+        }
+    };
+}
+pub(in crate::mpm) use objects;
+
+/// Declares a family of objects that suites choose by name and parameter; each type has a constant
+/// `PARAMETER` and is made by `new`.
+macro_rules! objects_with_parameter {
+    ($(#[$meta:meta])* pub enum $names:ident: $parameter:ty;
+        $(#[$fn_meta:meta])* fn $make:ident -> $contract:ident;
+        $($text:literal => $member:ident: $kind:ty,)+
+    ) => {
+        $crate::named::named! {
+            $(#[$meta])*
+            pub enum $names {
+                $(
+                    #[doc = concat!("`", $text, "`: `", stringify!($kind), "`.")]
+                    $member = $text,
+                )+
+            }
+        }
+
+        impl $names {
+            /// The parameter.
+            pub fn parameter(self) -> $parameter {
+                const D: usize = 1;
+                match self {
+                    $(Self::$member => <$kind>::PARAMETER,)+
+                }
+            }
+        }
+
+        $(#[$fn_meta])*
+        pub(in crate::mpm) fn $make<const D: usize>(name: $names, value: u32) -> Box<dyn $contract<D>> {
+            match name {
+                $($names::$member => Box::new(<$kind>::new(value)),)+
+            }
+        }
+    };
+}
+pub(in crate::mpm) use objects_with_parameter;

@@ -1,0 +1,146 @@
+//! Check that the state of the particles is finite.
+//!
+//! A NaN spreads through the grid to all that see the same nodes, or hides behind a node that is
+//! fixed or has no mass: each quantity is checked where it is computed, so that the
+//! failure names the particle it began at.
+
+use super::particles::Particles;
+use super::simd::{LANES, vectorized};
+use super::threads::{FEW, join};
+use crate::subject::{Failure, Site};
+use nalgebra::SMatrix;
+
+impl<const D: usize> Particles<D> {
+    /// Names the first particle of which any number is not finite: before the first step.
+    ///
+    /// # Errors
+    /// [`Failure::NonFinite`].
+    pub(in crate::mpm) fn all_finite(&self) -> Result<(), Failure> {
+        first_matrix("position", &self.x)?;
+        first_matrix("reference position", &self.x0)?;
+        first_matrix("velocity", &self.v)?;
+        first("mass", &self.mass, |m| m.is_finite())?;
+        first("reference volume", &self.vol0, |vol| vol.is_finite())?;
+        first("volume", &self.vol, |vol| vol.is_finite())?;
+        first_matrix("velocity gradient", &self.grad_v)?;
+        first("temperature", &self.temperature, |t| t.is_finite())?;
+        self.deformed_finite()?;
+        self.stressed_finite()
+    }
+
+    /// The same for F, after an update from velocity gradients.
+    ///
+    /// # Errors
+    /// [`Failure::NonFinite`].
+    pub(in crate::mpm) fn deformed_finite(&self) -> Result<(), Failure> {
+        first_matrix("deformation gradient", &self.def_grad)
+    }
+
+    /// The same for stresses.
+    ///
+    /// # Errors
+    /// [`Failure::NonFinite`].
+    pub(in crate::mpm) fn stressed_finite(&self) -> Result<(), Failure> {
+        first("hoop stress", &self.stress_across, |s| s.is_finite())?;
+        first_matrix("stress", &self.sigma)
+    }
+
+    /// The same for velocities, at the end of a step.
+    ///
+    /// # Errors
+    /// [`Failure::NonFinite`].
+    pub(in crate::mpm) fn moving_finite(&self) -> Result<(), Failure> {
+        first_matrix("velocity", &self.v)
+    }
+}
+
+/// Whether every number of a column is finite. On all threads and without early exit, so that
+/// several numbers, whichever matrix they are of, are checked at a time.
+pub(in crate::mpm) fn all_finite<const R: usize, const C: usize>(
+    column: &[SMatrix<f64, R, C>],
+) -> bool {
+    if column.len() > FEW {
+        let ((low, high), mut both) = (column.split_at(column.len() / 2), [true; 2]);
+        let [one, other] = &mut both;
+        join(|| *one = all_finite(low), || *other = all_finite(high));
+        return both == [true; 2];
+    }
+    let (many, rest) = column.as_chunks::<LANES>();
+    vectorized(
+        #[inline(always)]
+        || {
+            let mut sound = [u64::MAX; LANES];
+            for four in many {
+                for register in 0..R * C {
+                    for lane in 0..LANES {
+                        let number = register * LANES + lane;
+                        let x = four[number / (R * C)].as_slice()[number % (R * C)];
+                        sound[lane] &= if x.is_finite() { u64::MAX } else { 0 };
+                    }
+                }
+            }
+            sound == [u64::MAX; LANES]
+        },
+    ) && rest.iter().all(is_finite)
+}
+
+/// Searches for the particle only if there is one.
+fn first_matrix<const R: usize, const C: usize>(
+    quantity: &'static str,
+    column: &[SMatrix<f64, R, C>],
+) -> Result<(), Failure> {
+    if all_finite(column) { Ok(()) } else { first(quantity, column, is_finite) }
+}
+
+fn first<T>(
+    quantity: &'static str,
+    column: &[T],
+    sound: impl Fn(&T) -> bool,
+) -> Result<(), Failure> {
+    match column.iter().position(|entry| !sound(entry)) {
+        Some(p) => Err(Failure::NonFinite { quantity, site: Site::Particle(p) }),
+        None => Ok(()),
+    }
+}
+
+/// Whether every number of a matrix is finite.
+pub(in crate::mpm) fn is_finite<const R: usize, const C: usize>(
+    matrix: &SMatrix<f64, R, C>,
+) -> bool {
+    matrix.iter().all(|number| number.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::foundation::algebra::{Matrix, Vector};
+    use crate::mpm::foundation::particles::Block;
+    use rayon::ThreadPoolBuilder;
+    use rstest::rstest;
+
+    #[rstest]
+    fn the_first_of_many_is_named(
+        #[values(f64::NAN, f64::INFINITY)] wrong: f64,
+        #[values(0, FEW + 18, 2 * FEW + 36)] first: usize,
+        #[values(1, 3)] threads: usize,
+    ) {
+        let (from, to) = (Vector::zeros(), Vector::<1>::new((2 * FEW + 37) as f64));
+        let mut row = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| row.moving_finite()), Ok(()));
+        (row.v[first][0], row.v[2 * FEW + 36][0]) = (wrong, wrong);
+        let found = Failure::NonFinite { quantity: "velocity", site: Site::Particle(first) };
+        assert_eq!(pool.install(|| row.moving_finite()), Err(found));
+    }
+
+    #[test]
+    fn every_number_of_every_matrix_is_looked_at() {
+        let sound = [Matrix::<3>::from_element(1e308); 2 * LANES + 3];
+        assert!(all_finite(&sound));
+        for (p, number) in (0..sound.len()).flat_map(|p| (0..9).map(move |number| (p, number))) {
+            let mut column = sound;
+            column[p][number] = f64::NEG_INFINITY;
+            assert!(!all_finite(&column), "number {number} of matrix {p}");
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Data and arithmetic under all methods: vectors, registers, threads, the grid, the particles, and
+//! the macros that register members of families. Nothing here imports a basis, a kernel or a step.
+
+pub(in crate::mpm) mod algebra;
+pub(in crate::mpm) mod family;
+pub(in crate::mpm) mod finite_check;
+pub(in crate::mpm) mod grid;
+pub(in crate::mpm) mod moments;
+pub(in crate::mpm) mod packed_grid;
+pub(in crate::mpm) mod particles;
+pub(in crate::mpm) mod simd;
+pub(in crate::mpm) mod threads;

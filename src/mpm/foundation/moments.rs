@@ -1,0 +1,109 @@
+//! Moments of the weights of a particle, needed by affine transfers.
+
+use super::algebra::{Matrix, Vector, dyad};
+use crate::subject::Column;
+
+/// Smallest second moment, as a share of h^2. Below it is rounding: along that axis all weight is
+/// on one node, as for a particle on a node of the linear basis.
+pub(in crate::mpm) const SMALLEST: f64 = 1e-13;
+
+/// Moments of the weights of a patch.
+#[derive(Debug, Clone, Copy)]
+pub struct WeightMoments<const D: usize> {
+    /// `sum_i (x_i - x_p) N_i` (m).
+    pub first: Vector<D>,
+    /// `sum_i (x_i - x_p) (x) (x_i - x_p) N_i` (m^2).
+    pub second: Matrix<D>,
+}
+
+/// Moments of the weights of each particle.
+#[derive(Debug, Clone, Default)]
+pub struct Moments<const D: usize> {
+    /// `sum_i (x_i - x_p) N_i`: the mean of the nodes, from the particle (m).
+    pub mean: Vec<Vector<D>>,
+    /// `D_p = sum_i (x_i - x_p) (x) (x_i - x_p) N_i`, about that mean (m^2): the inertia tensor of
+    /// APIC (Jiang et al. 2015, eq. 8).
+    pub second: Vec<Matrix<D>>,
+}
+
+impl<const D: usize> Moments<D> {
+    /// Resizes the columns to `particles` particles.
+    pub fn resize(&mut self, particles: usize) {
+        self.mean.resize(particles, Vector::zeros());
+        self.second.resize(particles, Matrix::zeros());
+    }
+
+    /// Columns for the checkpoint.
+    pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 2] {
+        [Column::of_particles("mean", &self.mean), Column::of_particles("D", &self.second)]
+    }
+}
+
+/// Mean and second moments of the weights of one particle.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::mpm) struct InertiaTensor<const D: usize> {
+    /// The mean of the nodes, from the particle (m).
+    pub(in crate::mpm) mean: Vector<D>,
+    /// D_p (m^2).
+    pub(in crate::mpm) second: Matrix<D>,
+}
+
+impl<const D: usize> InertiaTensor<D> {
+    /// Of products of one-dimensional functions, from mean and variance along each axis: D_p is
+    /// diagonal.
+    #[inline(always)]
+    pub(in crate::mpm) fn diagonal((mean, variance): ([f64; D], [f64; D])) -> Self {
+        let mut inertia = Self { mean: Vector::zeros(), second: Matrix::zeros() };
+        for axis in 0..D {
+            inertia.mean[axis] = mean[axis];
+            inertia.second[(axis, axis)] = variance[axis];
+        }
+        inertia
+    }
+
+    /// Of general weights.
+    #[inline(always)]
+    pub(in crate::mpm) fn full(weight_moments: &WeightMoments<D>) -> Self {
+        let mean = weight_moments.first;
+        Self { mean, second: weight_moments.second - dyad(&mean, &mean) }
+    }
+
+    /// `matrix D_p^-1`.
+    pub(in crate::mpm) fn divide(&self, matrix: &Matrix<D>, h: f64) -> Matrix<D> {
+        matrix * inverse(self.second, SMALLEST * h * h)
+    }
+}
+
+/// The inverse on the axes whose second moment exceeds `smallest`, zero on others.
+fn inverse<const D: usize>(mut second: Matrix<D>, smallest: f64) -> Matrix<D> {
+    let lost: [bool; D] = std::array::from_fn(|axis| !(second[(axis, axis)] > smallest));
+    let drop = |matrix: &mut Matrix<D>, diagonal: f64| {
+        for axis in (0..D).filter(|&axis| lost[axis]) {
+            matrix.row_mut(axis).fill(0.0);
+            matrix.column_mut(axis).fill(0.0);
+            matrix[(axis, axis)] = diagonal;
+        }
+    };
+    drop(&mut second, 1.0);
+    let Some(mut inverse) = second.try_inverse() else { return Matrix::zeros() };
+    drop(&mut inverse, 0.0);
+    inverse
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn an_axis_without_a_moment_has_no_inverse() {
+        let found = inverse(Matrix::<2>::new(0.25, 0.0, 0.0, 1e-20), 1e-13);
+        assert_relative_eq!(found, Matrix::<2>::new(4.0, 0.0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn a_full_matrix_is_inverted() {
+        let second = Matrix::<3>::new(2.0, 0.5, 0.1, 0.5, 3.0, 0.2, 0.1, 0.2, 1.0);
+        assert_relative_eq!(inverse(second, 1e-13) * second, Matrix::identity(), epsilon = 1e-14);
+    }
+}

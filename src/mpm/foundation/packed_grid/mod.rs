@@ -1,0 +1,303 @@
+//! Nodal fields in the layout of the loops of P2G and G2P.
+//!
+//! ```text
+//! node                   lane 0   lane 1   lane 2   lane 3   lanes 4, 5, 6, 7
+//!   P2G 1-D                 p_x      f_x        -        m
+//!   P2G 2-D                 p_x      p_y        -        m   f_x  f_y   -   -
+//!   P2G 3-D                 p_x      p_y      p_z        m   f_x  f_y  f_z  -
+//!   2-D, 3-D, without f     p_x      p_y      p_z        m
+//!   2-D, 3-D, f alone       f_x      f_y      f_z        -
+//!   G2P 1-D                 v_x      a_x        -        -
+//!   G2P 2-D                 v_x      v_y      a_x      a_y
+//!   G2P 3-D                 v_x      v_y      v_z        -   and a second field for a
+//!
+//! row     | node 0 | node 1 | ... | node n-1 | MARGIN nodes |     x fastest, then y, then z
+//! ```
+//!
+//! The margin of a periodic axis repeats its first nodes, so that a patch is always a box of
+//! neighbours. Elsewhere it is zero: functions of weight zero may belong to it.
+//!
+//! Columns of nodes to which packed fields are unpacked.
+
+mod node;
+
+use super::algebra::Vector;
+use super::grid::Grid;
+use super::simd::components;
+use super::threads::{FEW, RowChunks, join, split};
+pub(in crate::mpm) use node::{
+    FieldView, FieldViewMut, Layout, MARGIN, Node4, Node8, PackedNode, force_lane,
+};
+use std::ops::Range;
+
+/// Nodes of a piece of a 1-D grid.
+const PIECE: usize = 1 << 12;
+
+/// Packed field of nodes.
+#[derive(Debug, Default)]
+pub(in crate::mpm) struct PackedField<N> {
+    nodes: Vec<N>,
+    layout: Layout,
+}
+
+/// Nodes along each axis, one where there is no axis.
+fn counts<const D: usize>(grid: &Grid<D>) -> [usize; 3] {
+    std::array::from_fn(|axis| grid.counts.get(axis).copied().unwrap_or(1))
+}
+
+/// Vector in the first lanes of a node.
+#[inline(always)]
+fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
+    std::array::from_fn(|lane| if lane < D { vector[lane] } else { 0.0 })
+}
+
+impl<N: PackedNode> PackedField<N> {
+    /// The field in the shape of `grid`, with undefined values.
+    pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> FieldViewMut<'_, N> {
+        let layout = Layout::new(grid);
+        self.nodes.resize(layout.strides[3], N::default());
+        self.layout = layout;
+        FieldViewMut { nodes: &mut self.nodes, layout }
+    }
+
+    /// Adds the margins of periodic axes to the nodes that they repeat.
+    pub(in crate::mpm) fn fold<const D: usize>(&mut self, grid: &Grid<D>) {
+        for axis in (0..D).rev().filter(|&axis| grid.periodic[axis]) {
+            for (beyond, node) in self.seam(grid, axis) {
+                let more = self.nodes[beyond];
+                self.nodes[node].add(&more);
+            }
+        }
+    }
+
+    /// Nodes of the margin of a periodic `axis`, each with the node that it repeats.
+    fn seam<const D: usize>(
+        &self,
+        grid: &Grid<D>,
+        axis: usize,
+    ) -> impl Iterator<Item = (usize, usize)> + use<D, N> {
+        let (stride, count) = (self.layout.strides[axis], grid.counts[axis]);
+        let (length, total) = (stride * (count + MARGIN), self.nodes.len());
+        (0..total).step_by(length).flat_map(move |block| {
+            (0..MARGIN * stride).map(move |k| {
+                let (layer, rest) = (k / stride, k % stride);
+                let at = |layer: usize| block + layer * stride + rest;
+                (at(count + layer), at(layer % count))
+            })
+        })
+    }
+}
+
+impl PackedField<Node4> {
+    /// Shared view of the field.
+    pub(in crate::mpm) fn view(&self) -> FieldView<'_> {
+        FieldView { nodes: &self.nodes, layout: self.layout }
+    }
+
+    /// Packs a field of vectors and, in the lanes `beside` it, perhaps another one.
+    pub(in crate::mpm) fn pack<const D: usize>(
+        &mut self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        beside: Option<&[Vector<D>]>,
+    ) {
+        self.shaped(grid);
+        let ([across, rows, planes], [_, row, plane, _]) = (counts(grid), self.layout.strides);
+        let piece = |k: usize| across.min(k * PIECE)..across.min((k + 1) * PIECE);
+        let row_of_field = |k: usize| {
+            let (j, k) = (k % (plane / row), k / (plane / row));
+            let (from, is_there) = ((j + k * rows) * across, j < rows && k < planes);
+            if is_there { from..from + across } else { 0..0 }
+        };
+        let length = if D == 1 { PIECE } else { row };
+        RowChunks { length, few: FEW }.each(&mut self.nodes, &|k, here| {
+            let there = if D == 1 { piece(k) } else { row_of_field(k) };
+            let (here, beyond) = here.split_at_mut(there.len());
+            let values = here.iter_mut().zip(&field[there.clone()]);
+            if let Some(beside) = beside {
+                for ((Node4(here), value), beside) in values.zip(&beside[there]) {
+                    *here = lanes(value);
+                    here[D..2 * D].copy_from_slice(beside.as_slice());
+                }
+            } else {
+                values.for_each(|(Node4(here), value)| *here = lanes(value));
+            }
+            // Functions of weight zero may belong here: no NaN of an earlier pass may remain.
+            beyond.fill(Node4::default());
+        });
+        for axis in (0..D).filter(|&axis| grid.periodic[axis]) {
+            for (beyond, node) in self.seam(grid, axis) {
+                self.nodes[beyond] = self.nodes[node];
+            }
+        }
+    }
+}
+
+/// Nodes of a piece of a 1-D grid, few enough to stay in the cache for all columns.
+const COLUMN_PIECE: usize = 1 << 9;
+
+/// Targets of unpacking a field: all nodes, or those of some layers across the last axis.
+#[derive(Debug, Default)]
+pub(in crate::mpm) struct Columns<'a, const D: usize> {
+    /// From the last lane of four.
+    pub(in crate::mpm) mass: Option<&'a mut [f64]>,
+    /// From the first lanes.
+    pub(in crate::mpm) momentum: Option<&'a mut [Vector<D>]>,
+    /// From the lanes after it, or from the first ones where they hold nothing else.
+    pub(in crate::mpm) force: Option<&'a mut [Vector<D>]>,
+    /// Nodes of the grid before the first one of these columns.
+    pub(in crate::mpm) before: usize,
+}
+
+/// Layers of nodes across the last axis of a packed field.
+pub(in crate::mpm) fn layers<const D: usize>(grid: &Grid<D>) -> Range<usize> {
+    0..grid.counts[D - 1] + MARGIN
+}
+
+/// Nodes of a layer of the grid.
+fn nodes_of_layer<const D: usize>(grid: &Grid<D>) -> usize {
+    grid.counts[..D - 1].iter().product()
+}
+
+impl<const D: usize> Columns<'_, D> {
+    /// The same columns.
+    pub(in crate::mpm) fn reborrow(&mut self) -> Columns<'_, D> {
+        let Self { mass, momentum, force, before } = self;
+        let (mass, momentum, force) =
+            (mass.as_deref_mut(), momentum.as_deref_mut(), force.as_deref_mut());
+        Columns { mass, momentum, force, before: *before }
+    }
+
+    /// Nodes before `layer` of the grid, and nodes from there on.
+    pub(in crate::mpm) fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
+        let before = self.before;
+        let from = layer.min(grid.counts[D - 1]) * nodes_of_layer(grid);
+        let count = from.saturating_sub(before);
+        let mass = split(self.mass, count);
+        let momentum = split(self.momentum, count);
+        let force = split(self.force, count);
+        (
+            Self { mass: mass.0, momentum: momentum.0, force: force.0, before },
+            Self { mass: mass.1, momentum: momentum.1, force: force.1, before: before + count },
+        )
+    }
+
+    /// Unpacks these layers, which must be part of the columns.
+    pub(in crate::mpm) fn unpack<N: PackedNode>(
+        &mut self,
+        grid: &Grid<D>,
+        field: &FieldViewMut<'_, N>,
+        layers: Range<usize>,
+    ) {
+        let end = layers.end.min(grid.counts[D - 1]);
+        let mut index = [0; D];
+        if D == 1 {
+            for start in (layers.start..end).step_by(COLUMN_PIECE) {
+                index[0] = start;
+                self.unpack_row(field, &index, start, COLUMN_PIECE.min(end - start));
+            }
+            return;
+        }
+        let (across, rows) = (grid.counts[0], nodes_of_layer(grid) / grid.counts[0]);
+        for layer in layers.start..end {
+            for row in 0..rows {
+                index[1] = row;
+                index[D - 1] = layer;
+                self.unpack_row(field, &index, (layer * rows + row) * across, across);
+            }
+        }
+    }
+
+    /// Unpacks all layers, on several threads.
+    pub(in crate::mpm) fn unpack_all<N: PackedNode>(
+        mut self,
+        grid: &Grid<D>,
+        field: &FieldViewMut<'_, N>,
+    ) {
+        self.par_split(grid, field, layers(grid));
+    }
+
+    fn par_split<N: PackedNode>(
+        &mut self,
+        grid: &Grid<D>,
+        field: &FieldViewMut<'_, N>,
+        layers: Range<usize>,
+    ) {
+        if layers.len() < 2 || layers.len() * nodes_of_layer(grid) <= FEW {
+            return self.unpack(grid, field, layers);
+        }
+        let middle = layers.start + layers.len() / 2;
+        let (mut left, mut right) = self.reborrow().split_at(grid, middle);
+        join(
+            || left.par_split(grid, field, layers.start..middle),
+            || right.par_split(grid, field, middle..layers.end),
+        );
+    }
+
+    /// Unpacks `count` nodes in a row, from the one with this index, number `to` of the grid.
+    fn unpack_row<N: PackedNode>(
+        &mut self,
+        field: &FieldViewMut<'_, N>,
+        index: &[usize; D],
+        to: usize,
+        count: usize,
+    ) {
+        let to = to - self.before..to - self.before + count;
+        let from = field.layout.number(index);
+        let nodes = &field.nodes[from..from + count];
+        if let Some(mass) = &mut self.mass {
+            mass[to.clone()].iter_mut().zip(nodes).for_each(|(m, node)| *m = node.inertia()[3]);
+        }
+        if let Some(momentum) = &mut self.momentum {
+            let column = momentum[to.clone()].iter_mut();
+            column.zip(nodes).for_each(|(value, node)| *value = components(node.inertia(), 0));
+        }
+        if let Some(force) = &mut self.force {
+            let column = force[to].iter_mut().zip(nodes);
+            column.for_each(|(value, node)| *value = components(node.force(), force_lane(D)));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn grid(counts: [usize; 2], periodic: [bool; 2]) -> Grid<2> {
+        Grid::new(Vector::zeros(), 1.0, counts, periodic, counts)
+    }
+
+    proptest! {
+        /// Every place of the packed field stands for one node of the grid: packing writes the
+        /// value of that node there, and folding adds it back.
+        #[test]
+        fn packing_and_folding_are_transposes(
+            counts in [1_usize..6, 1..6],
+            periodic in [any::<bool>(), any::<bool>()],
+        ) {
+            let grid = grid(counts, periodic);
+            let field: Vec<_> = (0..grid.nodes()).map(|i| Vector::<2>::new(i as f64, 1.0)).collect();
+            let mut packed = PackedField::<Node4>::default();
+            packed.pack(&grid, &field, Some(&field));
+            let reach = |axis: usize| counts[axis] + if periodic[axis] { MARGIN } else { 0 };
+            for (i, j) in (0..reach(1)).flat_map(|j| (0..reach(0)).map(move |i| (i, j))) {
+                let at = packed.layout.number(&[i, j]);
+                let node = grid.node(&[i % counts[0], j % counts[1]]);
+                let there = packed.view().row::<1>(at)[0].0;
+                prop_assert_eq!(there, [node as f64, 1.0, node as f64, 1.0]);
+
+                let mut one = PackedField::<Node4>::default();
+                let mut view = one.shaped(&grid);
+                view.clear();
+                view.row::<1>(at)[0].0[3] = 1.0;
+                one.fold(&grid);
+                let mut found = vec![0.0; grid.nodes()];
+                let columns = Columns { mass: Some(&mut found), ..Columns::default() };
+                columns.unpack_all(&grid, &one.shaped(&grid));
+                let expected: Vec<_> = (0..grid.nodes()).map(|i| f64::from(u8::from(i == node))).collect();
+                prop_assert_eq!(found, expected);
+            }
+        }
+    }
+}

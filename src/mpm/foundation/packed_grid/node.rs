@@ -1,0 +1,237 @@
+//! Nodes of packed fields, which have as many numbers as a register, and views of the fields: all
+//! of a field, or consecutive layers.
+
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::simd::{LANES, Plain, Register, Simd};
+use std::fmt::Debug;
+
+/// Node of a packed field.
+pub trait PackedNode: Copy + Debug + Default + Send + Sync {
+    /// Whether a node has lanes for momentum, mass and force in any dimension.
+    const IS_WIDE: bool;
+
+    /// Numbers of a node.
+    type Lanes<S: Simd>: Register;
+
+    /// The numbers in a register.
+    fn load<S: Simd>(&self, simd: S) -> Self::Lanes<S>;
+
+    /// Stores the numbers of a register.
+    fn store<S: Simd>(&mut self, numbers: Self::Lanes<S>);
+
+    /// All lanes zero.
+    #[inline(always)]
+    fn zero<S: Simd>(simd: S) -> Self::Lanes<S> {
+        Self::default().load(simd)
+    }
+
+    /// Lanes of momentum and mass alone.
+    fn of_inertia<S: Simd>(simd: S, inertia: S::F64x4) -> Self::Lanes<S>;
+
+    /// Lanes of a force alone.
+    fn of_force<S: Simd>(simd: S, force: S::F64x4) -> Self::Lanes<S>;
+
+    /// Lanes of momentum and mass together with those of a force.
+    fn join<S: Simd>(simd: S, inertia: S::F64x4, force: S::F64x4) -> Self::Lanes<S>;
+
+    /// Adds the numbers of another node.
+    #[inline(always)]
+    fn add(&mut self, other: &Self) {
+        self.store::<Plain>(self.load(Plain) + other.load(Plain));
+    }
+
+    /// The first four numbers: momentum, and mass in the last lane.
+    fn inertia(&self) -> [f64; LANES];
+
+    /// The four numbers that hold a force from lane [`force_lane`] on.
+    fn force(&self) -> [f64; LANES];
+}
+
+/// First lane of a force among the four that hold it. Along one axis they hold a momentum and a
+/// mass as well.
+pub(in crate::mpm) const fn force_lane(dimension: usize) -> usize {
+    if dimension == 1 { 1 } else { 0 }
+}
+
+/// Four numbers in one cache line.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(align(32))]
+pub(in crate::mpm) struct Node4(pub(in crate::mpm) [f64; LANES]);
+
+/// Eight numbers in one cache line.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(align(64))]
+pub(in crate::mpm) struct Node8([f64; 2 * LANES]);
+
+impl PackedNode for Node4 {
+    const IS_WIDE: bool = false;
+
+    type Lanes<S: Simd> = S::F64x4;
+
+    #[inline(always)]
+    fn load<S: Simd>(&self, simd: S) -> S::F64x4 {
+        simd.load(self.0)
+    }
+
+    #[inline(always)]
+    fn store<S: Simd>(&mut self, numbers: S::F64x4) {
+        self.0 = numbers.into();
+    }
+
+    #[inline(always)]
+    fn of_inertia<S: Simd>(_: S, inertia: S::F64x4) -> S::F64x4 {
+        inertia
+    }
+
+    #[inline(always)]
+    fn of_force<S: Simd>(_: S, force: S::F64x4) -> S::F64x4 {
+        force
+    }
+
+    #[inline(always)]
+    fn join<S: Simd>(_: S, inertia: S::F64x4, force: S::F64x4) -> S::F64x4 {
+        inertia + force
+    }
+
+    #[inline(always)]
+    fn inertia(&self) -> [f64; LANES] {
+        self.0
+    }
+
+    #[inline(always)]
+    fn force(&self) -> [f64; LANES] {
+        self.0
+    }
+}
+
+impl PackedNode for Node8 {
+    const IS_WIDE: bool = true;
+
+    type Lanes<S: Simd> = S::F64x8;
+
+    #[inline(always)]
+    fn load<S: Simd>(&self, simd: S) -> S::F64x8 {
+        simd.load_eight(self.0)
+    }
+
+    #[inline(always)]
+    fn store<S: Simd>(&mut self, numbers: S::F64x8) {
+        self.0 = numbers.into();
+    }
+
+    #[inline(always)]
+    fn of_inertia<S: Simd>(simd: S, inertia: S::F64x4) -> S::F64x8 {
+        simd.join(inertia, simd.splat(0.0))
+    }
+
+    #[inline(always)]
+    fn of_force<S: Simd>(simd: S, force: S::F64x4) -> S::F64x8 {
+        simd.join(simd.splat(0.0), force)
+    }
+
+    #[inline(always)]
+    fn join<S: Simd>(simd: S, inertia: S::F64x4, force: S::F64x4) -> S::F64x8 {
+        simd.join(inertia, force)
+    }
+
+    #[inline(always)]
+    fn inertia(&self) -> [f64; LANES] {
+        let [a, b, c, d, ..] = self.0;
+        [a, b, c, d]
+    }
+
+    #[inline(always)]
+    fn force(&self) -> [f64; LANES] {
+        let [.., a, b, c, d] = self.0;
+        [a, b, c, d]
+    }
+}
+
+/// Additional nodes of an axis: one fewer than the functions of a patch along it.
+pub(in crate::mpm) const MARGIN: usize = 3;
+
+/// Positions of nodes in a packed field.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Layout {
+    /// Distance of neighbours along each axis, then the number of nodes.
+    pub(in crate::mpm) strides: [usize; 4],
+    /// Nodes of the field before the first one of the view.
+    pub(in crate::mpm) before: usize,
+}
+
+impl Layout {
+    /// Layout of a field on `grid`.
+    pub(in crate::mpm) fn new<const D: usize>(grid: &Grid<D>) -> Self {
+        let mut strides = [1; 4];
+        for axis in 0..3 {
+            let count = grid.counts.get(axis).map_or(1, |count| count + MARGIN);
+            strides[axis + 1] = strides[axis] * count;
+        }
+        Self { strides, before: 0 }
+    }
+
+    /// Position of the node with these indices in the view; beyond its end for a node before it.
+    #[inline(always)]
+    pub(in crate::mpm) fn number<const D: usize>(&self, index: &[usize; D]) -> usize {
+        let mut number = index[0];
+        for axis in 1..D {
+            number += index[axis] * self.strides[axis];
+        }
+        number.wrapping_sub(self.before)
+    }
+
+    /// Distance of row `j` of plane `k` from the first row.
+    #[inline(always)]
+    pub(in crate::mpm) fn row(&self, j: usize, k: usize) -> usize {
+        j * self.strides[1] + k * self.strides[2]
+    }
+}
+
+/// Field that a loop reads.
+#[derive(Debug, Clone, Copy)]
+pub struct FieldView<'a> {
+    pub(in crate::mpm) nodes: &'a [Node4],
+    pub(in crate::mpm) layout: Layout,
+}
+
+/// Field, or consecutive layers of it, to which a loop adds.
+#[derive(Debug)]
+pub struct FieldViewMut<'a, N> {
+    pub(in crate::mpm) nodes: &'a mut [N],
+    pub(in crate::mpm) layout: Layout,
+}
+
+impl FieldView<'_> {
+    /// K nodes in a row.
+    #[inline(always)]
+    pub(in crate::mpm) fn row<const K: usize>(&self, start: usize) -> &[Node4] {
+        &self.nodes[start..start + K]
+    }
+}
+
+impl<N: PackedNode> FieldViewMut<'_, N> {
+    /// Reborrowed view.
+    #[inline(always)]
+    pub(in crate::mpm) fn reborrow(&mut self) -> FieldViewMut<'_, N> {
+        FieldViewMut { nodes: self.nodes, layout: self.layout }
+    }
+
+    /// K nodes in a row.
+    #[inline(always)]
+    pub(in crate::mpm) fn row<const K: usize>(&mut self, start: usize) -> &mut [N] {
+        &mut self.nodes[start..start + K]
+    }
+
+    /// Zero everywhere.
+    pub(in crate::mpm) fn clear(&mut self) {
+        self.nodes.fill(N::default());
+    }
+
+    /// Nodes before a layer across the last of D axes, and nodes from there on.
+    pub(in crate::mpm) fn split_at<const D: usize>(self, layer: usize) -> (Self, Self) {
+        let Self { nodes, layout } = self;
+        let before = layout.before.max(layer * layout.strides[D - 1]);
+        let (low, high) = nodes.split_at_mut(nodes.len().min(before - layout.before));
+        (Self { nodes: low, layout }, Self { nodes: high, layout: Layout { before, ..layout } })
+    }
+}

@@ -1,0 +1,332 @@
+//! Particles: one column per quantity, and the configuration in which basis functions live.
+
+use super::algebra::{Matrix, Vector, det};
+use crate::named::named;
+use crate::subject::Column;
+
+/// The material points, structure of arrays. `n` particles; a column exists only if some member
+/// of the solver reads it.
+#[derive(Debug, Clone)]
+pub struct Particles<const D: usize> {
+    /// Reference positions X (m): the labels at which errors are taken.
+    pub x0: Vec<Vector<D>>,
+    /// Positions at which the basis is evaluated (m): current positions x, or in the
+    /// total-Lagrangian frame reference positions X.
+    pub x: Vec<Vector<D>>,
+    /// Current positions (m) in the total-Lagrangian frame; empty in the updated one.
+    pub current_position: Vec<Vector<D>>,
+    /// Velocities (m/s).
+    pub v: Vec<Vector<D>>,
+    /// Masses (kg), constant.
+    pub mass: Vec<f64>,
+    /// Reference volumes (m^D).
+    pub vol0: Vec<f64>,
+    /// Current volumes (m^D), vol = J vol0.
+    pub vol: Vec<f64>,
+    /// Cauchy stresses (Pa).
+    pub sigma: Vec<Matrix<D>>,
+    /// Deformation gradients F; empty unless a basis or a material reads them.
+    pub def_grad: Vec<Matrix<D>>,
+    /// Stretches across the plane of two dimensions, F_33; empty in plane strain, where they are 1.
+    pub across: Vec<f64>,
+    /// Their rates D_33 of the present step (1/s), and stresses sigma_33 (Pa); empty but in a body
+    /// of revolution.
+    pub rate_across: Vec<f64>,
+    /// See `rate_across`.
+    pub stress_across: Vec<f64>,
+    /// Domains of the particles at the start of the step; empty unless a basis reads them. The
+    /// columns of each matrix are the vectors from the particle to the middles of its domain's
+    /// faces, F diag(spacing)/2 (m). They follow F when positions move, not before: a domain that
+    /// changed within a step would put forces on nodes that have no mass.
+    pub domain: Vec<Matrix<D>>,
+    /// Domains in the reference configuration; empty where all are boxes of the size `spacing`.
+    pub domain0: Vec<Matrix<D>>,
+    /// Velocity gradients of the present step (1/s), from the kernel to the material.
+    pub grad_v: Vec<Matrix<D>>,
+    /// Temperatures (K); empty unless an effect has them.
+    pub temperature: Vec<f64>,
+    /// Reference spacing of the particles on each axis (m); its mean where it is not the same for
+    /// all.
+    pub spacing: Vector<D>,
+}
+
+/// A box-shaped body to be filled with particles.
+#[derive(Debug, Clone, Copy)]
+pub struct Block<const D: usize> {
+    /// Lowest corner (m).
+    pub from: Vector<D>,
+    /// Highest corner (m).
+    pub to: Vector<D>,
+    /// Density in the reference configuration (kg/m3).
+    pub density: f64,
+}
+
+impl<const D: usize> Block<D> {
+    /// The centres of the equal shares, see [`Particles::fill`].
+    pub fn centres(&self, h: f64, per_axis: usize) -> impl Iterator<Item = Vector<D>> {
+        let (length, count) = (self.to - self.from, self.counts(h, per_axis));
+        (0..count.iter().product()).map(move |p| centre(p, self, &length, &count))
+    }
+
+    /// Lengths of a share (m).
+    pub fn spacing(&self, h: f64, per_axis: usize) -> Vector<D> {
+        let (length, count) = (self.to - self.from, self.counts(h, per_axis));
+        Vector::from_fn(|axis, _| length[axis] / count[axis] as f64)
+    }
+
+    /// Shares along each axis.
+    pub fn counts(&self, h: f64, per_axis: usize) -> [usize; D] {
+        std::array::from_fn(|axis| {
+            let length = self.to[axis] - self.from[axis];
+            libm::round(length * per_axis as f64 / h).max(1.0) as usize
+        })
+    }
+}
+
+impl<const D: usize> Particles<D> {
+    /// Fills `block` with equally spaced particles, each at the centre of its share, as near to
+    /// `per_axis` particles per cell of size `h` on each axis as the length of the body allows
+    /// (exactly so where the body is a whole number of cells long). At rest and free of stress.
+    pub fn fill(block: &Block<D>, h: f64, per_axis: usize) -> Self {
+        Self::fill_where(block, h, per_axis, |_| true)
+    }
+
+    /// Fills `block` and keeps the particles whose reference position is `inside`, each with the
+    /// whole of its share.
+    pub fn fill_where(
+        block: &Block<D>,
+        h: f64,
+        per_axis: usize,
+        inside: impl FnMut(&Vector<D>) -> bool,
+    ) -> Self {
+        let spacing = block.spacing(h, per_axis);
+        let volume = spacing.iter().product::<f64>();
+        let mut x0: Vec<Vector<D>> = block.centres(h, per_axis).filter(inside).collect();
+        x0.shrink_to_fit();
+        let total = x0.len();
+        Self {
+            x: x0.clone(),
+            v: vec![Vector::zeros(); total],
+            mass: vec![block.density * volume; total],
+            vol0: vec![volume; total],
+            vol: vec![volume; total],
+            sigma: vec![Matrix::zeros(); total],
+            current_position: Vec::new(),
+            def_grad: Vec::new(),
+            across: Vec::new(),
+            rate_across: Vec::new(),
+            stress_across: Vec::new(),
+            domain: Vec::new(),
+            domain0: Vec::new(),
+            temperature: Vec::new(),
+            grad_v: vec![Matrix::zeros(); total],
+            x0,
+            spacing,
+        }
+    }
+
+    /// Adds a particle at `x0` (m), at rest, with the mass and the volume of the first one. Nothing
+    /// has been prepared for a solver yet.
+    pub fn add(&mut self, x0: Vector<D>) {
+        let (Some(mass), Some(vol0)) = (self.mass.first().copied(), self.vol0.first().copied())
+        else {
+            return;
+        };
+        self.x0.push(x0);
+        self.x.push(x0);
+        self.v.push(Vector::zeros());
+        self.mass.push(mass);
+        self.vol0.push(vol0);
+        self.vol.push(vol0);
+        self.sigma.push(Matrix::zeros());
+        self.grad_v.push(Matrix::zeros());
+        self.domain0.extend(self.domain0.first().copied());
+    }
+
+    /// Adds the column of deformation gradients, F = I, if it is not there yet.
+    pub fn track_deformation(&mut self) {
+        self.def_grad.resize(self.len(), Matrix::identity());
+    }
+
+    /// Starts the body deformed: `state` gives the displacement (m) and F of each particle, by its
+    /// index. Stresses and domains follow when a solver is made of them.
+    pub fn deform(&mut self, state: impl Fn(usize) -> (Vector<D>, Matrix<D>)) {
+        self.track_deformation();
+        for p in 0..self.len() {
+            let (u, f) = state(p);
+            self.x[p] = self.x0[p] + u;
+            self.def_grad[p] = f;
+            self.vol[p] = det(&f) * self.vol0[p];
+        }
+    }
+
+    /// Whether any particle starts with another F than the identity, or with NaN.
+    pub(in crate::mpm) fn is_deformed(&self) -> bool {
+        self.def_grad.iter().any(|f| *f != Matrix::<D>::identity())
+    }
+
+    /// Adds the column of domains, or brings it up to date with F.
+    pub fn track_domains(&mut self) {
+        self.track_deformation();
+        self.domain.resize(self.len(), Matrix::zeros());
+        for (domain, f) in self.domain.iter_mut().zip(&self.def_grad) {
+            *domain = Matrix::from_fn(|i, axis| 0.5 * self.spacing[axis] * f[(i, axis)]);
+        }
+        for ((domain, f), own) in self.domain.iter_mut().zip(&self.def_grad).zip(&self.domain0) {
+            *domain = f * own;
+        }
+    }
+
+    /// Current position of particle `p` (m), in either frame.
+    pub fn position(&self, p: usize) -> &Vector<D> {
+        &self.positions()[p]
+    }
+
+    /// Current positions (m), in either frame.
+    #[inline(always)]
+    pub fn positions(&self) -> &[Vector<D>] {
+        if self.current_position.is_empty() { &self.x } else { &self.current_position }
+    }
+
+    /// Current positions (m), to be changed.
+    pub fn positions_mut(&mut self) -> &mut Vec<Vector<D>> {
+        if self.current_position.is_empty() { &mut self.x } else { &mut self.current_position }
+    }
+
+    /// Drops the columns of a motion, for a body at rest.
+    pub(in crate::mpm) fn forget_motion(&mut self) {
+        (self.v, self.sigma, self.grad_v) = (Vec::new(), Vec::new(), Vec::new());
+        self.def_grad = Vec::new();
+    }
+
+    /// The columns that are there.
+    pub fn columns(&self) -> Vec<Column<'_>> {
+        let all = [
+            Column::of_particles("X", &self.x0),
+            Column::of_particles("x", &self.x),
+            Column::of_particles("current x", &self.current_position),
+            Column::of_particles("v", &self.v),
+            Column::of_particles("mass", &self.mass),
+            Column::of_particles("V0", &self.vol0),
+            Column::of_particles("V", &self.vol),
+            Column::of_particles("sigma", &self.sigma),
+            Column::of_particles("F", &self.def_grad),
+            Column::of_particles("F33", &self.across),
+            Column::of_particles("D33", &self.rate_across),
+            Column::of_particles("sigma33", &self.stress_across),
+            Column::of_particles("domain", &self.domain),
+            Column::of_particles("domain0", &self.domain0),
+            Column::of_particles("grad v", &self.grad_v),
+            Column::of_particles("T", &self.temperature),
+        ];
+        all.into_iter().filter(|column| column.size.entries > 0).collect()
+    }
+
+    /// Number of particles.
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Whether there is no particle.
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+}
+
+/// Centre of share `p`, computed from its own index so that no rounding accumulates.
+fn centre<const D: usize>(
+    mut p: usize,
+    block: &Block<D>,
+    length: &Vector<D>,
+    count: &[usize; D],
+) -> Vector<D> {
+    let mut x = Vector::zeros();
+    for axis in 0..D {
+        let i = p % count[axis];
+        p /= count[axis];
+        x[axis] = block.from[axis] + length[axis] * (i as f64 + 0.5) / count[axis] as f64;
+    }
+    x
+}
+
+named! {
+    /// Names of the frames that suites may choose.
+    pub enum FrameName {
+        /// Updated Lagrangian: the basis sees particles where they are, and meets the Cauchy
+        /// stress. The original MPM.
+        Updated = "updated_lagrangian",
+        /// Total Lagrangian: the basis sees particles where they were, and meets the first
+        /// Piola-Kirchhoff stress, `f_int_i = - sum_p V0_p P_p grad0 N_i(X_p)`; no particle ever
+        /// changes its cell (de Vaucorbeil, Nguyen & Hutchinson 2020, CMAME 360).
+        Total = "total_lagrangian",
+    }
+}
+
+impl<const D: usize> Particles<D> {
+    /// Enters the total-Lagrangian frame: from now on the basis is evaluated at reference
+    /// positions.
+    pub(in crate::mpm) fn stay_in_reference(&mut self) {
+        self.track_deformation();
+        self.current_position.clone_from(&self.x);
+        self.x.clone_from(&self.x0);
+    }
+
+    /// Stress times volume (N m) of particle `p`, the factor of basis gradients in the internal
+    /// force: V sigma, in the total-Lagrangian frame V0 P = V sigma F^-T.
+    #[inline(always)]
+    pub fn flux(&self, p: usize) -> Matrix<D> {
+        let flux = self.sigma[p] * self.vol[p];
+        if self.current_position.is_empty() { flux } else { self.in_reference(p, &flux) }
+    }
+
+    #[inline(never)]
+    fn in_reference(&self, p: usize, flux: &Matrix<D>) -> Matrix<D> {
+        // No inverse: the particle is inverted, and the next stage says so.
+        flux * self.def_grad[p].try_inverse().unwrap_or_else(Matrix::zeros).transpose()
+    }
+
+    /// Turns gradients with respect to X into those with respect to x, `grad0 v F^-1`.
+    pub(in crate::mpm) fn push_gradients_forward(&mut self) {
+        for (grad_v, f) in self.grad_v.iter_mut().zip(&self.def_grad) {
+            *grad_v *= f.try_inverse().unwrap_or_else(Matrix::zeros);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_body_is_filled_with_its_own_mass() {
+        let (from, to) = (Vector::<2>::new(0.0, 1.0), Vector::<2>::new(1.0, 3.0));
+        let block = Block { from, to, density: 3.0 };
+        let particles = Particles::fill(&block, 0.25, 2);
+        assert_eq!(particles.len(), 8 * 16);
+        assert_relative_eq!(particles.mass.iter().sum::<f64>(), 6.0, max_relative = 1e-14);
+        assert_relative_eq!(particles.x[0], Vector::<2>::new(0.0625, 1.0625));
+    }
+
+    #[test]
+    fn a_round_body_keeps_whole_shares_of_the_lattice() {
+        let (from, to) = (Vector::<2>::new(-2.0, -2.0), Vector::<2>::new(2.0, 2.0));
+        let block = Block { from, to, density: 1.0 };
+        let ring = |x: &Vector<2>| (0.75..=1.25).contains(&x.norm());
+        let particles = Particles::fill_where(&block, 0.125, 2, ring);
+        // In half spacings, centres are odd and the radii 24 and 40: exact in whole numbers.
+        let odd = || (-63..64_i32).step_by(2);
+        let squares = odd().flat_map(|a| odd().map(move |b| a * a + b * b));
+        let inside = squares.filter(|square| (24 * 24..=40 * 40).contains(square)).count();
+        assert_eq!(particles.len(), inside);
+        assert!(particles.vol0.iter().all(|vol| *vol == 0.0625 * 0.0625));
+    }
+
+    #[test]
+    fn a_body_that_does_not_end_on_a_node_keeps_its_length() {
+        let (from, to) = (Vector::<1>::new(0.0), Vector::<1>::new(1.0));
+        let particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.15 / 20.0, 10);
+        assert_eq!(particles.len(), 174);
+        assert_relative_eq!(particles.vol0.iter().sum::<f64>(), 1.0, max_relative = 1e-14);
+    }
+}

@@ -1,0 +1,305 @@
+//! Mass matrices: the family. A member is one line below and its type.
+
+use super::boundary::Boundary;
+use super::foundation::algebra::Vector;
+use super::foundation::family::objects;
+use super::foundation::grid::Grid;
+use super::foundation::particles::Particles;
+use super::kernel::contract::Kernel;
+use crate::subject::Failure;
+use nalgebra::DVector;
+use nalgebra_sparse::factorization::{CholeskyError, CscCholesky, CscSymbolicCholesky};
+use nalgebra_sparse::pattern::SparsityPattern;
+
+objects! {
+    /// Names of the mass matrices that suites may choose for MPM.
+    pub enum MassName;
+    /// Makes the mass matrix that a suite names.
+    pub fn mass_matrix -> MassMatrix;
+    "lumped" => Lumped: Lumped,
+    "consistent" => Consistent: Consistent::default(),
+}
+
+/// Turns nodal momenta into velocities, and forces into accelerations.
+pub trait MassMatrix<const D: usize>: Send + Sync {
+    /// Assembles the matrix for new positions of the particles; `grid.mass` is up to date. Returns
+    /// the passes over particles that it took.
+    ///
+    /// # Errors
+    /// [`Failure::Solve`] if there is no inverse.
+    fn assemble(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        particles: &Particles<D>,
+        grid: &Grid<D>,
+        boundary: &[Box<dyn Boundary<D>>],
+    ) -> Result<u64, Failure>;
+
+    /// Divides `field` (kg m/s, or N) by the matrix. Values on held nodes are not defined.
+    fn solve(&self, grid: &Grid<D>, field: &mut [Vector<D>]);
+}
+
+/// The mass matrix of the original MPM.
+#[derive(Debug, Clone, Copy)]
+pub struct Lumped;
+
+impl<const D: usize> MassMatrix<D> for Lumped {
+    fn assemble(
+        &mut self,
+        _: &dyn Kernel<D>,
+        _: &Particles<D>,
+        _: &Grid<D>,
+        _: &[Box<dyn Boundary<D>>],
+    ) -> Result<u64, Failure> {
+        Ok(0)
+    }
+
+    fn solve(&self, grid: &Grid<D>, field: &mut [Vector<D>]) {
+        grid.divide_by_mass(field);
+    }
+}
+
+/// The consistent mass matrix.
+#[derive(Default)]
+pub struct Consistent {
+    /// One for each axis, but for axes on which the same nodes are held.
+    factors: Vec<Factor>,
+    entries: MassEntries,
+}
+
+/// Entries of the matrix, one for each pair of nodes in the support of a particle, before
+/// constraints.
+#[derive(Default)]
+struct MassEntries {
+    /// Nodes of each.
+    pairs: Vec<(usize, usize)>,
+    /// Mass of each (kg).
+    masses: Vec<f64>,
+    /// Whether the pairs are others than those of the step before.
+    have_moved: bool,
+}
+
+impl MassEntries {
+    fn collect<const D: usize>(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+    ) {
+        let Self { pairs, masses, have_moved } = self;
+        *have_moved = false;
+        masses.clear();
+        kernel.mass_entries(grid, particles, &mut |i, j, mass| {
+            match pairs.get_mut(masses.len()) {
+                Some(pair) if *pair == (i, j) => {}
+                Some(pair) => (*pair, *have_moved) = ((i, j), true),
+                None => {
+                    pairs.push((i, j));
+                    *have_moved = true;
+                }
+            }
+            masses.push(mass);
+        });
+        *have_moved |= pairs.len() > masses.len();
+        pairs.truncate(masses.len());
+    }
+}
+
+/// The matrix of the nodes that are free along an axis.
+struct Factor {
+    /// Row of each node; None where it has none.
+    row: Vec<Option<usize>>,
+    rows: usize,
+    assembly: Assembly,
+    /// The values of the matrix (kg).
+    values: Vec<f64>,
+    cholesky: CscCholesky<f64>,
+}
+
+impl Factor {
+    /// The factor after `last`, that of the step before.
+    fn after(last: Option<Self>, free: &[bool], entries: &MassEntries) -> Result<Self, Failure> {
+        let mut rows = 0;
+        let mut number = |free: &bool| {
+            rows += usize::from(*free);
+            free.then(|| rows - 1)
+        };
+        let row: Vec<_> = free.iter().map(&mut number).collect();
+        let assembled = || {
+            let place = |&(i, j): &(usize, usize)| row[i].zip(row[j]);
+            Assembly::new(rows, entries.pairs.iter().map(place))
+        };
+        let factor = match last {
+            Some(last) if !entries.have_moved && last.row == row => last.refactored(entries),
+            Some(last) => {
+                let assembly = assembled();
+                if assembly.pattern == last.assembly.pattern {
+                    Self { row, rows, assembly, ..last }.refactored(entries)
+                } else {
+                    Self::new(assembly, row, rows, entries)
+                }
+            }
+            None => Self::new(assembled(), row, rows, entries),
+        };
+        factor.map_err(|_| {
+            let why = "the consistent mass matrix is singular: too few particles see some node";
+            Failure::Solve(why.to_owned())
+        })
+    }
+
+    fn new(
+        assembly: Assembly,
+        row: Vec<Option<usize>>,
+        rows: usize,
+        entries: &MassEntries,
+    ) -> Result<Self, CholeskyError> {
+        let mut values = Vec::new();
+        assembly.add_up(&entries.masses, &mut values);
+        let symbolic = CscSymbolicCholesky::factor(assembly.pattern.clone());
+        let cholesky = CscCholesky::factor_numerical(symbolic, &values)?;
+        Ok(Self { row, rows, assembly, values, cholesky })
+    }
+
+    /// The factor of other masses at the same places: the steps of the factorisation, and so its
+    /// bits, are those of a new one.
+    fn refactored(mut self, entries: &MassEntries) -> Result<Self, CholeskyError> {
+        self.assembly.add_up(&entries.masses, &mut self.values);
+        self.cholesky.refactor(&self.values).map(|()| self)
+    }
+
+    fn solve<const D: usize>(&self, axis: usize, field: &mut [Vector<D>]) {
+        let mut side = DVector::zeros(self.rows);
+        for (value, row) in field.iter().zip(&self.row) {
+            if let Some(row) = row {
+                side[*row] = value[axis];
+            }
+        }
+        self.cholesky.solve_mut(&mut side);
+        for (value, row) in field.iter_mut().zip(&self.row) {
+            value[axis] = row.map_or(0.0, |row| side[row]);
+        }
+    }
+}
+
+/// Where nothing is held and there is mass: one where a component is free, zero elsewhere.
+fn free<const D: usize>(grid: &Grid<D>, boundary: &[Box<dyn Boundary<D>>]) -> Vec<Vector<D>> {
+    let has_mass = |m: &f64| Vector::from_element(f64::from(u8::from(*m > 0.0)));
+    let mut free: Vec<Vector<D>> = grid.mass.iter().map(has_mass).collect();
+    for condition in boundary {
+        condition.clear(&mut free);
+    }
+    free
+}
+
+impl<const D: usize> MassMatrix<D> for Consistent {
+    fn assemble(
+        &mut self,
+        kernel: &dyn Kernel<D>,
+        particles: &Particles<D>,
+        grid: &Grid<D>,
+        boundary: &[Box<dyn Boundary<D>>],
+    ) -> Result<u64, Failure> {
+        self.entries.collect(kernel, grid, particles);
+        let free = free(grid, boundary);
+        let along = |axis: usize| free.iter().map(|f| f[axis] > 0.0).collect::<Vec<bool>>();
+        let mut last = std::mem::take(&mut self.factors).into_iter();
+        let same = (1..D).all(|axis| along(axis) == along(0));
+        for axis in 0..if same { 1 } else { D } {
+            self.factors.push(Factor::after(last.next(), &along(axis), &self.entries)?);
+        }
+        // Every pair of nodes is visited.
+        Ok(1 + kernel.support())
+    }
+
+    fn solve(&self, _: &Grid<D>, field: &mut [Vector<D>]) {
+        for axis in 0..D {
+            if let Some(factor) = self.factors.get(axis).or(self.factors.first()) {
+                factor.solve(axis, field);
+            }
+        }
+    }
+}
+
+/// Where the entries of a matrix go.
+struct Assembly {
+    /// Where the matrix is not zero.
+    pattern: SparsityPattern,
+    /// The numbers of the entries, those of a place behind each other, place after place.
+    order: Vec<usize>,
+    /// Where in `order` the entries of each place end.
+    ends: Vec<usize>,
+}
+
+impl Assembly {
+    /// For a matrix of `size` rows with entries at `places`, row and column; those without are left
+    /// out.
+    ///
+    /// Entries of a place are added in the order of a sort that is not stable, but the same
+    /// everywhere: that of `nalgebra_sparse` for a `CooMatrix`, and so are the bits.
+    fn new(size: usize, places: impl Iterator<Item = Option<(usize, usize)>>) -> Self {
+        let mut columns = vec![Vec::new(); size];
+        let mut row = Vec::new();
+        for (entry, place) in places.enumerate() {
+            row.push(place.map_or(0, |(i, _)| i));
+            if let Some((_, j)) = place {
+                columns[j].push(entry);
+            }
+        }
+        let (mut order, mut ends) = (Vec::with_capacity(row.len()), Vec::new());
+        let (mut offsets, mut rows) = (vec![0], Vec::new());
+        for mut column in columns {
+            column.sort_unstable_by_key(|entry| row[*entry]);
+            for same in column.chunk_by(|a, b| row[*a] == row[*b]) {
+                rows.push(row[same[0]]);
+                order.extend_from_slice(same);
+                ends.push(order.len());
+            }
+            offsets.push(rows.len());
+        }
+        let pattern = SparsityPattern::try_from_offsets_and_indices(size, size, offsets, rows)
+            .expect("rows are sorted, and each occurs once in a column");
+        Self { pattern, order, ends }
+    }
+
+    /// The values of the matrix, column by column, from those of all entries.
+    fn add_up(&self, entries: &[f64], values: &mut Vec<f64>) {
+        values.clear();
+        let mut start = 0;
+        for end in &self.ends {
+            let sum = self.order[start..*end].iter().map(|entry| entries[*entry]);
+            values.push(sum.reduce(|sum, entry| sum + entry).unwrap_or_default());
+            start = *end;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra_sparse::{CooMatrix, CscMatrix};
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Columns with few entries and with many: sorting takes other ways for short lists.
+        #[test]
+        fn the_bits_are_those_of_the_library(
+            entries in proptest::collection::vec((0..6_usize, 0..6_usize, 1e-3..1.0_f64), 0..900),
+        ) {
+            // The row and column 5 is that of nodes that are held.
+            let free = |i: usize, j: usize| (i < 5 && j < 5).then_some((i, j));
+            let mut matrix = CooMatrix::new(5, 5);
+            for &(i, j, value) in &entries {
+                if let Some((i, j)) = free(i, j) {
+                    matrix.push(i, j, value);
+                }
+            }
+            let expected = CscMatrix::from(&matrix);
+            let found = Assembly::new(5, entries.iter().map(|&(i, j, _)| free(i, j)));
+            prop_assert_eq!(&found.pattern, expected.pattern());
+            let mut values = Vec::new();
+            let masses: Vec<f64> = entries.iter().map(|entry| entry.2).collect();
+            found.add_up(&masses, &mut values);
+            prop_assert_eq!(values, expected.values());
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Cell of each particle, and counters of cell crossings and departures.
+
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::finite_check::is_finite;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{BATCH, vectorized};
+use crate::mpm::foundation::threads::{FEW, join};
+use crate::subject::{Checkpoint, Column, Failure, Memory, Site};
+use std::array;
+
+/// The cells of all particles, with counters.
+#[derive(Debug)]
+pub(in crate::mpm) struct CellTracker<const D: usize> {
+    /// Index of the cell along each axis, counted on beyond a periodic face: whole numbers, with
+    /// which positions are compared.
+    cells: Vec<[f64; D]>,
+    /// Changes of cell so far.
+    pub(in crate::mpm) crossings: u64,
+    /// Particles outside the grid now.
+    pub(in crate::mpm) left_domain: u64,
+}
+
+impl<const D: usize> CellTracker<D> {
+    /// Finds the cells of particles that have not moved yet.
+    ///
+    /// # Errors
+    /// [`Failure::LeftDomain`] for the first particle that has none.
+    pub(in crate::mpm) fn new(grid: &Grid<D>, particles: &Particles<D>) -> Result<Self, Failure> {
+        let find = |(p, x): (usize, &Vector<D>)| cell(grid, x).ok_or_else(|| nowhere(p, x));
+        let mut cells = particles.x.iter().enumerate().map(find).collect::<Result<Vec<_>, _>>()?;
+        cells.shrink_to_fit();
+        Ok(Self { cells, crossings: 0, left_domain: 0 })
+    }
+
+    /// Columns for particles.
+    pub(in crate::mpm) fn columns(&self) -> Column<'_> {
+        Column::of_particles("cell", &self.cells)
+    }
+
+    /// Counts changes of cell and departures. In the total-Lagrangian frame a particle keeps the
+    /// cell of its reference position, and its position must be a number.
+    ///
+    /// # Errors
+    /// The failure of the first particle that is in no cell.
+    pub(in crate::mpm) fn track(
+        &mut self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+    ) -> Result<(), Failure> {
+        let x = particles.positions();
+        let found = if particles.current_position.is_empty() {
+            enter_all(grid, &mut self.cells, x, 0)
+        } else {
+            let lost = x.iter().position(|x| !is_finite(x));
+            CellChanges { lost, ..CellChanges::default() }
+        };
+        self.crossings += found.crossings;
+        self.left_domain += found.left_domain;
+        found.lost.map_or(Ok(()), |p| Err(nowhere(p, &x[p])))
+    }
+}
+
+/// Counts of some particles that have moved.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+struct CellChanges {
+    crossings: u64,
+    left_domain: u64,
+    /// The first particle that is in no cell.
+    lost: Option<usize>,
+}
+
+/// Puts particles, of which `first` is the number of the first, into the cells of their positions,
+/// on all threads.
+fn enter_all<const D: usize>(
+    grid: &Grid<D>,
+    cells: &mut [[f64; D]],
+    x: &[Vector<D>],
+    first: usize,
+) -> CellChanges {
+    let mut found = CellChanges::default();
+    if x.len() > FEW {
+        let middle = (x.len() / 2).next_multiple_of(BATCH);
+        let ((low, high), (x_of_low, x_of_high)) = (cells.split_at_mut(middle), x.split_at(middle));
+        let mut of_high = found;
+        join(
+            || found = enter_all(grid, low, x_of_low, first),
+            || of_high = enter_all(grid, high, x_of_high, first + middle),
+        );
+        return CellChanges {
+            crossings: found.crossings + of_high.crossings,
+            left_domain: found.left_domain + of_high.left_domain,
+            lost: found.lost.or(of_high.lost),
+        };
+    }
+    vectorized(
+        #[inline(always)]
+        || {
+            let batches = cells.chunks_mut(BATCH).zip(x.chunks(BATCH));
+            for (batch, (cells, x)) in batches.enumerate() {
+                if !stay(grid, cells, x) {
+                    enter_each(grid, cells, x, first + batch * BATCH, &mut found);
+                }
+            }
+        },
+    );
+    found
+}
+
+impl<const D: usize> Memory for CellTracker<D> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { cells, crossings, left_domain } = self;
+        checkpoint.visit(&mut cells[..]);
+        checkpoint.visit(crossings);
+        checkpoint.visit(left_domain);
+    }
+}
+
+/// Whether every particle of a batch is between the faces of its cell, as most are after a step.
+#[inline(always)]
+#[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch")]
+fn stay<const D: usize>(grid: &Grid<D>, cells: &[[f64; D]], x: &[Vector<D>]) -> bool {
+    let mut stay = true;
+    for (cell, x) in cells.iter().zip(x) {
+        for axis in 0..D {
+            let s = grid.local(x, axis);
+            stay &= (s >= cell[axis]) & (s < cell[axis] + 1.0);
+        }
+    }
+    stay
+}
+
+/// Puts each particle of a batch into its cell.
+#[inline(never)]
+fn enter_each<const D: usize>(
+    grid: &Grid<D>,
+    cells: &mut [[f64; D]],
+    x: &[Vector<D>],
+    first: usize,
+    found: &mut CellChanges,
+) {
+    for (lane, (at, x)) in cells.iter_mut().zip(x).enumerate() {
+        if let Some(now) = cell(grid, x) {
+            found.crossings += u64::from(crosses(grid, at, &now));
+            *at = now;
+        } else {
+            found.left_domain += u64::from(is_finite(x));
+            found.lost = found.lost.or(Some(first + lane));
+        }
+    }
+}
+
+/// The cell that holds `x`, counted on beyond a periodic face, if one does.
+fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> Option<[f64; D]> {
+    let inside = grid.cell(x)?;
+    Some(array::from_fn(|axis| {
+        let beyond = grid.periodic[axis].then(|| libm::floor(grid.local(x, axis)));
+        beyond.unwrap_or(inside[axis] as f64)
+    }))
+}
+
+/// Whether two cells differ, and not by whole periods.
+fn crosses<const D: usize>(grid: &Grid<D>, from: &[f64; D], to: &[f64; D]) -> bool {
+    (0..D).any(|axis| {
+        let moved = to[axis] - from[axis];
+        let apart = if grid.periodic[axis] { moved % grid.cells[axis] as f64 } else { moved };
+        apart != 0.0
+    })
+}
+
+fn nowhere<const D: usize>(p: usize, x: &Vector<D>) -> Failure {
+    let site = Site::Particle(p);
+    if is_finite(x) {
+        Failure::LeftDomain { site, position: x.iter().copied().collect() }
+    } else {
+        Failure::NonFinite { quantity: "position", site }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::foundation::particles::Block;
+    use rayon::ThreadPoolBuilder;
+    use rstest::rstest;
+
+    /// A row of particles, one to a cell, of which some go to the next cell, some leave the grid
+    /// and one is nowhere.
+    #[rstest]
+    fn particles_are_counted_alike_on_any_number_of_threads(#[values(1, 3)] threads: usize) {
+        let total = 2 * FEW + 37;
+        let (from, to) = (Vector::zeros(), Vector::<1>::new(total as f64));
+        let mut row = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let grid = Grid::new(Vector::zeros(), 1.0, [total], [false], [total + 1]);
+        let mut tracker = CellTracker::new(&grid, &row).unwrap();
+        let crossing = [3, FEW - 1, FEW, 2 * FEW, total - 2];
+        for p in crossing {
+            row.x[p][0] += 1.0;
+        }
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| tracker.track(&grid, &row)), Ok(()));
+        assert_eq!((tracker.crossings, tracker.left_domain), (5, 0));
+        for p in [FEW + 7, FEW + 9, total - 1] {
+            row.x[p][0] = -1.0;
+        }
+        row.x[5][0] = f64::NAN;
+        let lost = Failure::NonFinite { quantity: "position", site: Site::Particle(5) };
+        assert_eq!(pool.install(|| tracker.track(&grid, &row)), Err(lost));
+        assert_eq!((tracker.crossings, tracker.left_domain), (5, 3));
+    }
+
+    /// Moves of one particle in cells of size 1, one after the other: the crossings that each adds.
+    #[rstest]
+    #[case::within_its_cell(false, &[(0.25, 0), (1.0, 1), (1.75, 0)])]
+    #[case::back_and_forth(false, &[(1.0, 1), (0.5, 1)])]
+    #[case::onto_the_last_face(false, &[(3.5, 1), (4.0, 0), (3.9, 0)])]
+    #[case::beyond_a_periodic_face(true, &[(-0.1, 1), (-0.9, 0), (-1.1, 1), (-0.2, 1)])]
+    #[case::on_beyond_the_last(true, &[(3.9, 1), (4.0, 1), (4.5, 0), (5.1, 1), (9.0, 0)])]
+    #[case::by_whole_periods(true, &[(4.5, 0), (-7.5, 0), (4e15, 0)])]
+    fn a_crossing_is_a_change_of_cell(#[case] periodic: bool, #[case] moves: &[(f64, u64)]) {
+        let (from, to) = (Vector::zeros(), Vector::<1>::new(1.0));
+        let mut one = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let grid = Grid::new(Vector::zeros(), 1.0, [4], [periodic], [5]);
+        let mut tracker = CellTracker::new(&grid, &one).unwrap();
+        let mut crossings = 0;
+        for (x, crossed) in moves {
+            one.x[0][0] = *x;
+            assert_eq!(tracker.track(&grid, &one), Ok(()), "{x}");
+            crossings += crossed;
+            assert_eq!(tracker.crossings, crossings, "{x}");
+        }
+    }
+}

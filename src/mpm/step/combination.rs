@@ -1,0 +1,127 @@
+//! Combinations of the parts of a method.
+
+use crate::mpm::basis::{BasisName, Domain, with_basis};
+use crate::mpm::foundation::particles::FrameName;
+use crate::mpm::mass::MassName;
+use crate::mpm::transfer::{TransferChoice, TransferKind};
+use crate::subject::{PlaneState, Start};
+
+/// Refuses a combination that means nothing.
+///
+/// # Errors
+/// One line that names both parts and says why they do not go together.
+pub fn combine(
+    basis: BasisName,
+    transfer: impl Into<TransferChoice>,
+    mass: MassName,
+    frame: FrameName,
+) -> Result<(), String> {
+    let transfer = transfer.into();
+    let (b, t, m, f) = (basis.name(), transfer.name(), mass.name(), frame.name());
+    let kind = transfer.kind();
+    if kind == TransferKind::Fit && basis == BasisName::Linear {
+        return Err(format!(
+            "the transfer `{t}` needs the inertia tensor of the weights, which the basis `{b}` does \
+             not have on its nodes"
+        ));
+    }
+    if mass == MassName::Consistent && kind == TransferKind::Series {
+        return Err(format!(
+            "the transfer `{t}` stands in for a consistent mass matrix by powers of the lumped one, \
+             and the mass matrix is `{m}`"
+        ));
+    }
+    // A linear field reaches node i as m_i v(x_i): the lumped matrix times nodal velocities, which
+    // a consistent one would amplify.
+    if mass == MassName::Consistent && matches!(kind, TransferKind::Field | TransferKind::Fit) {
+        return Err(format!(
+            "the transfer `{t}` gives each node the momentum of its row sum of mass, and the mass \
+             matrix is `{m}`"
+        ));
+    }
+    if kind == TransferKind::Cells && domain(basis) != Domain::Point {
+        return Err(format!(
+            "the transfer `{t}` integrates over cells, and the basis `{b}` over the domains of \
+             particles"
+        ));
+    }
+    if kind == TransferKind::Cells && frame == FrameName::Total {
+        return Err(format!(
+            "the transfer `{t}` fits Cauchy stresses, and the frame `{f}` has none"
+        ));
+    }
+    if kind == TransferKind::Cells && mass == MassName::Consistent {
+        return Err(format!(
+            "the transfer `{t}` integrates mass over cells, and the mass matrix `{m}` sums it over \
+             particles"
+        ));
+    }
+    if frame == FrameName::Total && domain(basis) == Domain::Follows {
+        return Err(format!(
+            "the domains of the basis `{b}` follow the deformation, and the frame `{f}` sees none"
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses a combination that means nothing for several bodies on one grid, with `contact` or one
+/// velocity field.
+///
+/// # Errors
+/// One line that names the part and says why it does not go with several bodies.
+pub fn combine_bodies(
+    transfer: TransferChoice,
+    mass: MassName,
+    frame: FrameName,
+    start: Start,
+    contact: bool,
+) -> Result<(), String> {
+    let (t, m, f, s) = (transfer.name(), mass.name(), frame.name(), start.name());
+    match (transfer.kind(), mass, frame, start) {
+        (TransferKind::Series, ..) => Err(format!(
+            "the transfer `{t}` improves the field of one body, and several meet at nodes"
+        )),
+        (TransferKind::Cells, ..) => Err(format!(
+            "the transfer `{t}` fits the field of one body in cells, and several meet there"
+        )),
+        (_, MassName::Consistent, ..) => Err(format!(
+            "the mass matrix `{m}` is that of one body, and several have mass at the same nodes"
+        )),
+        (_, _, FrameName::Total, _) => Err(format!(
+            "in the frame `{f}` bodies stay in their reference places, and do not meet elsewhere"
+        )),
+        (_, _, _, Start::HalfStepBack) if contact => {
+            Err(format!("the start `{s}` takes half a step back, and contact cannot be taken back"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Refuses a combination that means nothing in a body with this state across its plane.
+///
+/// # Errors
+/// One line that names the part and says why it does not go with the state.
+pub fn combine_across(
+    plane: PlaneState,
+    basis: BasisName,
+    transfer: TransferChoice,
+) -> Result<(), String> {
+    let (b, t, p) = (basis.name(), transfer.name(), plane.name());
+    if plane == PlaneState::Axisymmetric && domain(basis) != Domain::Point {
+        return Err(format!(
+            "the functions of the basis `{b}` are means over domains in the plane, and in \
+             `plane: {p}` they would have to be means around the axis (Nairn & Guilkey 2015)"
+        ));
+    }
+    if plane == PlaneState::Strain || transfer.kind() != TransferKind::Cells {
+        return Ok(());
+    }
+    Err(format!(
+        "the transfer `{t}` integrates over cells in the plane, and in `plane: {p}` volumes are not \
+         those of the plane"
+    ))
+}
+
+fn domain(basis: BasisName) -> Domain {
+    with_basis!(basis, B => <B as crate::mpm::basis::Basis>::DOMAIN)
+}

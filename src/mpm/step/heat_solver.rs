@@ -1,0 +1,112 @@
+//! Heat conduction in a body at rest, without stages and columns of mechanics.
+
+use super::cell_tracker::CellTracker;
+use super::setup::{fields, profile};
+use crate::mpm::basis::Domain;
+use crate::mpm::effect::Effect;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::kernel::contract::{Kernel, Tally};
+use crate::subject::{
+    BodyFields, Checkpoint, Column, Failure, Profile, RunCounters, Samples, Subject,
+};
+
+/// A body at rest: nodal masses are mapped once, and a step integrates the state of the effects.
+pub struct HeatSolver<const D: usize> {
+    grid: Grid<D>,
+    particles: Particles<D>,
+    kernel: Box<dyn Kernel<D>>,
+    effects: Vec<Box<dyn Effect<D>>>,
+    time: f64,
+    transfers: u64,
+}
+
+impl<const D: usize> HeatSolver<D> {
+    /// A body at t = 0.
+    ///
+    /// # Errors
+    /// [`Failure::NonFinite`] if the initial state of a particle is; [`Failure::LeftDomain`] if it
+    /// is outside the grid.
+    pub fn new(
+        kernel: Box<dyn Kernel<D>>,
+        mut grid: Grid<D>,
+        mut particles: Particles<D>,
+        effects: Vec<Box<dyn Effect<D>>>,
+    ) -> Result<Self, Failure> {
+        particles.all_finite()?;
+        CellTracker::new(&grid, &particles)?;
+        if kernel.domain() == Domain::Follows {
+            particles.track_domains();
+        }
+        particles.forget_motion();
+        grid.forget_motion();
+        kernel.p2g_mass(&particles, &mut grid);
+        let transfers = particles.len() as u64 * kernel.support();
+        Ok(Self { grid, particles, kernel, effects, time: 0.0, transfers })
+    }
+
+    /// The effects, and all columns for particles and nodes.
+    pub fn profile(&self) -> Profile {
+        profile(&self.grid, &self.particles, &self.effects, &self.columns())
+    }
+
+    fn columns(&self) -> Vec<Column<'_>> {
+        let mut columns = self.particles.columns();
+        columns.extend(self.effects.iter().flat_map(|effect| effect.columns()));
+        columns.extend(self.grid.columns());
+        columns
+    }
+
+    /// See [`Solver::take_visits`](super::solver::Solver::take_visits).
+    pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
+        Tally::take(&[self.kernel.tally()])
+    }
+}
+
+impl<const D: usize> Subject for HeatSolver<D> {
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        let Self { grid, particles, kernel, effects, .. } = self;
+        for effect in effects {
+            let now = (self.time, dt);
+            self.transfers += effect.integrate_state(now, particles, kernel.as_ref(), grid)?;
+        }
+        self.time += dt;
+        Ok(())
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        samples.clear();
+        self.particles.sample(samples);
+    }
+
+    fn fields(&self) -> Vec<BodyFields> {
+        vec![fields(&self.grid, &self.particles, &self.columns())]
+    }
+
+    fn counters(&self) -> RunCounters {
+        RunCounters {
+            particles: Some(self.particles.len() as u64),
+            transfers: self.transfers,
+            crossings: Some(0),
+            left_domain: Some(0),
+            min_j: 1.0,
+        }
+    }
+
+    fn passes(&self) -> Vec<String> {
+        let passes = self.effects.iter().flat_map(|effect| effect.state_passes());
+        passes.map(|pass| (*pass).to_owned()).collect()
+    }
+
+    /// The grid has its masses from the start.
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
+        let Self { grid: _, particles, kernel: _, effects, time, transfers } = self;
+        checkpoint.visit(particles);
+        for effect in effects {
+            effect.checkpoint(checkpoint);
+        }
+        checkpoint.visit(time);
+        checkpoint.visit(transfers);
+        true
+    }
+}

@@ -1,0 +1,129 @@
+//! Initial state of the particles: columns, stresses and domains before the first step.
+//!
+//! A body may start deformed ([`Particles::deform`]): stress then follows from F by the material
+//! ([`Material::start_deformed`]), and domains from F by the basis, as they would have had the body
+//! been brought there. A viscous fluid that starts in motion has the stress of its velocities too.
+
+use crate::mpm::basis::Domain;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::material::Material;
+use crate::subject::{Failure, Site};
+
+/// Adds the columns that a basis of such a `domain` and `material` read and completes the state;
+/// returns the smallest J.
+///
+/// # Errors
+/// [`Failure::NotOfDeformation`] if F gives a deformed body no stress,
+/// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first invalid particle.
+pub(in crate::mpm) fn complete<const D: usize>(
+    particles: &mut Particles<D>,
+    domain: Domain,
+    material: &mut dyn Material<D>,
+) -> Result<f64, Failure> {
+    particles.all_finite()?;
+    let deformed = particles.is_deformed() || particles.is_widened();
+    if domain == Domain::Follows {
+        particles.track_domains();
+    }
+    if material.reads_deformation() {
+        particles.track_deformation();
+    }
+    if material.keeps_stretch_across() {
+        particles.across.resize(particles.len(), 1.0);
+    }
+    if deformed || material.reads_rate() {
+        material.start_deformed(particles)?;
+    }
+    let mut min_j = f64::INFINITY;
+    for (p, (vol, vol0)) in particles.vol.iter().zip(&particles.vol0).enumerate() {
+        let j = vol / vol0;
+        // Before the stress is looked at, which is no number where the material is inside out.
+        if deformed && j <= 0.0 {
+            return Err(Failure::Inverted { site: Site::Particle(p), j });
+        }
+        min_j = min_j.min(j);
+    }
+    particles.all_finite()?;
+    Ok(if particles.is_empty() { 1.0 } else { min_j })
+}
+
+/// Completes the state of `particles` at the start of a run as a solver does, for a basis that
+/// reads no domains.
+///
+/// # Errors
+/// [`Failure::NotOfDeformation`] if F gives a deformed body no stress,
+/// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first invalid particle.
+pub fn complete_start<const D: usize>(
+    particles: &mut Particles<D>,
+    material: &mut dyn Material<D>,
+) -> Result<(), Failure> {
+    complete(particles, Domain::Point, material)?;
+    particles.stressed_finite()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::material::Rigid;
+    use crate::mpm::{Block, LinearElastic, Matrix, NeoHookean, Newtonian, Vector};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// A square of four particles under u = (0.1 X + 0.2 Y, -0.25 Y), F the same everywhere.
+    fn deformed(f: Matrix<2>) -> Particles<2> {
+        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+        let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
+        let labels = body.x0.clone();
+        body.deform(|p| ((f - Matrix::identity()) * labels[p], f));
+        body
+    }
+
+    #[rstest]
+    fn stress_volume_and_domains_are_those_of_the_deformed_body(
+        #[values(Domain::Point, Domain::Follows)] domain: Domain,
+    ) {
+        let f = Matrix::<2>::new(1.1, 0.2, 0.0, 0.75);
+        let mut body = deformed(f);
+        let min_j = complete(&mut body, domain, &mut NeoHookean::new(100.0, 0.3));
+        assert_relative_eq!(min_j.expect("a sound start"), 0.825, max_relative = 1e-15);
+        assert_relative_eq!(body.vol[3], 0.825 * 0.25, max_relative = 1e-15);
+        assert_relative_eq!(body.x[3], f * body.x0[3], max_relative = 1e-15);
+        let (lambda, mu) = (57.692_307_692_307_69, 38.461_538_461_538_46);
+        let shear = mu / 0.825 * 0.2 * 0.75;
+        let normal = (lambda * libm::log(0.825) + mu * (0.75 * 0.75 - 1.0)) / 0.825;
+        assert_relative_eq!(body.sigma[3][(0, 1)], shear, max_relative = 1e-13);
+        assert_relative_eq!(body.sigma[3][(1, 1)], normal, max_relative = 1e-13);
+        if domain == Domain::Follows {
+            assert_relative_eq!(body.domain[3].diagonal(), Vector::<2>::new(0.275, 0.1875));
+        }
+    }
+
+    /// sigma = 2 eta D of a shear flow, before the first step.
+    #[test]
+    fn a_fluid_in_motion_starts_under_viscous_stress() {
+        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+        let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
+        body.grad_v.fill(Matrix::<2>::new(0.0, 3.0, 0.0, 0.0));
+        complete(&mut body, Domain::Point, &mut Newtonian::new(50.0, 0.7)).unwrap();
+        assert_relative_eq!(body.sigma[3], Matrix::<2>::new(0.0, 2.1, 2.1, 0.0), epsilon = 1e-12);
+    }
+
+    #[test]
+    fn a_start_without_a_meaning_is_refused() {
+        let mut neo = NeoHookean::new(100.0, 0.3);
+        let start = |f, material: &mut dyn Material<2>| {
+            complete(&mut deformed(f), Domain::Point, material).map(|_| ())
+        };
+        let inside_out = Matrix::<2>::new(1.0, 0.0, 0.0, -0.5);
+        let site = Site::Particle(0);
+        assert_eq!(start(inside_out, &mut neo), Err(Failure::Inverted { site, j: -0.5 }));
+        let torn = Matrix::<2>::new(f64::NAN, 0.0, 0.0, 1.0);
+        assert!(matches!(start(torn, &mut neo), Err(Failure::NonFinite { .. })));
+        let stretched = Matrix::<2>::new(1.1, 0.0, 0.0, 1.0);
+        assert_eq!(start(stretched, &mut Rigid::new()), Err(Failure::NotOfDeformation));
+        assert_eq!(start(Matrix::identity(), &mut Rigid::new()), Ok(()));
+        let half_a_turn = Matrix::<2>::new(-1.0, 0.0, 0.0, -1.0);
+        let turned = start(half_a_turn, &mut LinearElastic::new(100.0, 0.3));
+        assert!(matches!(turned, Err(Failure::NonFinite { quantity: "stress", .. })));
+    }
+}

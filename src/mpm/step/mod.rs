@@ -1,0 +1,12 @@
+//! The step: a solver is set up from members of the families, its schedule is compiled, and its
+//! passes run.
+
+pub(in crate::mpm) mod cell_tracker;
+pub(in crate::mpm) mod combination;
+pub(in crate::mpm) mod heat_solver;
+pub(in crate::mpm) mod initial;
+mod observables;
+pub(in crate::mpm) mod schedule;
+pub(in crate::mpm) mod setup;
+pub(in crate::mpm) mod solver;
+pub(in crate::mpm) mod subject;

@@ -1,0 +1,149 @@
+//! Observables of a body: sums that a motion without external forces conserves, samples of the
+//! particles, and the reaction of walls on which the body stands still.
+//!
+//! The reaction follows from the weak form with the functions of held nodes: their force would
+//! accelerate them, `m_i a_i = f_i` with a lumped mass, and the wall takes it away. So the reaction
+//! is `-sum f_i` over the held components, internal and external forces together. The functions of
+//! those nodes are the only ones that do not vanish on the wall, and their sum there is one: in the
+//! limit of small cells the reaction is the integral of the traction.
+
+use super::solver::Solver;
+use crate::mpm::boundary::Side;
+use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use crate::mpm::foundation::particles::Particles;
+use crate::subject::{Reaction, Samples, Totals};
+
+impl<const D: usize> Particles<D> {
+    /// Mass, momenta and kinetic energy now; the strain energy is left to the material. `own` is
+    /// the first moment of the velocity field that a particle has about itself, if the transfer
+    /// gives it one (Jiang et al. 2015).
+    pub fn totals(&self, own: impl Fn(usize) -> Option<Matrix<D>>) -> Totals {
+        let mut totals = Totals::default();
+        for (p, (m, v)) in self.mass.iter().zip(&self.v).enumerate() {
+            let spin = axial(&self.moment(p, own(p))).map(|component| m * component);
+            let v = std::array::from_fn(|i| if i < D { v[i] } else { 0.0 });
+            totals.add(*m, v, spin);
+        }
+        totals
+    }
+
+    /// Angular momentum of particle p per unit of its mass, as the matrix with that axial vector:
+    /// `v x^T` for the motion of its centre, and the moment `own` about the centre.
+    fn moment(&self, p: usize, own: Option<Matrix<D>>) -> Matrix<D> {
+        dyad(&self.v[p], self.position(p)) + own.unwrap_or_else(Matrix::zeros)
+    }
+}
+
+/// `(M_zy - M_yz, M_xz - M_zx, M_yx - M_xy)`: x cross v for `M = v x^T`, of as many dimensions as
+/// there are.
+fn axial<const D: usize>(m: &Matrix<D>) -> [f64; 3] {
+    let part = |i: usize, j: usize| if i.max(j) < D { m[(i, j)] - m[(j, i)] } else { 0.0 };
+    [part(2, 1), part(0, 2), part(1, 0)]
+}
+
+impl<const D: usize> Particles<D> {
+    /// Appends the state at the reference positions; F only if its column exists.
+    pub(in crate::mpm) fn sample(&self, samples: &mut Samples) {
+        samples.dimension = D;
+        for (p, x0) in self.x0.iter().enumerate() {
+            samples.label.extend(x0.iter());
+            samples.displacement.extend((self.position(p) - x0).iter());
+        }
+        samples.velocity.extend(self.v.iter().flat_map(|v| v.iter()));
+        samples.weight.extend(&self.vol0);
+        samples.temperature.extend(&self.temperature);
+        for (column, into) in [
+            (&self.sigma, &mut samples.stress),
+            (&self.def_grad, &mut samples.deformation_gradient),
+        ] {
+            for matrix in column {
+                for i in 0..D {
+                    into.extend((0..D).map(|j| matrix[(i, j)]));
+                }
+            }
+        }
+    }
+}
+
+impl<const D: usize> Solver<D> {
+    /// Reaction at the beginning of the last step, of all walls on which the body stands still, or
+    /// of that on one face of the grid (axis of the normal, and its end).
+    pub fn reaction(&self, of: Option<(usize, Side)>) -> Reaction {
+        let force = &self.setup.grid.force;
+        let mut unheld = force.clone();
+        for wall in &self.setup.boundary {
+            if wall.standing_face().is_some_and(|face| of.is_none_or(|of| of == face)) {
+                wall.clear(&mut unheld);
+            }
+        }
+        let differences = unheld.iter().zip(force).map(|(unheld, force)| unheld - force);
+        let sum = differences.fold(Vector::<D>::zeros(), |sum, each| sum + each);
+        let mut reaction = [0.0; 3];
+        reaction[..D].copy_from_slice(sum.as_slice());
+        Reaction { time: self.advance.to - 0.5 * self.advance.dt, force: reaction }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::foundation::algebra::{Matrix, Vector};
+    use crate::mpm::foundation::particles::Block;
+    use approx::assert_relative_eq;
+
+    fn two_particles<const D: usize>() -> Particles<D> {
+        let mut to = Vector::from_element(1.0);
+        to[0] = 2.0;
+        let block = Block { from: Vector::<D>::zeros(), to, density: 3.0 };
+        Particles::fill(&block, 1.0, 1)
+    }
+
+    #[test]
+    fn angular_momentum_is_x_cross_m_v() {
+        let mut body = two_particles::<3>();
+        (body.x[0], body.v[0]) =
+            (Vector::<3>::new(1.0, 2.0, 3.0), Vector::<3>::new(-4.0, 5.0, 0.5));
+        let totals = body.totals(|_| None);
+        let expected = body.x[0].cross(&body.v[0]) * body.mass[0];
+        for i in 0..3 {
+            assert_relative_eq!(totals.angular_momentum[i], expected[i], max_relative = 1e-14);
+        }
+        assert_relative_eq!(totals.angular_momentum_size, expected.norm(), max_relative = 1e-14);
+    }
+
+    #[test]
+    fn two_particles_that_fly_apart_have_a_size_and_no_sum() {
+        let mut body = two_particles::<2>();
+        (body.v[0], body.v[1]) = (Vector::<2>::new(0.0, 2.0), Vector::<2>::new(0.0, -2.0));
+        let totals = body.totals(|_| None);
+        assert_eq!((totals.mass, totals.momentum, totals.momentum_size), (6.0, [0.0; 3], 12.0));
+        assert_eq!(totals.kinetic_energy, 12.0);
+        assert_eq!(totals.angular_momentum, [0.0, 0.0, -6.0]);
+        assert_eq!(totals.angular_momentum_size, 12.0);
+    }
+
+    #[test]
+    fn a_bar_does_not_spin() {
+        let mut bar = two_particles::<1>();
+        bar.v[0][0] = 1.0;
+        let totals = bar.totals(|_| None);
+        assert_eq!(totals.momentum, [3.0, 0.0, 0.0]);
+        assert_eq!((totals.angular_momentum, totals.angular_momentum_size), ([0.0; 3], 0.0));
+    }
+
+    #[test]
+    fn tensors_are_written_row_after_row() {
+        let (from, to) = (Vector::<2>::zeros(), Vector::from_element(1.0));
+        let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        particles.sigma[0] = Matrix::<2>::new(1.0, 2.0, 3.0, 4.0);
+        let mut samples = Samples::default();
+        particles.sample(&mut samples);
+        assert_eq!(samples.stress, [1.0, 2.0, 3.0, 4.0]);
+        assert!(samples.deformation_gradient.is_empty(), "nothing tracks F");
+        particles.track_deformation();
+        particles.def_grad[0][(0, 1)] = 0.5;
+        samples.clear();
+        particles.sample(&mut samples);
+        assert_eq!(samples.deformation_gradient, [1.0, 0.5, 0.0, 1.0]);
+    }
+}

@@ -1,0 +1,246 @@
+//! Schedule of a step: scheme, transfer, conditions and coupling, compiled once to a list of
+//! passes.
+//!
+//! A pass of P2G or G2P computes the weights of all particles anew, so that neighbouring stages
+//! share one wherever no stage between them changes particles (P2G) or nodal velocities (G2P):
+//!
+//! ```text
+//! USL:  P2G(mass, momentum, force)  G2P(particle velocity, stress, position)
+//! USF:  P2G(mass, momentum)  G2P(stress)  P2G(force)  G2P(particle velocity, position)
+//! MUSL: P2G(mass, force)  G2P(particle velocity)  P2G(momentum)  G2P(stress, position)
+//! ```
+
+use super::setup::Setup;
+use crate::mpm::scheme::Stage;
+use crate::subject::Start;
+use std::sync::Arc;
+
+/// One entry of a schedule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::mpm) enum Pass {
+    /// One pass of P2G for these stages.
+    P2g(&'static [Stage]),
+    /// One pass of G2P for these stages.
+    G2p(&'static [Stage]),
+    /// The rest of a stage, on nodes alone or particles alone.
+    Update(Stage),
+    /// Integration of the effects' own state over the step.
+    IntegrateState,
+    /// Coupling of several bodies.
+    Couple(CouplingPoint),
+}
+
+/// Points of a step at which bodies are coupled, each after all bodies have come to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::mpm) enum CouplingPoint {
+    /// After particles have moved; nodal masses are up to date.
+    Mass,
+    /// After P2G of velocities that are advanced next.
+    Velocity,
+    /// After P2G of velocities that strain the bodies next.
+    StrainVelocity,
+    /// After strains from velocities that are still to be advanced.
+    Strained,
+    /// After accelerations.
+    Acceleration,
+}
+
+impl Pass {
+    /// Name of the pass, `P2G(mass, momentum)`. The rest of a stage has the name of the stage.
+    pub(in crate::mpm) fn name(self) -> String {
+        let of = |kind: &str, stages: &[Stage]| {
+            let names: Vec<&str> = stages.iter().map(|stage| stage.name()).collect();
+            format!("{kind}({})", names.join(", "))
+        };
+        match self {
+            Self::P2g(stages) => of("P2G", stages),
+            Self::G2p(stages) => of("G2P", stages),
+            Self::Update(stage) => stage.name().to_owned(),
+            Self::IntegrateState => "state of effects".to_owned(),
+            Self::Couple(point) => format!("coupling({})", point.name()),
+        }
+    }
+
+    /// The pass as reports list it. A stage that has a pass of P2G or G2P is named there only;
+    /// `state` are the passes of the effects' own state.
+    fn texts(self, state: &[&str]) -> Vec<String> {
+        match self {
+            Self::IntegrateState => state.iter().map(|pass| (*pass).to_owned()).collect(),
+            Self::Update(stage) if !matches!(stage, Stage::Acceleration | Stage::GridVelocity) => {
+                Vec::new()
+            }
+            _ => vec![self.name()],
+        }
+    }
+}
+
+impl CouplingPoint {
+    /// The quantity that is coupled, as reports name it.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Mass => "mass",
+            Self::Velocity => "velocity",
+            Self::StrainVelocity => "strain velocity",
+            Self::Strained => "mapped velocity",
+            Self::Acceleration => "acceleration",
+        }
+    }
+}
+
+/// Passes of a run.
+#[derive(Debug, Clone, Default)]
+pub(in crate::mpm) struct StepSchedule {
+    /// Passes before the first step, for the accelerations at t = 0 where velocities start half a
+    /// step back.
+    pub(in crate::mpm) opening: Arc<[Pass]>,
+    /// Passes of each step.
+    pub(in crate::mpm) passes: Arc<[Pass]>,
+}
+
+/// Configuration of a run beyond the setup of a body.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::mpm) struct Coupled {
+    /// Whether several bodies are coupled.
+    pub(in crate::mpm) bodies: bool,
+    /// Whether their coupling reads velocities before they advance.
+    pub(in crate::mpm) reads_velocity: bool,
+}
+
+impl StepSchedule {
+    /// The schedule of `setup`; positions stay in a `fixed_configuration`.
+    pub(in crate::mpm) fn new<const D: usize>(
+        setup: &mut Setup<D>,
+        coupled: Coupled,
+        fixed_configuration: bool,
+    ) -> Self {
+        let opening: &[Stage] = match (setup.start, setup.reads_velocity()) {
+            (Start::AtZero, _) => &[],
+            (Start::HalfStepBack, false) => &[Stage::Mass, Stage::Force, Stage::Acceleration],
+            (Start::HalfStepBack, true) => {
+                &[Stage::Mass, Stage::Momentum, Stage::Force, Stage::Acceleration]
+            }
+        };
+        let stages = setup.stages(coupled.reads_velocity);
+        let stages = match stages {
+            [moving @ .., Stage::Position] if fixed_configuration => moving,
+            all => all,
+        };
+        Self {
+            opening: compile(opening, false, coupled.bodies).into(),
+            passes: compile(stages, true, coupled.bodies).into(),
+        }
+    }
+
+    /// Passes of each step as reports list them; `state` are those of the effects' own state.
+    pub(in crate::mpm) fn texts(&self, state: &[&str]) -> Vec<String> {
+        self.passes.iter().flat_map(|pass| pass.texts(state)).collect()
+    }
+}
+
+/// Passes of `stages` alone, without effects' own state and without coupling.
+pub(in crate::mpm) fn passes_of(stages: &'static [Stage]) -> Vec<Pass> {
+    compile(stages, false, false)
+}
+
+fn compile(stages: &'static [Stage], integrates_state: bool, is_coupled: bool) -> Vec<Pass> {
+    let (mut passes, mut rest) = (Vec::new(), stages);
+    for run in stages.chunk_by(|a, b| fuses(*a, *b)) {
+        match run[0] {
+            Stage::Mass | Stage::Momentum | Stage::Force => passes.push(Pass::P2g(run)),
+            Stage::Acceleration | Stage::GridVelocity => {}
+            Stage::ParticleVelocity | Stage::Stress | Stage::Position => {
+                passes.push(Pass::G2p(run));
+            }
+        }
+        for &stage in run {
+            passes.push(Pass::Update(stage));
+            if integrates_state && stage == Stage::Mass {
+                passes.push(Pass::IntegrateState);
+            }
+            passes.extend(coupling_after(rest).filter(|_| is_coupled).map(Pass::Couple));
+            rest = &rest[1..];
+        }
+    }
+    passes
+}
+
+/// Whether a stage and the next one share a pass: both are of P2G, or both of G2P.
+fn fuses(stage: Stage, next: Stage) -> bool {
+    use Stage::{Force, Mass, Momentum, ParticleVelocity, Position, Stress};
+    matches!((stage, next), (Mass | Momentum | Force, Mass | Momentum | Force))
+        || matches!((stage, next), (ParticleVelocity | Stress, Stress | Position))
+}
+
+/// Coupling after the first of `stages`.
+fn coupling_after(stages: &[Stage]) -> Option<CouplingPoint> {
+    match stages {
+        [Stage::Mass, ..] => Some(CouplingPoint::Mass),
+        [Stage::Momentum, Stage::Stress, ..] => Some(CouplingPoint::StrainVelocity),
+        [Stage::Momentum, ..] => Some(CouplingPoint::Velocity),
+        [Stage::Stress, rest @ ..] if rest.contains(&Stage::Force) => Some(CouplingPoint::Strained),
+        [Stage::Acceleration, ..] => Some(CouplingPoint::Acceleration),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Stage::*;
+    use super::*;
+    use crate::mpm::scheme::SchemeName;
+
+    fn visits(scheme: SchemeName, reads_velocity: bool) -> Vec<Pass> {
+        let is_visit = |pass: &Pass| matches!(pass, Pass::P2g(_) | Pass::G2p(_));
+        passes_of(scheme.stages(reads_velocity)).into_iter().filter(is_visit).collect()
+    }
+
+    #[test]
+    fn schemes_visit_the_nodes_as_seldom_as_they_can() {
+        let usl =
+            [Pass::P2g(&[Mass, Momentum, Force]), Pass::G2p(&[ParticleVelocity, Stress, Position])];
+        assert_eq!(visits(SchemeName::Usl, false), usl);
+        let usf = [
+            Pass::P2g(&[Mass, Momentum]),
+            Pass::G2p(&[Stress]),
+            Pass::P2g(&[Force]),
+            Pass::G2p(&[ParticleVelocity, Position]),
+        ];
+        assert_eq!(visits(SchemeName::Usf, false), usf);
+        let musl = |first| {
+            let second = [Pass::P2g(&[Momentum]), Pass::G2p(&[Stress, Position])];
+            [vec![Pass::P2g(first), Pass::G2p(&[ParticleVelocity])], second.to_vec()].concat()
+        };
+        assert_eq!(visits(SchemeName::Musl, false), musl(&[Mass, Force]));
+        assert_eq!(visits(SchemeName::Musl, true), musl(&[Mass, Momentum, Force]));
+    }
+
+    #[test]
+    fn a_schedule_reads_as_the_order_of_its_passes() {
+        let text = |scheme: SchemeName, is_coupled, state: &[&str]| {
+            let passes = compile(scheme.stages(true), true, is_coupled).into();
+            StepSchedule { passes, ..StepSchedule::default() }.texts(state).join("; ")
+        };
+        let usl = "P2G(mass, momentum, force); acceleration; grid velocity; \
+                   G2P(particle velocity, stress, position)";
+        assert_eq!(text(SchemeName::Usl, false, &[]), usl);
+        let usf = "P2G(mass, momentum); P2G(T); coupling(mass); coupling(strain velocity); \
+                   G2P(stress); coupling(mapped velocity); P2G(force); acceleration; \
+                   coupling(acceleration); grid velocity; G2P(particle velocity, position)";
+        assert_eq!(text(SchemeName::Usf, true, &["P2G(T)"]), usf);
+    }
+
+    #[test]
+    fn bodies_are_coupled_once_for_each_change_of_the_grid() {
+        use CouplingPoint as At;
+        let points = |scheme: SchemeName| -> Vec<CouplingPoint> {
+            let passes = compile(scheme.stages(true), true, true).into_iter();
+            let point = |pass| if let Pass::Couple(point) = pass { Some(point) } else { None };
+            passes.filter_map(point).collect()
+        };
+        let usf = [At::Mass, At::StrainVelocity, At::Strained, At::Acceleration];
+        assert_eq!(points(SchemeName::Usf), usf);
+        assert_eq!(points(SchemeName::Usl), [At::Mass, At::Velocity, At::Acceleration]);
+        let musl = [At::Mass, At::Velocity, At::Acceleration, At::StrainVelocity];
+        assert_eq!(points(SchemeName::Musl), musl);
+    }
+}

@@ -1,0 +1,116 @@
+//! Parts of a solver, and their columns as a profile of memory and as fields.
+
+use crate::mpm::boundary::Boundary;
+use crate::mpm::effect::Effect;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::{FrameName, Particles};
+use crate::mpm::kernel::contract::{G2pRequest, Kernel};
+use crate::mpm::mass::MassMatrix;
+use crate::mpm::material::Material;
+use crate::mpm::scheme::{SchemeName, Stage};
+use crate::mpm::transfer::Transfer;
+use crate::subject::{BodyFields, Column, ColumnSize, Holder, Profile, Start, StateField};
+
+/// Parts of a solver of one body.
+pub struct Setup<const D: usize> {
+    /// The background grid.
+    pub grid: Grid<D>,
+    /// The body, in its initial state.
+    pub particles: Particles<D>,
+    /// Basis.
+    pub kernel: Box<dyn Kernel<D>>,
+    /// Velocities between particles and grid.
+    pub transfer: Box<dyn Transfer<D>>,
+    /// From momenta to velocities, from forces to accelerations.
+    pub mass: Box<dyn MassMatrix<D>>,
+    /// Configuration in which the basis lives.
+    pub frame: FrameName,
+    /// The constitutive law.
+    pub material: Box<dyn Material<D>>,
+    /// Effects that the scene lists.
+    pub effects: Vec<Box<dyn Effect<D>>>,
+    /// Boundary conditions on faces of the grid; where faces meet, the last one wins.
+    pub boundary: Vec<Box<dyn Boundary<D>>>,
+    /// Order of the stages.
+    pub scheme: SchemeName,
+    /// Treatment of the initial velocity.
+    pub start: Start,
+}
+
+impl<const D: usize> Setup<D> {
+    /// Whether an effect or a condition reads the velocities of the grid before they advance.
+    pub(in crate::mpm) fn reads_velocity(&self) -> bool {
+        self.effects.iter().any(|effect| effect.reads_grid_velocity())
+            || self.boundary.iter().any(|condition| condition.reads_velocity())
+    }
+
+    /// The stages of a step; `is_read`: something else reads nodal velocities before they advance.
+    pub(in crate::mpm) fn stages(&mut self, is_read: bool) -> &'static [Stage] {
+        let G2pRequest { mix, moment, gradient, .. } = self.transfer.g2p_request(0.0);
+        let is_taken = mix.is_some() || moment.is_some() || gradient.is_some();
+        self.scheme.stages(is_taken || is_read || self.reads_velocity())
+    }
+
+    /// Passes of the effects' own state.
+    pub(in crate::mpm) fn state_passes(&self) -> Vec<&'static str> {
+        self.effects.iter().flat_map(|effect| effect.state_passes()).copied().collect()
+    }
+
+    /// All columns for particles and nodes, with those `of_solver`; the factors of a consistent
+    /// mass matrix, computed anew in each step, are left out.
+    pub(in crate::mpm) fn columns<'a>(&'a self, of_solver: [Column<'a>; 2]) -> Vec<Column<'a>> {
+        let Self { grid, particles, transfer, material, effects, boundary, .. } = self;
+        let mut columns = particles.columns();
+        columns.extend(of_solver);
+        columns.extend(transfer.columns());
+        columns.extend(material.columns());
+        columns.extend(effects.iter().flat_map(|effect| effect.columns()));
+        columns.extend(grid.columns());
+        columns.extend(boundary.iter().flat_map(|condition| condition.columns()));
+        columns
+    }
+}
+
+/// Profile of a step of a body with these effects and columns, without its passes and visits.
+pub(in crate::mpm) fn profile<const D: usize>(
+    grid: &Grid<D>,
+    particles: &Particles<D>,
+    effects: &[Box<dyn Effect<D>>],
+    columns: &[Column<'_>],
+) -> Profile {
+    let sizes = columns.iter().map(|column| column.size);
+    Profile {
+        effects: effects.iter().map(|effect| effect.name()).collect(),
+        particles: particles.len(),
+        nodes: grid.nodes(),
+        columns: sizes.filter(|size| size.entries > 0).collect(),
+        ..Profile::default()
+    }
+}
+
+/// The columns that have numbers for every particle or every node. Of two with one name the first.
+pub(in crate::mpm) fn fields<const D: usize>(
+    grid: &Grid<D>,
+    particles: &Particles<D>,
+    columns: &[Column<'_>],
+) -> BodyFields {
+    let of = |holder: Holder, entries: usize| {
+        let mut fields: Vec<StateField> = Vec::new();
+        for column in columns {
+            let ColumnSize { name, .. } = column.size;
+            let is_whole = column.size.holder == holder && column.size.entries == entries;
+            if is_whole && fields.iter().all(|field| field.name != name) {
+                fields.extend(column.field());
+            }
+        }
+        fields
+    };
+    BodyFields {
+        particles: particles.len(),
+        of_particles: of(Holder::Particle, particles.len()),
+        origin: grid.origin.iter().copied().collect(),
+        h: grid.h,
+        counts: grid.counts.to_vec(),
+        of_nodes: of(Holder::Node, grid.nodes()),
+    }
+}

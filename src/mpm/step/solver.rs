@@ -1,0 +1,291 @@
+//! The solver: the passes of a step, one by one. [`schedule`](super::schedule) has their order.
+
+use super::cell_tracker::CellTracker;
+use super::initial;
+use super::schedule::{Coupled, Pass, StepSchedule};
+use super::setup::{Setup, profile};
+use crate::mpm::basis::Domain;
+use crate::mpm::boundary::Advance;
+use crate::mpm::effect::strain;
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::{FrameName, Particles};
+use crate::mpm::foundation::simd::vectorized;
+use crate::mpm::foundation::threads::PIECES;
+use crate::mpm::kernel::contract::Tally;
+use crate::mpm::material::StressUpdate;
+use crate::mpm::scheme::Stage;
+use crate::mpm::transfer::{Transfer, g2p};
+use crate::subject::{Column, Failure, Profile, Site};
+
+/// The original MPM at one level of refinement.
+pub struct Solver<const D: usize> {
+    pub(in crate::mpm) setup: Setup<D>,
+    pub(in crate::mpm) schedule: StepSchedule,
+    pub(in crate::mpm) time: f64,
+    /// Time of the velocities (s): once steps are made, half a step behind.
+    pub(in crate::mpm) velocity_time: f64,
+    /// The last advance of velocities.
+    pub(in crate::mpm) advance: Advance,
+    pub(in crate::mpm) started: bool,
+    pub(in crate::mpm) transfers: u64,
+    pub(in crate::mpm) min_j: f64,
+    pub(in crate::mpm) cell_tracker: CellTracker<D>,
+    /// Position of each particle after the step (m), from G2P until positions change.
+    pub(in crate::mpm) advected: Vec<Vector<D>>,
+}
+
+impl<const D: usize> Solver<D> {
+    /// A solver at t = 0.
+    ///
+    /// # Errors
+    /// [`Failure::NonFinite`] if the initial state of a particle is; [`Failure::LeftDomain`] if it
+    /// starts outside the grid; [`Failure::Inverted`] or [`Failure::NotOfDeformation`] if the body
+    /// starts deformed in a way that has no meaning.
+    pub fn new(mut setup: Setup<D>) -> Result<Self, Failure> {
+        let Setup { particles, kernel, material, effects, .. } = &mut setup;
+        if effects.iter().any(|effect| effect.reads_deformation()) {
+            particles.track_deformation();
+        }
+        let min_j = initial::complete(particles, kernel.domain(), material.as_mut())?;
+        for effect in effects {
+            effect.start(material.as_mut(), particles);
+        }
+        particles.deformed_finite()?;
+        particles.stressed_finite()?;
+        if setup.frame == FrameName::Total {
+            setup.particles.stay_in_reference();
+        }
+        let cell_tracker = CellTracker::new(&setup.grid, &setup.particles)?;
+        let Setup { grid, particles, kernel, transfer, .. } = &mut setup;
+        transfer.start(kernel.as_ref(), grid, particles);
+        Ok(Self {
+            schedule: StepSchedule::new(&mut setup, Coupled::default(), false),
+            time: 0.0,
+            velocity_time: 0.0,
+            advance: Advance { from: 0.0, to: 0.0, dt: 0.0 },
+            started: false,
+            transfers: 0,
+            min_j,
+            cell_tracker,
+            advected: vec![Vector::zeros(); setup.particles.len()],
+            setup,
+        })
+    }
+
+    /// The particles as they are now.
+    pub fn particles(&self) -> &Particles<D> {
+        &self.setup.particles
+    }
+
+    /// The transfer, with its state of the particles.
+    pub fn transfer(&self) -> &dyn Transfer<D> {
+        self.setup.transfer.as_ref()
+    }
+
+    /// The grid after the last pass.
+    pub fn grid(&self) -> &Grid<D> {
+        &self.setup.grid
+    }
+
+    /// The effects, and all columns for particles and nodes.
+    pub fn profile(&self) -> Profile {
+        let Setup { grid, particles, effects, .. } = &self.setup;
+        profile(grid, particles, effects, &self.columns())
+    }
+
+    /// All columns for particles and nodes.
+    pub(in crate::mpm) fn columns(&self) -> Vec<Column<'_>> {
+        let advected = Column::of_particles("advected x", &self.advected);
+        self.setup.columns([self.cell_tracker.columns(), advected])
+    }
+
+    /// Parts of passes since the last call, with the particles visited; counted from the first call
+    /// on.
+    pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
+        Tally::take(&[self.setup.kernel.tally()])
+    }
+
+    /// Runs one pass of a step of length `dt` (s).
+    ///
+    /// # Errors
+    /// See [`Subject::step`](crate::subject::Subject::step).
+    pub(in crate::mpm) fn run(&mut self, pass: Pass, dt: f64) -> Result<(), Failure> {
+        let Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
+        match pass {
+            Pass::P2g(stages) => {
+                let passes = transfer.p2g(kernel.as_ref(), particles, grid, stages);
+                self.count(passes);
+            }
+            Pass::G2p(stages) => {
+                let (transfer, advected) = (transfer.as_mut(), &mut *self.advected);
+                let passes =
+                    g2p(transfer, kernel.as_ref(), (grid, dt), particles, stages, advected);
+                self.count(passes);
+            }
+            Pass::Update(stage) => self.update(stage, dt)?,
+            Pass::IntegrateState => self.integrate_state(dt)?,
+            Pass::Couple(_) => {}
+        }
+        Ok(())
+    }
+
+    /// The rest of a stage after its pass of P2G or G2P.
+    fn update(&mut self, stage: Stage, dt: f64) -> Result<(), Failure> {
+        match stage {
+            Stage::Mass => self.mass()?,
+            Stage::Momentum => self.momentum(),
+            Stage::Force => self.force(),
+            Stage::Acceleration => self.accelerate(dt),
+            Stage::GridVelocity => {
+                let Grid { velocity, acceleration, .. } = &mut self.setup.grid;
+                advance(velocity, acceleration, dt);
+            }
+            Stage::ParticleVelocity => self.drive(dt),
+            Stage::Stress => self.stress(dt)?,
+            Stage::Position => self.position(dt)?,
+        }
+        Ok(())
+    }
+
+    fn mass(&mut self) -> Result<(), Failure> {
+        let Setup { grid, particles, kernel, mass, boundary, .. } = &mut self.setup;
+        let passes = mass.assemble(kernel.as_ref(), particles, grid, boundary)?;
+        self.count(passes);
+        Ok(())
+    }
+
+    /// From momenta to velocities.
+    fn momentum(&mut self) {
+        let Setup { grid, particles, kernel, transfer, mass, boundary, .. } = &mut self.setup;
+        let mut field = std::mem::take(&mut grid.velocity);
+        mass.solve(grid, &mut field);
+        for condition in boundary.iter() {
+            condition.hold_velocity(&mut field, self.velocity_time);
+        }
+        let passes = transfer.refine(kernel.as_ref(), particles, grid, boundary, &mut field);
+        grid.velocity = field;
+        self.count(passes);
+    }
+
+    /// Adds external forces to the internal ones.
+    fn force(&mut self) {
+        let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
+        for effect in effects.iter_mut() {
+            self.transfers += effect.add_force(self.time, particles, kernel.as_ref(), grid);
+        }
+        for effect in &self.setup.effects {
+            effect.modify_force(&mut self.setup.grid);
+        }
+    }
+
+    fn accelerate(&mut self, dt: f64) {
+        let Setup { grid, particles, kernel, transfer, mass, boundary, .. } = &mut self.setup;
+        let mut field = std::mem::take(&mut grid.acceleration);
+        field.copy_from_slice(&grid.force);
+        mass.solve(grid, &mut field);
+        let advance = Advance { from: self.velocity_time, to: self.time + 0.5 * dt, dt };
+        for condition in boundary.iter_mut() {
+            condition.hold_advance(&mut grid.velocity, &mut field, &advance);
+        }
+        (self.velocity_time, self.advance) = (advance.to, advance);
+        let passes = transfer.refine(kernel.as_ref(), particles, grid, boundary, &mut field);
+        grid.acceleration = field;
+        self.count(passes);
+    }
+
+    /// Applies the effects' velocity hooks after an advance of `dt` (s).
+    pub(in crate::mpm) fn drive(&mut self, dt: f64) {
+        for effect in &self.setup.effects {
+            effect.modify_velocity(self.velocity_time, dt, &mut self.setup.particles);
+        }
+    }
+
+    /// Integrates the effects' own state over `dt` (s).
+    fn integrate_state(&mut self, dt: f64) -> Result<(), Failure> {
+        let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
+        for effect in effects {
+            let now = (self.time, dt);
+            self.transfers += effect.integrate_state(now, particles, kernel.as_ref(), grid)?;
+        }
+        Ok(())
+    }
+
+    fn position(&mut self, dt: f64) -> Result<(), Failure> {
+        let Setup { grid, particles, kernel, frame, effects, .. } = &mut self.setup;
+        std::mem::swap(particles.positions_mut(), &mut self.advected);
+        for effect in effects {
+            effect.modify_position(dt, particles);
+        }
+        if kernel.domain() == Domain::Follows && *frame == FrameName::Updated {
+            particles.track_domains();
+        }
+        self.cell_tracker.track(grid, particles)?;
+        particles.moving_finite()?;
+        self.count(1);
+        Ok(())
+    }
+
+    pub(in crate::mpm) fn count(&mut self, passes: u64) {
+        let pairs = self.setup.particles.len() as u64 * self.setup.kernel.support();
+        self.transfers += passes * pairs;
+    }
+}
+
+/// `v <- v + a dt`.
+fn advance<const D: usize>(v: &mut [Vector<D>], a: &[Vector<D>], dt: f64) {
+    PIECES.each(v, &|k, piece| {
+        let a = &a[k * PIECES.length..];
+        vectorized(
+            #[inline(always)]
+            || {
+                for (v, a) in piece.iter_mut().zip(a) {
+                    for axis in 0..D {
+                        v[axis] += a[axis] * dt;
+                    }
+                }
+            },
+        );
+    });
+}
+
+impl<const D: usize> Solver<D> {
+    /// Deformation, stress and volume from the velocity gradients of the particles.
+    pub(in crate::mpm) fn stress(&mut self, dt: f64) -> Result<(), Failure> {
+        let Setup { particles, material, frame, effects, kernel, grid, .. } = &mut self.setup;
+        if *frame == FrameName::Total {
+            particles.push_gradients_forward();
+        }
+        for effect in effects.iter_mut() {
+            self.transfers += effect.map_velocity(dt, kernel.as_ref(), grid, particles);
+        }
+        let least_j = strain(effects, material.as_mut(), StressUpdate::straining(dt, particles));
+        if let Some(least) = least_j {
+            self.min_j = self.min_j.min(least);
+        } else {
+            self.jacobians()?;
+        }
+        let Setup { particles, material, .. } = &self.setup;
+        // A law of F takes J from F: each number of F is a factor in J, which is finite by now.
+        if !material.reads_deformation() {
+            particles.deformed_finite()?;
+        }
+        if least_j.is_none() { particles.stressed_finite() } else { Ok(()) }
+    }
+
+    /// `J = V / V0` of every particle, of which one may fail: the smallest so far is kept.
+    fn jacobians(&mut self) -> Result<(), Failure> {
+        let Particles { vol, vol0, .. } = &self.setup.particles;
+        for (p, (vol, vol0)) in vol.iter().zip(vol0).enumerate() {
+            let (j, site) = (vol / vol0, Site::Particle(p));
+            if !j.is_finite() {
+                return Err(Failure::NonFinite { quantity: "J", site });
+            }
+            self.min_j = self.min_j.min(j);
+            if j <= 0.0 {
+                return Err(Failure::Inverted { site, j });
+            }
+        }
+        Ok(())
+    }
+}

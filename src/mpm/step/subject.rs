@@ -1,0 +1,319 @@
+//! A solver as a [`Subject`]: the step, checkpoints, and the state as a row of numbers.
+//!
+//! A step is the passes of the schedule in their order. In checkpoints every field is named, so
+//! that the compiler asks for a new one; the grid and the advected positions are computed in each
+//! step.
+//!
+//! The row of numbers is what a step reads and changes: velocities, stresses, volumes, F where it
+//! is a column, and the affine state of the transfer. The grid keeps nothing from step to step.
+//! State of a material alone (plastic flow) is left out, and positions and domains are the
+//! configuration.
+
+use super::schedule::{Coupled, Pass, StepSchedule};
+use super::setup::{Setup, fields};
+use super::solver::Solver;
+use crate::mpm::boundary::{Advance, Side};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::kernel::contract::{Affine, G2pRequest};
+use crate::mpm::transfer::{Transfer, kick};
+use crate::subject::{
+    BodyFields, Checkpoint, Failure, Memory, Perturbable, Reaction, RunCounters, Samples, Start,
+    Subject, Totals,
+};
+use nalgebra::SMatrix;
+
+impl<const D: usize> Solver<D> {
+    /// The step of [`Subject::step`]; `after` is called with the name of each pass when it is done,
+    /// for those who time passes.
+    ///
+    /// # Errors
+    /// Those of [`Subject::step`].
+    pub fn step_by_pass(&mut self, dt: f64, after: &mut dyn FnMut(String)) -> Result<(), Failure> {
+        self.step_with(dt, &mut |pass| after(pass.name()))
+    }
+
+    fn step_with(&mut self, dt: f64, after: &mut dyn FnMut(Pass)) -> Result<(), Failure> {
+        let StepSchedule { opening, passes } = self.schedule.clone();
+        if !self.started {
+            self.open(dt);
+            self.run_each(&opening, dt, after)?;
+            self.opened(dt);
+        }
+        self.run_each(&passes, dt, after)?;
+        self.time += dt;
+        Ok(())
+    }
+
+    pub(in crate::mpm) fn run_all(&mut self, passes: &[Pass], dt: f64) -> Result<(), Failure> {
+        self.run_each(passes, dt, &mut |_| {})
+    }
+
+    fn run_each(
+        &mut self,
+        passes: &[Pass],
+        dt: f64,
+        after: &mut dyn FnMut(Pass),
+    ) -> Result<(), Failure> {
+        for pass in passes {
+            self.run(*pass, dt)?;
+            after(*pass);
+        }
+        Ok(())
+    }
+
+    /// Applies the boundary conditions to velocities again, after a coupling of bodies.
+    pub(in crate::mpm) fn hold_velocity(&mut self) {
+        for condition in &self.setup.boundary {
+            condition.hold_velocity(&mut self.setup.grid.velocity, self.velocity_time);
+        }
+    }
+
+    /// Applies the boundary conditions to accelerations again, after a coupling of bodies.
+    pub(in crate::mpm) fn hold_acceleration(&mut self) {
+        for condition in &self.setup.boundary {
+            condition.hold_acceleration(&mut self.setup.grid.acceleration, &self.advance);
+        }
+    }
+
+    /// Before the passes of the opening.
+    pub(in crate::mpm) fn open(&mut self, dt: f64) {
+        self.drive(0.0);
+        if self.setup.start == Start::HalfStepBack {
+            // a(0) is that of the whole step around t = 0.
+            self.velocity_time = -0.5 * dt;
+        }
+    }
+
+    /// After the passes of the opening: `v(-dt/2) = v(0) - dt/2 a(0)`.
+    pub(in crate::mpm) fn opened(&mut self, dt: f64) {
+        self.started = true;
+        if self.setup.start == Start::AtZero {
+            return;
+        }
+        self.velocity_time = -0.5 * dt;
+        let Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
+        let passes = kick(transfer.as_mut(), kernel.as_ref(), grid, -0.5 * dt, particles);
+        self.count(passes);
+        self.drive(0.0);
+    }
+}
+
+impl<const D: usize> Subject for Solver<D> {
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        self.step_with(dt, &mut |_| {})
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        samples.clear();
+        self.setup.particles.sample(samples);
+    }
+
+    fn fields(&self) -> Vec<BodyFields> {
+        vec![fields(&self.setup.grid, &self.setup.particles, &self.columns())]
+    }
+
+    fn totals(&self) -> Option<Totals> {
+        let Setup { particles, transfer, material, .. } = &self.setup;
+        let strain_energy = material.energy(particles);
+        Some(Totals { strain_energy, ..particles.totals(|p| transfer.moment(p)) })
+    }
+
+    fn reaction(&self, face: Option<(usize, bool)>) -> Option<Reaction> {
+        let side = |high| if high { Side::High } else { Side::Low };
+        self.started.then(|| self.reaction(face.map(|(axis, high)| (axis, side(high)))))
+    }
+
+    fn null_space_energy(&self) -> Option<f64> {
+        Some(Self::null_space_energy(self))
+    }
+
+    fn counters(&self) -> RunCounters {
+        RunCounters {
+            particles: Some(self.setup.particles.len() as u64),
+            transfers: self.transfers,
+            crossings: Some(self.cell_tracker.crossings),
+            left_domain: Some(self.cell_tracker.left_domain),
+            min_j: self.min_j,
+        }
+    }
+
+    fn passes(&self) -> Vec<String> {
+        self.schedule.texts(&self.setup.state_passes())
+    }
+
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
+        checkpoint.visit(self);
+        true
+    }
+}
+
+/// Vectors and matrices, column after column.
+impl<const R: usize, const C: usize> Memory for SMatrix<f64, R, C> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        f64::visit_each(self.as_mut_slice(), checkpoint);
+    }
+}
+
+/// Columns that are there from the start, but for those that never change.
+impl<const D: usize> Memory for Particles<D> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self {
+            x0: _,
+            x,
+            current_position,
+            v,
+            mass: _,
+            vol0: _,
+            vol,
+            sigma,
+            def_grad,
+            across,
+            rate_across,
+            stress_across,
+            domain,
+            domain0: _,
+            grad_v,
+            temperature,
+            spacing: _,
+        } = self;
+        for column in [x, current_position, v] {
+            checkpoint.visit::<[Vector<D>]>(column);
+        }
+        for column in [vol, across, rate_across, stress_across, temperature] {
+            checkpoint.visit::<[f64]>(column);
+        }
+        for column in [sigma, def_grad, domain, grad_v] {
+            checkpoint.visit(&mut column[..]);
+        }
+    }
+}
+
+impl Memory for Advance {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { from, to, dt } = self;
+        for time in [from, to, dt] {
+            checkpoint.visit(time);
+        }
+    }
+}
+
+impl<const D: usize> Memory for Setup<D> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self {
+            grid: _,
+            particles,
+            kernel: _,
+            transfer,
+            // Assembled in each step.
+            mass: _,
+            frame: _,
+            material,
+            effects,
+            boundary,
+            scheme: _,
+            start: _,
+        } = self;
+        checkpoint.visit(particles);
+        checkpoint.visit(affine_state_mut(transfer.as_mut()));
+        material.checkpoint(checkpoint);
+        for effect in effects {
+            effect.checkpoint(checkpoint);
+        }
+        for condition in boundary {
+            condition.checkpoint(checkpoint);
+        }
+    }
+}
+
+impl<const D: usize> Memory for Solver<D> {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self {
+            setup,
+            schedule: _,
+            time,
+            velocity_time,
+            advance,
+            started,
+            transfers,
+            min_j,
+            cell_tracker,
+            advected: _,
+        } = self;
+        checkpoint.visit(setup);
+        for number in [time, velocity_time, min_j] {
+            checkpoint.visit(number);
+        }
+        checkpoint.visit(advance);
+        checkpoint.visit(started);
+        checkpoint.visit(transfers);
+        checkpoint.visit(cell_tracker);
+    }
+}
+
+/// The columns of matrices of the particles, in their order in the state.
+fn matrices<const D: usize>(particles: &Particles<D>) -> impl Iterator<Item = &Matrix<D>> {
+    [&particles.sigma, &particles.def_grad].into_iter().flatten()
+}
+
+/// Affine velocity field of the particles, if the transfer has one.
+fn affine<const D: usize>(solver: &Solver<D>) -> Option<Affine<'_, D>> {
+    solver.setup.transfer.p2g_request(&solver.setup.particles).momentum?.affine
+}
+
+/// State of the affine velocity field; empty if the transfer has none.
+pub(super) fn affine_state_mut<const D: usize>(transfer: &mut dyn Transfer<D>) -> &mut [Matrix<D>] {
+    let G2pRequest { moment, gradient, .. } = transfer.g2p_request(0.0);
+    moment.or(gradient).unwrap_or_default()
+}
+
+impl<const D: usize> Perturbable for Solver<D> {
+    fn fix_configuration(&mut self) {
+        self.schedule = StepSchedule::new(&mut self.setup, Coupled::default(), true);
+    }
+
+    fn state(&self, state: &mut Vec<f64>) {
+        let particles = &self.setup.particles;
+        state.clear();
+        state.extend(particles.v.iter().flatten());
+        state.extend(matrices(particles).flatten());
+        state.extend(&particles.vol);
+        state.extend(particles.across.iter().chain(&particles.stress_across));
+        state.extend(affine(self).into_iter().flat_map(Affine::state).flatten());
+    }
+
+    fn set_state(&mut self, state: &[f64]) {
+        let Particles { v, sigma, def_grad, vol, across, stress_across, .. } =
+            &mut self.setup.particles;
+        let affine_state = affine_state_mut(self.setup.transfer.as_mut());
+        let numbers = v
+            .iter_mut()
+            .flatten()
+            .chain(sigma.iter_mut().flatten())
+            .chain(def_grad.iter_mut().flatten())
+            .chain(vol.iter_mut())
+            .chain(across.iter_mut())
+            .chain(stress_across.iter_mut())
+            .chain(affine_state.iter_mut().flatten());
+        for (number, value) in numbers.zip(state) {
+            *number = *value;
+        }
+    }
+
+    fn sizes(&self, speed: f64, modulus: f64, sizes: &mut Vec<f64>) {
+        let particles = &self.setup.particles;
+        sizes.clear();
+        let mut same = |size: f64, count: usize| sizes.extend(std::iter::repeat_n(size, count));
+        same(speed, D * particles.len());
+        same(modulus, D * D * particles.sigma.len());
+        same(1.0, D * D * particles.def_grad.len());
+        for vol in &particles.vol0 {
+            same(*vol, 1);
+        }
+        same(1.0, particles.across.len());
+        same(modulus, particles.stress_across.len());
+        if let Some(affine) = affine(self) {
+            same(affine.size(speed, self.setup.grid.h), D * D * affine.state().len());
+        }
+    }
+}

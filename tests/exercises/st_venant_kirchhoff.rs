@@ -1,0 +1,98 @@
+//! St. Venant-Kirchhoff elasticity: the law of small strains between S and the Green strain.
+//!
+//! `sigma = F S F^T/J`, `S = lambda tr(E) I + 2 mu E`, `E = (F^T F - I)/2` (Bonet & Wood 2008,
+//! section 6.3). Derived from the energy `W = lambda/2 tr(E)^2 + mu E : E`. Softens under strong
+//! compression. Fewer than three dimensions mean plane or uniaxial strain.
+
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::material::contract::{Material, MaterialProperties};
+use crate::mpm::material::hyperelastic::{set_stress_along_axes, stored_energy};
+use crate::mpm::material::linear_elastic::LinearElastic;
+use crate::mpm::material::stress_update::StressUpdate;
+
+/// St. Venant-Kirchhoff elasticity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StVenantKirchhoff {
+    lambda: f64,
+    mu: f64,
+}
+
+impl StVenantKirchhoff {
+    /// From Young's modulus (Pa) and Poisson's ratio.
+    pub fn new(young: f64, poisson: f64) -> Self {
+        let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
+        Self { lambda, mu }
+    }
+
+    /// Principal stresses (Pa) from the squared stretches b: `sigma_i = b_i S_i/J`.
+    fn principal<const D: usize>(&self, squares: &Vector<D>, j: f64) -> Vector<D> {
+        let strain = squares.map(|square| 0.5 * (square - 1.0));
+        let pressure = self.lambda * strain.sum();
+        strain.zip_map(squares, |strain, square| (pressure + 2.0 * self.mu * strain) * square / j)
+    }
+
+    /// W (J/m^D).
+    fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
+        let strain = green_strain(f);
+        let trace = strain.trace();
+        0.5 * self.lambda * trace * trace + self.mu * strain.norm_squared()
+    }
+}
+
+/// `E = (H + H^T + H^T H)/2`, of `H = F - I`: small strains keep their digits.
+fn green_strain<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
+    let h = f - Matrix::identity();
+    (h + h.transpose() + h.transpose() * h) * 0.5
+}
+
+impl MaterialProperties for StVenantKirchhoff {
+    fn wave_modulus(&self) -> f64 {
+        self.lambda + 2.0 * self.mu
+    }
+
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+
+    fn is_elastic(&self) -> bool {
+        true
+    }
+}
+
+impl<const D: usize> Material<D> for StVenantKirchhoff {
+    fn reads_deformation(&self) -> bool {
+        true
+    }
+
+    fn energy(&self, particles: &Particles<D>) -> Option<f64> {
+        Some(stored_energy(particles, |f| self.density(f)))
+    }
+
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        set_stress_along_axes(body, |squares| *squares, |squares, j| self.principal(squares, j));
+    }
+}
+
+#[cfg(test)]
+impl crate::mpm::material::contract::ClosedForms for StVenantKirchhoff {
+    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
+        let square = gamma * gamma;
+        let pressure = 0.5 * self.lambda * square;
+        let across = pressure + self.mu * square;
+        let along = pressure + 2.0 * self.mu * square + square * across;
+        [along, gamma * (self.mu + across), across]
+    }
+
+    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
+        let strain = 0.5 * (stretch * stretch - 1.0);
+        let across = self.lambda * strain;
+        Some([stretch * (across + 2.0 * self.mu * strain), across / stretch])
+    }
+
+    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
+        let strain = (f.transpose() * f - Matrix::identity()) * 0.5;
+        let (trace, square) = (strain.trace(), (strain * strain).trace());
+        Some(0.5 * self.lambda * trace * trace + self.mu * square)
+    }
+}
