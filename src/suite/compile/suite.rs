@@ -1,6 +1,7 @@
 //! From the specification to a suite: every number computed, every name resolved, the truth
 //! checked.
 
+use super::check::size::LevelPaths;
 use super::check::{self, size, steps, sums};
 use super::expect::any_method;
 use super::run::{self, places, reference, refine};
@@ -85,12 +86,38 @@ fn scale_amplitude(spec: &mut ConvergenceSpec, factor: f64) {
     }
 }
 
+/// A convergence study whose scene, truth, levels and cases are known.
+struct Compiled<'a> {
+    evaluator: &'a Evaluator<'a>,
+    spec: &'a ConvergenceSpec,
+    plan: &'a ConvergencePlan,
+    /// Where the file states the levels.
+    levels: Vec<LevelPaths>,
+    /// End of the longest run (s).
+    latest: f64,
+}
+
+/// A check of keys that belong together.
+type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
+
+/// Checks of a convergence study before its expectations are read. None relies on another: their
+/// order decides only which one of several mistakes is reported.
+const CROSS_CHECKS: [CrossCheck; 8] = [
+    |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
+    |suite| truth::refuse_violated(suite.evaluator, suite.spec, suite.plan),
+    |suite| check::refuse_law_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
+    |suite| check::refuse_foreign(suite.evaluator, suite.spec, &suite.plan.scene, suite.latest),
+    |suite| conservation_only::refuse_need_of_truth(suite.evaluator, suite.spec, suite.plan),
+    |suite| check::refuse_quantity_unknown_to_fem(suite.evaluator, suite.spec, suite.plan),
+    |suite| size::refuse_unfit_levels(suite.evaluator, suite.spec, suite.plan, &suite.levels),
+    |suite| steps::refuse_unusable(suite.evaluator, suite.plan, &suite.levels),
+];
+
 fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     refuse_unusable_name(&evaluator, &spec.suite)?;
     let scene = scene::scene(&evaluator, &spec.scene)?;
-    check::refuse_conditions_unknown_to_fem(&evaluator, &spec, &scene)?;
-    let (refine, places) = refine::plan(&evaluator, &spec, &scene)?;
+    let (refine, levels) = refine::plan(&evaluator, &spec, &scene)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
         evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
     })?;
@@ -107,12 +134,6 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     let reference = reference.transpose()?.flatten();
     let same_method =
         reference::same_method(&evaluator, &spec, (&scene, &refine), &until, instants)?;
-    check::refuse_law_unknown_to_fem(&evaluator, &spec, &scene)?;
-    check::refuse_foreign(&evaluator, &spec, &scene, latest)?;
-    let computed = reference.is_some() || conservation_only::is_truth(same_method);
-    if exact.is_none() && conduction.is_none() && !computed {
-        conservation_only::refuse_need_of_truth(&evaluator, &spec)?;
-    }
     let observe = spec.observe.as_ref().map(|spec| places::observed(&evaluator, spec, &scene));
     let scale = spec.judge.scale.as_ref().map(|text| {
         evaluator.positive(&Path::top("judge").then("scale"), text, "the scale of the error")
@@ -137,15 +158,16 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
         cases: Vec::new(),
         acknowledged: acknowledged(&evaluator, &spec.acknowledge)?,
     };
-    check::refuse_quantity_unknown_to_fem(&evaluator, &spec, &plan)?;
+    plan.cases = run::cases(&evaluator, &spec, &plan, &until)?;
+    let compiled = Compiled { evaluator: &evaluator, spec: &spec, plan: &plan, levels, latest };
+    CROSS_CHECKS.iter().try_for_each(|check| check(&compiled))?;
+    // The exact value of a sum is that of a solution that has been checked.
     plan.sum = sums::judged(&evaluator, &spec, &plan)?;
     plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
-    size::refuse_unfit_levels(&evaluator, &spec, &plan, &places)?;
     if let Some(spec) = &spec.any_method {
         plan.any_method = any_method(&evaluator, spec, &plan)?;
     }
-    plan.cases = run::cases(&evaluator, &spec, &plan, &until)?;
-    steps::refuse_unusable(&evaluator, &plan, &places)?;
+    plan.cases = run::expected(&evaluator, &spec, &plan)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
     Ok(assemble(head, parameters, &spec.functions, plan))

@@ -12,7 +12,7 @@ use crate::suite::model::Scene;
 use crate::suite::scene::boundary::thermal::ThermalFace;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 
-/// The heat problem of a body at rest, checked; none where the body moves.
+/// The heat problem of a body at rest; `None` if the body moves.
 pub(crate) fn conduction(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -45,7 +45,6 @@ pub(crate) fn conduction(
         let diagnostic = evaluator.diagnostic(&at, "nothing happens to a body at rest");
         return Err(diagnostic.with_help("add `heat` to `loads`, or choose a material"));
     };
-    refuse_wrong_temperature(evaluator, &path, &found)?;
     Ok(Some(found))
 }
 

@@ -35,7 +35,11 @@ pub(crate) fn is_truth(same_method: Option<SameMethod>) -> bool {
 pub(crate) fn refuse_need_of_truth(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
+    plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
+    if !is_truthless(plan) {
+        return Ok(());
+    }
     let asked = |spec: &ExpectSpec| {
         let ExpectSpec { order, verdict, finest_pair, floor, drift, energy_rate, .. } = spec;
         let ExpectSpec { error_below, error_above, observed_within, rest_below, .. } = spec;

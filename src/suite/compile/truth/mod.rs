@@ -1,5 +1,5 @@
-//! The truth of a suite: the exact solution, or the state in which the body comes to rest, checked
-//! before it is used.
+//! The truth of a suite: the exact solution, or the state in which the body comes to rest, and the
+//! check that it solves its problem.
 //!
 //! A body is compared with its equilibrium once it is there: at the end of the run.
 
@@ -13,7 +13,7 @@ use crate::fem::BarLaw;
 use crate::mpm::MaterialPlan;
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time};
 use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec, NormName};
-use crate::suite::model::{Scene, SceneFace};
+use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
 use crate::suite::scene::load::{EffectName, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use conduction::ConductionInputs;
@@ -23,10 +23,11 @@ use tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
 /// derivatives before anything runs.
 const MOST_OPERATIONS: u64 = 5000;
 
-/// The problem that a suite's formulas solve, if it has formulas.
+/// The problem that the formulas of a suite are to solve, if it has formulas. Whether they do is
+/// not yet checked.
 ///
 /// # Errors
-/// A diagnostic at the formula that names the violated condition, where and by how much.
+/// A diagnostic of keys that do not go together, or of a formula.
 pub(crate) fn exact(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -42,13 +43,11 @@ pub(crate) fn exact(
     if let Some(state) = &spec.equilibrium {
         refuse_equilibrium_with(evaluator, spec, state, scene)?;
         let path = Path::top("equilibrium");
-        let problem = Problem {
+        return Ok(Some(Problem {
             at_rest: true,
             follows_motion: false,
             ..solution(evaluator, &path, state, (scene, true), until)?
-        };
-        refuse_wrong_solution(evaluator, &path, &problem, &Survey::of(&problem))?;
-        return Ok(Some(problem));
+        }));
     }
     let Some(exact) = &spec.exact else { return manufactured(evaluator, spec, scene, until) };
     let path = Path::top("exact");
@@ -57,21 +56,41 @@ pub(crate) fn exact(
         return Err(evaluator.diagnostic_at_key(&Path::top("manufactured"), message));
     }
     let problem = solution(evaluator, &path, exact, (scene, false), until)?;
-    if scene.bodies.is_empty() {
-        refuse_wrong_solution(evaluator, &path, &problem, &Survey::of(&problem))?;
-        return Ok(Some(problem));
-    }
     let each =
         scene.bodies.iter().map(|body| solution(evaluator, &path, exact, (body, false), until));
     let bodies = each.collect::<Result<Vec<Problem>, _>>()?;
+    Ok(Some(Problem { bodies, ..problem }))
+}
+
+/// Refuses a solution that violates its problem: its equation, or a condition on a face or at the
+/// start.
+///
+/// # Errors
+/// A diagnostic at the formula that names the violated condition, where and by how much.
+pub(crate) fn refuse_violated(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    plan: &ConvergencePlan,
+) -> Result<(), Diagnostic> {
+    let path = Path::top(match (&spec.equilibrium, &spec.exact) {
+        (Some(_), _) => "equilibrium",
+        (None, Some(_)) => "exact",
+        (None, None) => "manufactured",
+    });
+    if let Some(problem) = &plan.conduction {
+        conduction::refuse_wrong_temperature(evaluator, &path, problem)?;
+    }
+    let Some(problem) = &plan.exact else { return Ok(()) };
+    if problem.bodies.is_empty() {
+        return refuse_wrong_solution(evaluator, &path, problem, &Survey::of(problem));
+    }
     interface::refuse_violated_conditions(
         evaluator,
-        scene,
-        bodies.clone(),
+        &plan.scene,
+        problem.bodies.clone(),
         |problem, survey| refuse_wrong_solution(evaluator, &path, problem, survey),
         |violation| no_solution(evaluator, &path, &violation, problem.tolerance),
-    )?;
-    Ok(Some(Problem { bodies, ..problem }))
+    )
 }
 
 /// The scene's problem with the formulas at `path`, not yet checked.
@@ -164,9 +183,7 @@ fn manufactured(
         tolerance: TOLERANCE,
     };
     let heat = conduction::problem(evaluator, &path, made.temperature.as_ref(), scene, inputs)?;
-    let problem = Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) };
-    refuse_wrong_solution(evaluator, &path, &problem, &Survey::of(&problem))?;
-    Ok(Some(problem))
+    Ok(Some(Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) }))
 }
 
 /// The scene as a continuum problem, with the motion that is to solve it.
