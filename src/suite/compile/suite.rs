@@ -28,9 +28,9 @@ impl Suite {
     /// A [`Diagnostic`] with the place of the first thing that is wrong.
     pub fn load(source: &Source) -> Result<Self, Diagnostic> {
         let suite = match SuiteSpec::read(source)? {
-            SuiteSpec::Convergence(spec) => convergence(source, spec),
-            SuiteSpec::InternalForce(spec) => internal_force(source, spec),
-            SuiteSpec::Stability(spec) => stability(source, spec),
+            SuiteSpec::Convergence(spec) => convergence(source, *spec),
+            SuiteSpec::InternalForce(spec) => internal_force(source, *spec),
+            SuiteSpec::Stability(spec) => stability(source, *spec),
         };
         let fingerprint = fingerprint(source.text().as_bytes());
         Ok(Self { group: source.group(), fingerprint, ..suite? })
