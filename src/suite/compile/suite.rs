@@ -28,9 +28,9 @@ impl Suite {
     /// A [`Diagnostic`] with the place of the first thing that is wrong.
     pub fn load(source: &Source) -> Result<Self, Diagnostic> {
         let suite = match SuiteSpec::read(source)? {
-            SuiteSpec::Convergence(spec) => convergence(source, spec),
-            SuiteSpec::InternalForce(spec) => internal_force(source, spec),
-            SuiteSpec::Stability(spec) => stability(source, spec),
+            SuiteSpec::Convergence(spec) => convergence(source, *spec),
+            SuiteSpec::InternalForce(spec) => internal_force(source, *spec),
+            SuiteSpec::Stability(spec) => stability(source, *spec),
         };
         let fingerprint = fingerprint(source.text().as_bytes());
         Ok(Self { group: source.group(), fingerprint, ..suite? })
@@ -86,7 +86,7 @@ fn scale_amplitude(spec: &mut ConvergenceSpec, factor: f64) {
     }
 }
 
-/// A convergence study whose values are all computed.
+/// A convergence study whose scene, truth, levels and cases are known.
 struct Compiled<'a> {
     evaluator: &'a Evaluator<'a>,
     spec: &'a ConvergenceSpec,
@@ -100,9 +100,9 @@ struct Compiled<'a> {
 /// A check of keys that belong together.
 type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
 
-/// Checks of a convergence study whose values are all computed. None relies on another: their order
-/// decides only which one of several mistakes is reported.
-const CROSS_CHECKS: [CrossCheck; 9] = [
+/// Checks of a convergence study before its expectations are read. None relies on another: their
+/// order decides only which one of several mistakes is reported.
+const CROSS_CHECKS: [CrossCheck; 8] = [
     |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| truth::refuse_violated(suite.evaluator, suite.spec, suite.plan),
     |suite| check::refuse_law_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
@@ -111,7 +111,6 @@ const CROSS_CHECKS: [CrossCheck; 9] = [
     |suite| check::refuse_quantity_unknown_to_fem(suite.evaluator, suite.spec, suite.plan),
     |suite| size::refuse_unfit_levels(suite.evaluator, suite.spec, suite.plan, &suite.levels),
     |suite| steps::refuse_unusable(suite.evaluator, suite.plan, &suite.levels),
-    |suite| suite.evaluator.refuse_unused(&suite.spec.parameters, &suite.spec.functions),
 ];
 
 fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {
@@ -159,15 +158,17 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
         cases: Vec::new(),
         acknowledged: acknowledged(&evaluator, &spec.acknowledge)?,
     };
-    if let Some(spec) = &spec.any_method {
-        plan.any_method = any_method(&evaluator, spec, &plan)?;
-    }
     plan.cases = run::cases(&evaluator, &spec, &plan, &until)?;
     let compiled = Compiled { evaluator: &evaluator, spec: &spec, plan: &plan, levels, latest };
     CROSS_CHECKS.iter().try_for_each(|check| check(&compiled))?;
     // The exact value of a sum is that of a solution that has been checked.
     plan.sum = sums::judged(&evaluator, &spec, &plan)?;
     plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
+    if let Some(spec) = &spec.any_method {
+        plan.any_method = any_method(&evaluator, spec, &plan)?;
+    }
+    plan.cases = run::expected(&evaluator, &spec, &plan)?;
+    evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
     Ok(assemble(head, parameters, &spec.functions, plan))
 }

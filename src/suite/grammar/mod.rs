@@ -36,11 +36,11 @@ use serde::Deserialize;
 #[derive(Debug, Clone)]
 pub(crate) enum SuiteSpec {
     /// Errors over a refinement plan.
-    Convergence(ConvergenceSpec),
+    Convergence(Box<ConvergenceSpec>),
     /// Internal force on a node while a particle moves through it.
-    InternalForce(InternalForceSpec),
+    InternalForce(Box<InternalForceSpec>),
     /// Whether runs stay bounded, and up to which value of a parameter.
-    Stability(StabilitySpec),
+    Stability(Box<StabilitySpec>),
 }
 
 /// Keys that every suite has, whatever it studies.

@@ -99,9 +99,13 @@ impl SuiteSpec {
     pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
         let checked = CheckedShape::new(source, "study")?;
         match StudyName::of_checked(&checked)? {
-            StudyName::Convergence => read(&checked, "convergence").map(Self::Convergence),
-            StudyName::InternalForce => read(&checked, "internal_force").map(Self::InternalForce),
-            StudyName::Stability => read(&checked, "stability").map(Self::Stability),
+            StudyName::Convergence => {
+                read(&checked, "convergence").map(Box::new).map(Self::Convergence)
+            }
+            StudyName::InternalForce => {
+                read(&checked, "internal_force").map(Box::new).map(Self::InternalForce)
+            }
+            StudyName::Stability => read(&checked, "stability").map(Box::new).map(Self::Stability),
         }
     }
 }

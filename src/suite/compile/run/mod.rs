@@ -40,7 +40,7 @@ pub(crate) fn until(
     Ok(ends)
 }
 
-/// All cases of a suite with what is expected of each.
+/// All cases of a suite, without expectations.
 pub(crate) fn cases(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -60,22 +60,34 @@ pub(crate) fn cases(
     let found = named(evaluator, found)?;
     let runs = |method: &NamedMethod| runs(method, &truths, until);
     let drafts: Vec<Draft> = found.iter().flat_map(runs).collect();
-    let names: Vec<_> = drafts.iter().map(|draft| (draft.name.as_str(), draft.method)).collect();
-    let expectations = expectations(evaluator, &spec.expect, plan, &names)?;
-    let with = |(draft, expected): (Draft, Option<(Expectation, Option<Expectation>)>)| {
-        let (expectation, expectation_in_full) = expected.unzip();
-        Case {
-            name: draft.name,
-            method: draft.method,
-            solver: draft.solver,
-            until: draft.until,
-            against: draft.against,
-            expectation,
-            expectation_in_full: expectation_in_full.flatten(),
-            gating: None,
-        }
+    let case = |draft: Draft| Case {
+        name: draft.name,
+        method: draft.method,
+        solver: draft.solver,
+        until: draft.until,
+        against: draft.against,
+        expectation: None,
+        expectation_in_full: None,
+        gating: None,
     };
-    Ok(drafts.into_iter().zip(expectations).map(with).collect())
+    Ok(drafts.into_iter().map(case).collect())
+}
+
+/// The cases of `plan` with the expectation of each.
+pub(crate) fn expected(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    plan: &ConvergencePlan,
+) -> Result<Vec<Case>, Diagnostic> {
+    let cases = &plan.cases;
+    let names: Vec<_> = cases.iter().map(|case| (case.name.as_str(), case.method)).collect();
+    let expectations = expectations(evaluator, &spec.expect, plan, &names)?;
+    let with = |(case, expected): (&Case, Option<(Expectation, Option<Expectation>)>)| {
+        let (expectation, expectation_in_full) = expected.unzip();
+        let expectation_in_full = expectation_in_full.flatten();
+        Case { expectation, expectation_in_full, ..case.clone() }
+    };
+    Ok(cases.iter().zip(expectations).map(with).collect())
 }
 
 /// A case before anything is expected of it.
