@@ -9,6 +9,7 @@
 //! cache            results of finished levels kept on disk
 //! describe         the rows that state a problem in reports
 //! diagnosis        why an order is not that of theory, by runs that change one thing
+//! exact_motion     amplitude, extremes and linearisation of an exact motion
 //! handover         a level as a problem that any solver can be handed
 //! preflight        warnings about a suite before anything runs
 //! shard            parts of a run of about the same cost
@@ -20,6 +21,7 @@ pub(crate) mod convergence;
 pub mod cost;
 pub mod describe;
 pub(crate) mod diagnosis;
+pub(crate) mod exact_motion;
 pub(crate) mod handover;
 pub(crate) mod internal_force;
 pub(crate) mod kind;
@@ -31,9 +33,9 @@ pub(crate) mod stability;
 pub(crate) mod time_series;
 
 pub use cache::ResultCache;
-pub use convergence::time_steps::{TimeStep, time_steps};
-pub use describe::linearisation::{Linearisation, linearisation};
+pub use convergence::time_steps::{PlannedLevel, TimeStep, planned_levels, time_steps};
 pub use diagnosis::diagnose;
+pub use exact_motion::{Linearisation, linearisation};
 pub use handover::{exact_state, lacking, level_problem, needs, under, under_on};
 pub use kind::{Progress, StepWarning, profile, statement};
 pub use preflight::{Estimate, estimate, estimates, preflight, unit_seconds};
