@@ -2,7 +2,6 @@
 
 pub(crate) mod bar;
 pub(crate) mod body;
-pub(crate) mod conditions;
 pub(crate) mod dispatch;
 pub(crate) mod initial_state;
 pub(crate) mod seeding;
