@@ -1,7 +1,7 @@
 //! Studies: what a suite asks for, run and judged.
 //!
 //! ```text
-//! build            model -> Subject: names become types
+//! setup            model -> Subject: names become types
 //! convergence      errors over a refinement plan, judged
 //! internal_force   the internal force on a node while a particle crosses it
 //! stability        runs watched for growth, limits by bisection
@@ -9,36 +9,38 @@
 //! cache            results of finished levels kept on disk
 //! describe         the rows that state a problem in reports
 //! diagnosis        why an order is not that of theory, by runs that change one thing
+//! exact_motion     amplitude, extremes and linearisation of an exact motion
 //! handover         a level as a problem that any solver can be handed
 //! preflight        warnings about a suite before anything runs
 //! shard            parts of a run of about the same cost
 //! time_series      a case as files for ParaView: particles and grid over time
 //! ```
 
-pub(crate) mod build;
 pub(crate) mod cache;
 pub(crate) mod convergence;
 pub mod cost;
 pub mod describe;
 pub(crate) mod diagnosis;
+pub(crate) mod exact_motion;
 pub(crate) mod handover;
 pub(crate) mod internal_force;
 pub(crate) mod kind;
 pub(crate) mod preflight;
 pub(crate) mod runner;
+pub(crate) mod setup;
 pub(crate) mod shard;
 pub(crate) mod stability;
 pub(crate) mod time_series;
 
-pub use build::dispatch::subject;
-pub use build::setup::effects;
 pub use cache::ResultCache;
-pub use convergence::time_steps::{TimeStep, time_steps};
-pub use describe::linearisation::{Linearisation, linearisation};
+pub use convergence::time_steps::{PlannedLevel, TimeStep, planned_levels, time_steps};
 pub use diagnosis::diagnose;
+pub use exact_motion::{Linearisation, linearisation};
 pub use handover::{exact_state, lacking, level_problem, needs, under, under_on};
 pub use kind::{Progress, StepWarning, profile, statement};
 pub use preflight::{Estimate, estimate, estimates, preflight, unit_seconds};
 pub use runner::Runner;
+pub use setup::body::effects;
+pub use setup::dispatch::subject;
 pub use shard::Shard;
 pub use time_series::SeriesFile;

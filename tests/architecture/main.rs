@@ -35,7 +35,7 @@ mod words;
 
 use rules::Breach;
 
-const DISPATCH: &str = "src/study/build/dispatch.rs";
+const DISPATCH: &str = "src/study/setup/dispatch.rs";
 
 /// Fails with a list of `breaches` that a stranger to the crate understands.
 fn hold(rule: &str, why: &str, breaches: &[Breach]) {
@@ -96,7 +96,7 @@ fn walls_and_exceptions_are_about_files_that_exist() {
 fn only_dispatch_knows_both_solvers() {
     let (sources, both): (_, [&[&str]; 2]) = (source::of_crate(), [&["Solver"], &["bar", "("]]);
     hold(
-        "only src/study/build/dispatch.rs mentions both `Solver` (MPM) and calls `bar` (FEM)",
+        "only src/study/setup/dispatch.rs mentions both `Solver` (MPM) and calls `bar` (FEM)",
         "names become solvers in one place, so that a new solver is added in one place",
         &rules::mentions(&sources, &both, DISPATCH),
     );

@@ -130,7 +130,7 @@ fn a_folder_and_its_child_can_form_a_cycle() {
 #[case("src/verify/run.rs", "use crate::{exact::Truth, subject::Subject};", 0)]
 #[case("src/report/text.rs", "use super::super::suite::Suite;", 1)]
 #[case("src/exact/motion.rs", "pub use crate::fem::Bar;", 1)]
-#[case("src/study/build/dispatch.rs", "use crate::{mpm::Solver, fem::Bar, verify::Claim};", 0)]
+#[case("src/study/setup/dispatch.rs", "use crate::{mpm::Solver, fem::Bar, verify::Claim};", 0)]
 #[case("src/suite/compile.rs", "use crate::{report::Row, suite::grammar::Spec};", 0)]
 #[case("src/suite/compile.rs", "use crate::study::Runner;", 1)]
 #[case("src/suite/model.rs", "use crate::suite::compile::Suite;", 1)]

@@ -122,7 +122,7 @@ pub(crate) const OLD_FILES: &[(&str, &str)] = &[
     ("truthless", "conservation_only"),
     ("filling", "seeding"),
     ("secular", "energy_rate"),
-    ("beta", "f_test"),
+    ("beta", "variance_ratio"),
     ("student", "t_quantile"),
     ("figures", "format_number"),
     ("priced", "timed_suite"),

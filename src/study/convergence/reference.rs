@@ -2,7 +2,7 @@
 
 use crate::exact::Truth;
 use crate::fem::Bar;
-use crate::study::build::bar::{bar, reference_method};
+use crate::study::setup::bar::{bar, reference_method};
 use crate::subject::Subject;
 use crate::suite::model::grid_size::cell_size;
 use crate::suite::model::{Against, ConvergencePlan};

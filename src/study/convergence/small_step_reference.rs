@@ -7,7 +7,7 @@
 
 use super::reference::nearest_instant;
 use crate::exact::Truth;
-use crate::study::build::dispatch::subject;
+use crate::study::setup::dispatch::subject;
 use crate::subject::{Samples, Start};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;

@@ -7,8 +7,8 @@
 //! (`tiny-nodal-mass`): the share is for these.
 
 use crate::mpm::simplest_with_same_response;
-use crate::study::build::dispatch;
 use crate::study::kind::StepWarning;
+use crate::study::setup::dispatch;
 use crate::subject::Start;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};

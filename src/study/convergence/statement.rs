@@ -1,8 +1,9 @@
 //! A convergence study in rows of name and value.
 
-use crate::study::describe::amplitude::amplitude;
+use crate::study::describe::heat;
 use crate::study::describe::statement::{Rows, push, scene, stated};
-use crate::study::describe::{heat, linearisation};
+use crate::study::exact_motion;
+use crate::study::exact_motion::amplitude;
 use crate::suite::compile::truth::conservation_only;
 use crate::suite::compile::wording::shown;
 use crate::suite::model::lattice::LatticeOffsets;
@@ -29,7 +30,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
             );
         }
         push(&mut rows, "amplitude", &amplitude(problem));
-        push(&mut rows, "linearised", &linearisation::row(problem, plan.norm));
+        push(&mut rows, "linearised", &exact_motion::row(problem, plan.norm));
     }
     if let Some(fine) = &plan.reference {
         let (element, mass, law) = (fine.element.name(), fine.mass.name(), fine.equation.name());

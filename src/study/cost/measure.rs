@@ -7,9 +7,9 @@
 
 use super::machine::{LoadMonitor, Observed, alone};
 use crate::external::SolverFactory;
-use crate::study::build::dispatch::subject;
 use crate::study::handover::subject_under;
 use crate::study::runner::Runner;
+use crate::study::setup::dispatch::subject;
 use crate::subject::Subject;
 use crate::suite::compile::check::size::nodes;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};

@@ -1,6 +1,6 @@
 //! Cost profile of a step of a case, with all effects of its scene and without one of them.
 
-use crate::study::build::dispatch;
+use crate::study::setup::dispatch;
 use crate::subject::Profile;
 use crate::suite::EffectName;
 use crate::suite::model::{Case, ConvergencePlan, Scene};

@@ -4,7 +4,7 @@
 use super::jumps::sizes;
 use super::session::Known;
 use crate::study::convergence::error_scale::largest_exact;
-use crate::study::preflight::extremes::Extremes;
+use crate::study::exact_motion::Extremes;
 use crate::study::preflight::undamped;
 use crate::suite::model::method::Method;
 use crate::verify::{

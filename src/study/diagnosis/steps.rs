@@ -2,7 +2,7 @@
 
 use super::remedy;
 use super::session::{Known, only};
-use crate::study::preflight::extremes::Extremes;
+use crate::study::exact_motion::Extremes;
 use crate::suite::grammar::StepSpec;
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;

@@ -3,7 +3,7 @@
 use crate::dimension::with_dimension;
 use crate::external::{FieldError, FieldName, FieldPlaces, FieldSource};
 use crate::mpm::{Block, Fragment, Matrix, Particles, Vector, complete_start};
-use crate::study::build::initial_state::Initial;
+use crate::study::setup::initial_state::Initial;
 use crate::subject::PlaneState;
 use crate::suite::model::Scene;
 use crate::suite::model::numbers::LoadNumbers;

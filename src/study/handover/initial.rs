@@ -8,8 +8,8 @@ use crate::external::{
     ProblemBody, ProblemContact, ProblemFace, ProblemFields, ProblemGrid, ProblemLoad,
     ProblemMaterial, ProblemParticles, ProblemRegion, owned,
 };
-use crate::study::build::conditions::periodic;
-use crate::study::build::initial_state::Initial;
+use crate::study::setup::body::periodic;
+use crate::study::setup::initial_state::Initial;
 use crate::suite::model::grid_size::{cell_size, grid_axis};
 use crate::suite::model::load::{EffectName, ListedLoad, LoadTarget};
 use crate::suite::model::numbers::LoadNumbers;

@@ -3,7 +3,7 @@
 use crate::dimension::with_dimension;
 use crate::external::ProblemParticles;
 use crate::mpm::{BasisName, FrameName, MassName, SchemeName, Solver, TransferName, Vector};
-use crate::study::build::setup::{Body, setup};
+use crate::study::setup::body::{Body, setup};
 use crate::subject::{Perturbable, Start};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;

@@ -3,7 +3,7 @@
 use super::{level_problem, needs};
 use crate::external::SolverFactory;
 use crate::mpm::{MaterialParameter, MaterialPlan, Range};
-use crate::study::build::dispatch::subject;
+use crate::study::setup::dispatch::subject;
 use crate::subject::Subject;
 use crate::suite::model::external_method::{ExternalMethod, GateTerms};
 use crate::suite::model::refine_plan::LevelPlan;

@@ -1,7 +1,7 @@
 //! Levels that can count for an order.
 
-use super::extremes::Extremes;
 use super::subject::{Preflight, moves_on_grid};
+use crate::study::exact_motion::Extremes;
 use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::grid_size::per_axis;
 use crate::suite::model::refine_plan::LevelPlan;

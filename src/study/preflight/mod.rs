@@ -2,7 +2,6 @@
 //!
 //! ```text
 //! subject      the study, and places in its file
-//! extremes     the exact motion on a raster: strain, speed, reach
 //! levels       levels that can count for an order
 //! time_step    steps beyond the stable one, and steps that do not follow the cells
 //! reach        a motion that leaves the grid
@@ -23,7 +22,6 @@
 pub(crate) mod alignment;
 pub(crate) mod cost;
 pub(crate) mod end_on_node;
-pub(crate) mod extremes;
 pub(crate) mod floor;
 pub(crate) mod levels;
 pub(crate) mod linearised;

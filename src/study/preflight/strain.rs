@@ -2,7 +2,7 @@
 
 use super::floor;
 use super::subject::Preflight;
-use crate::study::describe::linearisation::Linearisation;
+use crate::study::exact_motion::Linearisation;
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case};
 use crate::suite::yaml::Diagnostic;

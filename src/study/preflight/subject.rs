@@ -1,7 +1,7 @@
 //! The study that rules speak of, and the places in its file.
 
-use super::extremes::Extremes;
 use crate::mpm::FrameName;
+use crate::study::exact_motion::Extremes;
 use crate::suite::compile::path::Path;
 use crate::suite::grammar::WarningName;
 use crate::suite::model::method::Method;

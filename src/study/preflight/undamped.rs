@@ -3,7 +3,7 @@
 use super::subject::Preflight;
 use crate::exact::{Problem, Truth, variables};
 use crate::mpm::{TransferChoice, TransferName};
-use crate::study::describe::amplitude::raster;
+use crate::study::exact_motion::raster;
 use crate::study::handover::level_problem;
 use crate::suite::compile::path::Path;
 use crate::suite::model::load::EffectName;

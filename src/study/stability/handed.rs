@@ -2,8 +2,8 @@
 
 use super::start::{bodies, perturb};
 use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};
-use crate::study::build::initial_state::Initial;
 use crate::study::handover::{HandedRun, is_deformed, of_scene, problem, start, unloaded};
+use crate::study::setup::initial_state::Initial;
 use crate::subject::{Perturbable, Samples, Subject};
 use crate::suite::compile::stability::setup::RunSetup;
 use crate::verify::is_looked_at;

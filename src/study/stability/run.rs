@@ -2,10 +2,10 @@
 
 use super::handed;
 use super::start::{bodies, perturb};
-use crate::study::build::dispatch::{perturbable, stable_time_step_of};
-use crate::study::build::setup::Body;
 use crate::study::convergence::stable_step::ROUNDS;
 use crate::study::kind::{RunContext, ShownRun};
+use crate::study::setup::body::Body;
+use crate::study::setup::dispatch::{perturbable, stable_time_step_of};
 use crate::subject::{Perturbable, Subject};
 use crate::suite::compile::stability::setup::{ParameterValues, RunSetup};
 use crate::suite::model::method::Method;

@@ -1,8 +1,8 @@
 //! The start of a run of a stability study.
 
 use crate::exact::Random;
-use crate::study::build::initial_state::Initial;
-use crate::study::build::setup::Body;
+use crate::study::setup::body::Body;
+use crate::study::setup::initial_state::Initial;
 use crate::subject::Perturbable;
 use crate::suite::compile::stability::setup::RunSetup;
 use crate::suite::model::Scene;

@@ -13,7 +13,7 @@
 //! Smith, Applied Regression Analysis, 3rd ed., section 1.4). A departure from the line that is
 //! no noise, such as a drift of the order, widens the interval too.
 
-use super::{f_test, t_quantile};
+use super::{t_quantile, variance_ratio};
 use serde::{Deserialize, Serialize};
 
 /// A value with its two-sided 95 % confidence interval.
@@ -112,7 +112,7 @@ impl FittedLine {
         let span = points.last()?.x - points.first()?.x;
         Some(Trend {
             change: 2.0 * (sqy / base.rss) * span,
-            p_value: f_test::regularised(rest / self.rss, self.points.saturating_sub(3), 1),
+            p_value: variance_ratio::regularised(rest / self.rss, self.points.saturating_sub(3), 1),
         })
     }
 }

@@ -18,8 +18,8 @@
 
 use std::ops::Range;
 
-use super::f_test;
 use super::fit::{FittedLine, LogPoint};
+use super::variance_ratio;
 
 /// Fewest levels of which an order is claimed: two degrees of freedom remain to contradict it.
 pub(crate) const FEWEST_LEVELS: usize = 4;
@@ -81,7 +81,7 @@ impl Window {
     fn is_rejected_by(&self, shorter: &Self, risk: f64) -> bool {
         let dropped = self.range.len() - shorter.range.len();
         let freedom = shorter.range.len() - 2;
-        f_test::regularised(shorter.line.rss / self.line.rss, freedom, dropped) < risk
+        variance_ratio::regularised(shorter.line.rss / self.line.rss, freedom, dropped) < risk
     }
 
     /// The longest shorter window for which there is strong evidence.

@@ -1,20 +1,21 @@
 //! From the model to what the solver of one body is made of, in any number of dimensions.
 
-use super::conditions::{boundary, periodic};
 use super::initial_state::Initial;
 use super::seeding;
 use crate::exact::heat::Conduction;
 use crate::exact::{Forcing, Problem};
 use crate::mpm::{
-    BasisName, BodyForce, Effect, Grid, HeatSolver, Hoop, Kernel, Particles, Setup, Vector, kernel,
+    BasisName, BodyForce, Boundary, Effect, Grid, HeatSolver, Hoop, Kernel, Particles, Setup, Side,
+    Vector, kernel,
 };
 use crate::subject::PlaneState;
+use crate::suite::model::boundary::{self, FaceSite};
 use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::model::load::{self, BodySite, ListedLoad, LoadTarget};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::LatticeEdits;
-use crate::suite::model::{ConvergencePlan, Scene, Suite};
+use crate::suite::model::{ConvergencePlan, Scene, SceneFace, Suite};
 
 /// A body at the start of a run.
 pub(crate) struct Body<'a> {
@@ -164,4 +165,25 @@ fn built<const D: usize>(
     mut site: BodySite<'_, D>,
 ) -> Result<Vec<Box<dyn Effect<D>>>, String> {
     loads.iter().map(|load| Ok(load::build(load, &mut site)?)).collect()
+}
+
+/// Whether an axis has no end. A round body has no faces.
+pub(crate) fn periodic(scene: &Scene, axis: usize) -> bool {
+    scene.faces.get(2 * axis).is_some_and(|face| face.hold.is_periodic())
+}
+
+/// Boundary conditions on the faces of the grid: where faces share a node, a later one overrides an
+/// earlier one, and so the stronger come last.
+pub(crate) fn boundary<const D: usize>(
+    scene: &Scene,
+    grid: &Grid<D>,
+    basis: BasisName,
+) -> Vec<Box<dyn Boundary<D>>> {
+    let mut faces: Vec<&SceneFace> = scene.faces.iter().collect();
+    faces.sort_by_key(|face| face.hold.strength());
+    let build = |face: &SceneFace| {
+        let side = if face.high { Side::High } else { Side::Low };
+        boundary::build(&face.hold, &FaceSite { grid, basis, at: (face.axis, side) })
+    };
+    faces.into_iter().filter_map(build).collect()
 }

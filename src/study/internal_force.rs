@@ -1,4 +1,4 @@
-//! The internal-force study: the force at every position, judged.
+//! The internal-force study: the force on a node at every position of a particle, judged.
 
 use crate::study::describe::statement::{Rows, push};
 use crate::study::kind::{CaseRunner, Progress, RunContext, Study};

@@ -1,7 +1,7 @@
 //! Names become types: the only place that knows every family.
 
 use super::bar::bar;
-use super::setup::{Body, conductor, setup};
+use super::body::{Body, conductor, setup};
 use crate::dimension::with_dimension;
 use crate::mpm::{BasisName, Bodies, Setup, Solver, Vector};
 use crate::subject::{Failure, Perturbable, Profile, Subject};

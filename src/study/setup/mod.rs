@@ -1,8 +1,7 @@
 //! From the model to subjects: names become types.
 
 pub(crate) mod bar;
-pub(crate) mod conditions;
+pub(crate) mod body;
 pub(crate) mod dispatch;
 pub(crate) mod initial_state;
 pub(crate) mod seeding;
-pub(crate) mod setup;

@@ -1,0 +1,178 @@
+//! Sizes of an exact motion: amplitude, extremes, and the residual of a linearised solution.
+//!
+//! Extremes are taken on a raster of the body and the run, and at the places and times of the
+//! survey of the problem, which resolve a narrow pulse.
+
+use crate::exact::{Derivatives, Problem, Survey};
+use crate::suite::NormName;
+use crate::suite::compile::wording::shown;
+use crate::suite::model::{ConvergencePlan, Suite};
+
+/// Largest displacement and displacement gradient of the exact solution, on a raster of the body
+/// and the run.
+pub(crate) fn amplitude(problem: &Problem) -> String {
+    const PER_AXIS: usize = 20;
+    let places = raster(problem, PER_AXIS);
+    let mut motion = problem.motion.at_places(places.iter().map(Vec::as_slice));
+    let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);
+    let mut now = Derivatives::default();
+    for step in 0..=PER_AXIS {
+        motion.set_time(problem.until * (step as f64 / PER_AXIS as f64));
+        for place in 0..places.len() {
+            motion.derivatives(place, &mut now);
+            displacement = now.u.iter().fold(displacement, |a, b| a.max(b.abs()));
+            gradient = now.grad.iter().flatten().fold(gradient, |a, b| a.max(b.abs()));
+        }
+    }
+    format!("largest |u| {displacement:.3e} m, largest |grad u| {gradient:.3e}")
+}
+
+/// Points of the body on a raster of its box, with so many intervals along each axis.
+pub(crate) fn raster(problem: &Problem, intervals: usize) -> Vec<Vec<f64>> {
+    let point = |mut rest: usize| {
+        let corners = problem.from.iter().zip(&problem.to);
+        let coordinate = |(a, b): (&f64, &f64)| {
+            let share = (rest % (intervals + 1)) as f64 / intervals as f64;
+            rest /= intervals + 1;
+            a + (b - a) * share
+        };
+        corners.map(coordinate).collect::<Vec<f64>>()
+    };
+    let points = (intervals + 1).pow(problem.dimension() as u32);
+    (0..points).map(point).filter(|place| problem.holds(place)).collect()
+}
+
+/// Intervals of the raster along each axis, by dimension.
+const ALONG: [usize; 3] = [16, 8, 4];
+
+/// Intervals of the raster over the run.
+const OVER: usize = 8;
+
+/// The largest values that a motion takes.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Extremes {
+    /// Of |u| (m), axis by axis.
+    pub(crate) displacement: [f64; 3],
+    /// Of the displacement gradient.
+    pub(crate) gradient: f64,
+    /// Of the second derivatives of the displacement along the axes (1/m).
+    pub(crate) curvature: f64,
+    /// Of the speed (m/s).
+    pub(crate) speed: f64,
+    /// Of the acceleration (m/s^2).
+    pub(crate) acceleration: f64,
+    /// Of the components of the initial stress (Pa).
+    pub(crate) initial_stress: f64,
+    /// The lowest and the highest place (m) that the body reaches, axis by axis.
+    pub(crate) reach: [(f64, f64); 3],
+}
+
+impl Extremes {
+    /// Extremes of the motion that `problem` claims.
+    pub(crate) fn of(problem: &Problem) -> Self {
+        let labels = raster(problem, ALONG[problem.dimension().clamp(1, 3) - 1]);
+        let mut motion = problem.motion.at_places(labels.iter().map(Vec::as_slice));
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let of_place = |label: &Vec<f64>| problem.initial_stress.at(label);
+        let components = labels.iter().flat_map(of_place).flatten();
+        let initial_stress = components.fold(0.0, |most: f64, c| most.max(c.abs()));
+        let mut all = Self { initial_stress, reach: [none; 3], ..Self::default() };
+        let mut now = Derivatives::default();
+        for step in 0..=OVER {
+            motion.set_time(problem.until * (step as f64 / OVER as f64));
+            for (place, label) in labels.iter().enumerate() {
+                motion.derivatives(place, &mut now);
+                all.take(label, &now);
+            }
+        }
+        let survey = Survey::new(problem);
+        survey.motion().for_each(|(label, now)| all.take(label, now));
+        all
+    }
+
+    fn take(&mut self, label: &[f64], now: &Derivatives) {
+        let size = |field: &[f64; 3]| field.iter().fold(0.0, |sum, x| sum + x * x).sqrt();
+        for (axis, x) in label.iter().enumerate() {
+            self.displacement[axis] = self.displacement[axis].max(now.u[axis].abs());
+            let (low, high) = self.reach[axis];
+            self.reach[axis] = (low.min(x + now.u[axis]), high.max(x + now.u[axis]));
+        }
+        self.gradient = now.grad.iter().flatten().fold(self.gradient, |a, b| a.max(b.abs()));
+        let along_axes = now.second.iter().flat_map(|of| (0..3).map(|a| of[a][a]));
+        self.curvature = along_axes.fold(self.curvature, |a, b| a.max(b.abs()));
+        self.speed = self.speed.max(size(&now.velocity));
+        self.acceleration = self.acceleration.max(size(&now.acceleration));
+    }
+
+    /// The largest displacement (m) along any axis.
+    pub(crate) fn largest_displacement(&self) -> f64 {
+        self.displacement.iter().fold(0.0, |a, b| a.max(*b))
+    }
+}
+
+/// Radians of a motion in which a wave runs through the body, below which the body follows a force
+/// as if it were at rest: the second harmonic of the motion is then a fifth of its lowest mode.
+const SLOW: f64 = 0.3;
+
+/// The residual of a linearised solution, and its error.
+#[derive(Debug, Clone, Copy)]
+pub struct Linearisation {
+    /// Residual of the equation of motion and of tractions, relative to their terms.
+    pub residual: f64,
+    /// Estimated error (m) of the displacement at the end, or the largest of the run if the suite
+    /// judges the largest over the instants.
+    pub error: f64,
+}
+
+impl Linearisation {
+    /// The linearisation of `problem` after a time `t` (s), if it is linearised; `motion` are its
+    /// extremes.
+    ///
+    /// The error is the root mean square of the first correction where that is computed
+    /// ([`Problem::first_correction`]), for motions along one axis. For others it is estimated from
+    /// the residual, to about a factor of ten:
+    ///
+    /// Inertia and stress are of the size of the acceleration a = omega^2 u each, so that a
+    /// residual r is a force 2 r a per unit mass. It comes to r a t^2; later, where it swings with
+    /// a mode as the second harmonic of a wave without dispersion does, to r a t/omega. A body so
+    /// stiff that it follows at once is moved by no more than a held bar of its length L,
+    /// r a L^2/c^2. At rest the error is about a share r of u.
+    pub(crate) fn of(problem: &Problem, motion: &Extremes, t: f64, norm: NormName) -> Option<Self> {
+        problem.linearised.as_ref()?;
+        let (residual, u) = (problem.residual(), motion.largest_displacement());
+        let omega = if u > 0.0 { (motion.acceleration / u).sqrt() } else { 0.0 };
+        let lengths = problem.from.iter().zip(&problem.to).map(|(from, to)| to - from);
+        let crossing =
+            lengths.fold(0.0, f64::max) / (problem.equation.modulus() / problem.density).sqrt();
+        let (turned, waved) = (omega * t, omega * crossing);
+        let growth = turned * turned.min(1.0);
+        let growth = if waved < SLOW { growth.min(waved * waved) } else { growth };
+        let growth = if problem.at_rest { 1.0 } else { growth };
+        let computed = problem.first_correction(t).map(|correction| {
+            if norm.is_over_instants() { correction.largest } else { correction.at_end }
+        });
+        let error = computed.unwrap_or(residual * u * growth);
+        Some(Self { residual, error })
+    }
+}
+
+/// Linearisation of the exact solution of a suite after its run, if it is linearised.
+pub fn linearisation(suite: &Suite) -> Option<Linearisation> {
+    let plan = suite.plan::<ConvergencePlan>()?;
+    let problem = plan.exact.as_ref()?;
+    Linearisation::of(problem, &Extremes::of(problem), problem.until, plan.norm)
+}
+
+/// The row of a report: residual, tolerance, error and reason.
+pub(crate) fn row(problem: &Problem, norm: NormName) -> String {
+    let Some(stated) = &problem.linearised else { return String::new() };
+    let left = Linearisation::of(problem, &Extremes::of(problem), problem.until, norm);
+    let when = if norm.is_over_instants() { "during the run" } else { "at the end" };
+    let (residual, error) = left.map_or((f64::NAN, f64::NAN), |left| (left.residual, left.error));
+    let allowed = shown(stated.tolerance);
+    format!(
+        "{residual:.1e} of the terms of its equations is left ({allowed} allowed), an error of about \
+         {error:.0e} m {when}, because {}",
+        stated.because
+    )
+}
