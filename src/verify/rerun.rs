@@ -34,6 +34,9 @@ pub trait Reruns: Sync {
     ) -> Option<Result<LevelOutcome, Self::Error>>;
 
     /// The level with a time step of `dt` (s).
+    ///
+    /// # Errors
+    /// If the level cannot be set up.
     fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, Self::Error>;
 
     /// Sizes of the numbers that the solver rounds; `None` if the judged quantity has no size.

@@ -1,10 +1,14 @@
 //! Drucker-Prager plasticity in uniaxial strain, under loading that never reverses.
 //!
 //! With `A = 2 mu/sqrt(3)`, `D = mu + K eta etab` and `s = -1` in compression, `1` in extension,
-//! the body yields at the strain `k/(A + s eta K)`; beyond, `d tau11/de = M - (K eta + s A)(K etab
-//! + s A)/D` with `M = lambda + 2 mu`. Both invariants change linearly, `sqrt(J2)` by `A - mu g`
-//! and the multiplier by `g = (A + s eta K)/D` per unit of strain, so that extension ends at the
-//! apex.
+//! the body yields at the strain `k/(A + s eta K)`. Beyond, with `M = lambda + 2 mu`,
+//!
+//! ```text
+//! d tau11/de = M - (K eta + s A)(K etab + s A)/D
+//! ```
+//!
+//! Both invariants change linearly, `sqrt(J2)` by `A - mu g` and the multiplier by
+//! `g = (A + s eta K)/D` per unit of strain, so that extension ends at the apex.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use super::uniaxial_flow::{UNIAXIAL_ONLY, UniaxialFlow, UniaxialLaw};

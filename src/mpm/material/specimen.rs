@@ -18,9 +18,8 @@ pub(super) const FAST: f64 = 1.0 / SLOW;
 pub(super) fn every() -> Vec<MaterialPlan> {
     MaterialPlan::every(|parameter| match *parameter {
         YOUNG => 100.0,
-        POISSON => 0.3,
+        POISSON | FRICTION => 0.3,
         YIELD | STRENGTH | COHESION => 3.0,
-        FRICTION => 0.3,
         DILATION => 0.1,
         FRICTION_ANGLE => 20.0,
         DILATION_ANGLE => 0.0,
