@@ -19,7 +19,7 @@ mod words;
 
 use check::checked_solver;
 use mpm_verify::mpm::{BasisName, MaterialPlan, SchemeName, Solver, TransferName};
-use mpm_verify::report::figure::{ConvergencePlot, Mark, PlotPoint, PlotSeries};
+use mpm_verify::report::figure::{LogLogPlot, Mark, PlotPoint, PlotSeries};
 use mpm_verify::subject::{Holder, Subject};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use scene::{Method, Order, total};
@@ -69,8 +69,8 @@ fn lines<const D: usize>(
             }
         }
         for (line, time) in lines.iter_mut().zip(times) {
-            let (h, error) = (total::<D>(count) as f64, 1e9 * time / total::<D>(count) as f64);
-            line.push(PlotPoint { h, error, mark: Mark::Measured });
+            let (x, error) = (total::<D>(count) as f64, 1e9 * time / total::<D>(count) as f64);
+            line.push(PlotPoint { x, error, mark: Mark::Measured });
         }
     }
     println!("{id}, {bytes} bytes a particle");
@@ -108,12 +108,12 @@ fn main() {
     series.extend(lines::<2>(2, quadratic(TransferName::Mls), &counts));
     series.extend(lines::<3>(4, quadratic(TransferName::Apic), &counts));
     series.extend(lines::<3>(6, quadratic(TransferName::Mls), &counts));
-    let figure = ConvergencePlot {
+    let figure = LogLogPlot {
         title: "Cost of a particle in a whole step".into(),
         x_label: "particles".into(),
         y_label: "time per particle (ns)".into(),
         series,
-        reference_orders: Vec::new(),
+        ..LogLogPlot::default()
     };
     if let Some(file) = words::file(".svg") {
         std::fs::write(&file, figure.to_svg()).expect("the figure can be written");

@@ -17,7 +17,7 @@ mod scene;
 
 use clock::shortest;
 use mpm_verify::mpm::{BasisName, Grid, Particles, TransferName, Vector};
-use mpm_verify::report::figure::{ConvergencePlot, Mark, PlotPoint, PlotSeries};
+use mpm_verify::report::figure::{LogLogPlot, Mark, PlotPoint, PlotSeries};
 use one_thread::one_thread;
 use random::Random;
 use scene::{Method, Order, total};
@@ -47,8 +47,8 @@ fn lines<const D: usize>(method: (BasisName, TransferName), counts: &[usize]) ->
     for &count in counts {
         let times = measure::<D>(method, count);
         for (line, time) in lines.iter_mut().zip(times) {
-            let h = total::<D>(count) as f64;
-            line.points.push(PlotPoint { h, error: time, mark: Mark::Measured });
+            let x = total::<D>(count) as f64;
+            line.points.push(PlotPoint { x, error: time, mark: Mark::Measured });
         }
     }
     for line in &lines {
@@ -116,12 +116,12 @@ fn main() {
         unsorted::<2>(quadratic, count);
         unsorted::<3>(quadratic, count);
     }
-    let figure = ConvergencePlot {
+    let figure = LogLogPlot {
         title: "Cost of a particle".into(),
         x_label: "particles".into(),
         y_label: "time per particle (ns)".into(),
         series,
-        reference_orders: Vec::new(),
+        ..LogLogPlot::default()
     };
     if let Some(file) =
         std::env::args().find(|word| !word.starts_with('-') && word.contains(".svg"))

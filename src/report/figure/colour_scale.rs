@@ -2,7 +2,7 @@
 //! print.
 
 use super::plot::scale::{Pad, Scale};
-use super::plot::style::{INK, PAPER};
+use super::plot::style::INK;
 use super::plot::svg::SvgElement;
 use super::plot::ticks::{self, Tick};
 
@@ -65,6 +65,11 @@ impl ColourScale {
     }
 }
 
+/// Texts over dark and over light fields. They are not colours of the palette: a field keeps its
+/// colour on dark paper, and so does the text in it.
+const OVER_DARK: &str = "#fff";
+const OVER_LIGHT: &str = "#222";
+
 /// Red, green and blue from dark to light (after Nunez, Anderton & Renslow 2018, cividis).
 const COLOURS: [[f64; 3]; 6] = [
     [0.0, 32.0, 81.0],
@@ -84,7 +89,7 @@ pub(super) fn colour(share: f64) -> (String, &'static str) {
     let mixed: [f64; 3] =
         std::array::from_fn(|k| COLOURS[low][k] * (1.0 - rest) + COLOURS[low + 1][k] * rest);
     let [r, g, b] = mixed.map(|channel| libm::round(channel) as u8);
-    (format!("#{r:02x}{g:02x}{b:02x}"), if share < 0.5 { PAPER } else { INK })
+    (format!("#{r:02x}{g:02x}{b:02x}"), if share < 0.5 { OVER_DARK } else { OVER_LIGHT })
 }
 
 #[cfg(test)]

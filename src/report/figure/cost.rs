@@ -1,7 +1,7 @@
 //! Work-precision diagrams of a ranking.
 
 use super::drawing::Figure;
-use super::{Mark, PlotPoint, PlotSeries, WorkPrecision};
+use super::{LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::verify::{Ranked, Ranking, Sample, SuiteOutcome, pareto_front};
 use std::ops::Range;
 
@@ -40,7 +40,7 @@ pub fn cost_figures(
     rankings.iter().enumerate().map(figure).collect()
 }
 
-fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> WorkPrecision {
+fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> LogLogPlot {
     let mut groups: Vec<(&Ranked, usize)> = Vec::new();
     for row in &ranking.rows {
         match groups.iter_mut().find(|(first, _)| coincide(first, row)) {
@@ -63,13 +63,14 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Wo
         look: methods.iter().position(|method| *method == row.method.name).unwrap_or(0),
         points: points(row),
     };
-    WorkPrecision {
+    LogLogPlot {
         title,
         x_label: work.to_owned(),
         y_label: "error over the size of the solution".to_owned(),
         series: named.iter().map(series).collect(),
         others: others.iter().map(series).collect(),
         front: front.collect(),
+        ..LogLogPlot::default()
     }
 }
 
@@ -101,5 +102,5 @@ fn point(converging: &Range<usize>, level: usize, one: &Sample) -> PlotPoint {
     } else {
         Mark::OutsideWindow
     };
-    PlotPoint { h: one.work, error: one.error, mark }
+    PlotPoint { x: one.work, error: one.error, mark }
 }

@@ -4,7 +4,6 @@ use super::plot::frame::{Plot, Titles};
 use super::plot::legend::{KEY, Legend, LegendEntry};
 use super::plot::marker::{Fill, RADIUS};
 use super::plot::scale::{Pad, Scale};
-use super::plot::space::Space;
 use super::plot::style::{EXACT, Look, look};
 use super::plot::svg::{Pt, SvgElement};
 use super::plot::{marker, thinning};
@@ -70,21 +69,12 @@ impl HistoryPlot {
                 runs: runs(&curve.points, &plot),
             })
             .collect();
-        let paths: Vec<Vec<Pt>> = lines.iter().flat_map(|l| l.runs.iter().cloned()).collect();
         let mut layers: Vec<SvgElement> = lines.iter().map(CurveLine::draw).collect();
-        if paths.is_empty() {
+        if lines.iter().all(|line| line.runs.is_empty()) {
             layers.push(plot.placeholder("no data"));
         }
         let entries = lines.iter().filter(|l| !l.curve.name.is_empty()).map(CurveLine::entry);
-        let mut legend_area = None;
-        if let Some(legend) = Legend::new(entries.collect()) {
-            let space = Space::new(plot.frame, &paths);
-            if let Some(placed) = legend.places(&plot.frame, &space).next() {
-                layers.push(legend.draw(&placed));
-                legend_area = Some(placed.area);
-            }
-        }
-        plot.document(&layers, legend_area, &[])
+        plot.document(&layers, &Legend::new(entries.collect()), &[])
     }
 
     /// Length of the vertical axis that the curves need.

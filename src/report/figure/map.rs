@@ -107,7 +107,7 @@ fn row(
         let at = x + width * k as f64;
         let value = field.value.filter(|value| value.is_finite());
         let known = value.map(|value| colour(scale.share(value)));
-        let (fill, ink) = known.unwrap_or((PAPER.to_owned(), NEUTRAL));
+        let (fill, ink) = known.unwrap_or_else(|| (PAPER.to_owned(), NEUTRAL));
         let square =
             SvgElement::new("rect").at("x", at).at("y", y).at("width", width).at("height", ROW);
         group.add(&square.set("fill", &fill).set("stroke", GRID).at("stroke-width", 0.5));
@@ -120,7 +120,6 @@ fn row(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::figure::plot::style::INK;
 
     fn map(values: &[Option<f64>]) -> String {
         let field = |value: &Option<f64>| MapField { value: *value, text: "x".to_owned() };
@@ -145,12 +144,9 @@ mod tests {
     #[test]
     fn the_ends_of_the_range_have_the_ends_of_the_colours() {
         let svg = map(&[Some(0.5), Some(2.0)]);
-        for (fill, ink) in [("#002051", PAPER), ("#fdea45", INK)] {
-            assert_eq!(
-                (colour(f64::from(u8::from(fill == "#fdea45"))).0.as_str(), true),
-                (fill, svg.contains(fill))
-            );
-            assert_eq!(colour(f64::from(u8::from(fill == "#fdea45"))).1, ink);
+        for (share, fill, ink) in [(0.0, "#002051", "#fff"), (1.0, "#fdea45", "#222")] {
+            assert_eq!(colour(share), (fill.to_owned(), ink));
+            assert!(svg.contains(&format!("fill=\"{fill}\"")), "{svg}");
         }
         assert!(svg.contains("a &amp; b"));
     }

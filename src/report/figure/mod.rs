@@ -1,11 +1,9 @@
 //! Figures as standalone SVG documents.
 //!
-//! Five kinds are drawn: the [`ConvergencePlot`] plot (error against cell size, both axes
-//! logarithmic), the [`WorkPrecision`] diagram (error against work), the [`HistoryPlot`] plot
-//! (curves over linear axes), the [`Map`] (numbers over colours) and the [`ErrorMap`] (errors over
-//! bodies). All are pure functions of
-//! their input, so that a figure can be compared byte by byte: every coordinate is printed with two
-//! decimals and every transcendental comes from `libm`.
+//! Four kinds are drawn: the [`LogLogPlot`] (error against cell size, time step or work), the
+//! [`HistoryPlot`] (curves over linear axes), the [`Map`] (numbers over colours) and the [`ErrorMap`]
+//! (errors over bodies). All are pure functions of their input, so that a figure can be compared byte
+//! by byte: every coordinate is printed with two decimals and every transcendental comes from `libm`.
 //!
 //! No input can make a figure fail. A value which has no place on its axis is marked as failed,
 //! interrupts its curve, or is counted in a note under the figure.
@@ -38,17 +36,13 @@ pub(crate) mod suite;
 pub(crate) mod sweep;
 
 mod colour_scale;
-mod convergence;
 mod error_map;
 mod history;
-mod levels;
+mod log_log;
 mod series;
-mod work;
 
-pub use convergence::ConvergencePlot;
 pub use error_map::ErrorMap;
 pub use history::{Curve, HistoryPlot};
-pub use levels::{Mark, PlotPoint};
+pub use log_log::LogLogPlot;
 pub use map::{Map, MapField};
-pub use series::PlotSeries;
-pub use work::WorkPrecision;
+pub use series::{Mark, PlotPoint, PlotSeries};

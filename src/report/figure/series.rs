@@ -1,12 +1,37 @@
-//! A series of the convergence plot: its line, its failed levels, and what the legend says.
+//! A series of a log-log plot: its points, its line, its failed levels, and its legend entries.
 
-use super::levels::{Mark, PlotLevel, PlotPoint, levels};
 use super::plot::frame::Plot;
 use super::plot::legend::{KEY, LegendEntry};
 use super::plot::marker;
 use super::plot::marker::Fill;
-use super::plot::style::{CONTEXT, HEIGHT, Look, MarkerShape, NEUTRAL, look};
+use super::plot::style::{CONTEXT, FRAME_HEIGHT, Look, MarkerShape, NEUTRAL, look};
 use super::plot::svg::{Pt, SvgElement};
+
+/// The error at one level.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlotPoint {
+    /// Cell size, time step or work.
+    pub x: f64,
+    /// Error; one that is not finite is drawn as failed, zero is noted below the figure.
+    pub error: f64,
+    /// Role of the level.
+    pub mark: Mark,
+}
+
+/// Role of a level in the judgement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// In the asymptotic window: filled, joined by a solid line.
+    Window,
+    /// Measured and not judged: drawn as in the window, without an entry in the legend.
+    Measured,
+    /// Outside the window: hollow, joined by a thin dashed line.
+    OutsideWindow,
+    /// Particles changed cell: hollow with a cross.
+    Crossing,
+    /// No finite error: an arrow at the upper edge of the frame.
+    Failed,
+}
 
 /// The errors of one quantity over all levels.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,13 +44,32 @@ pub struct PlotSeries {
     pub points: Vec<PlotPoint>,
 }
 
-/// Every mark with its key in the legend, in the order of the legend.
-const MARKS: [(Mark, &str); 4] = [
-    (Mark::Window, "in the asymptotic window"),
-    (Mark::OutsideWindow, "outside the window"),
-    (Mark::Crossing, "particles changed cell"),
-    (Mark::Failed, "failed or not finite"),
-];
+/// A point as it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct PlotLevel {
+    x: f64,
+    /// The error, unless the level failed.
+    error: Option<f64>,
+    /// The mark; [`Mark::Failed`] exactly where there is no error.
+    mark: Mark,
+}
+
+/// The points that can be drawn, in ascending order of `x`.
+fn levels(points: &[PlotPoint]) -> Vec<PlotLevel> {
+    let mut levels: Vec<PlotLevel> = points.iter().filter_map(level).collect();
+    levels.sort_by(|a, b| a.x.total_cmp(&b.x));
+    levels
+}
+
+fn level(&PlotPoint { x, error, mark }: &PlotPoint) -> Option<PlotLevel> {
+    let failed = mark == Mark::Failed || !error.is_finite();
+    let drawable = x.is_finite() && x > 0.0 && (failed || error > 0.0);
+    drawable.then_some(if failed {
+        PlotLevel { x, error: None, mark: Mark::Failed }
+    } else {
+        PlotLevel { x, error: Some(error), mark }
+    })
+}
 
 /// A series with its appearance.
 pub(super) struct SeriesLine<'a> {
@@ -33,84 +77,6 @@ pub(super) struct SeriesLine<'a> {
     look: Look,
     grey: bool,
     levels: Vec<PlotLevel>,
-}
-
-/// A failed level with its place below the upper edge.
-pub(super) struct FailedLevel {
-    h: f64,
-    look: Look,
-    /// Number of failures of other series above it at the same cell size.
-    rank: usize,
-}
-
-/// Height of the arrow and of each failed marker below it.
-const ARROW: f64 = 13.0;
-const FAILED_ROW: f64 = 13.0;
-
-/// Largest part of the frame which failed levels take from the others.
-const LARGEST_HEAD: f64 = 0.4;
-
-/// The failed levels; those of different series at the same cell size stand in a column.
-pub(super) fn failures(lines: &[SeriesLine]) -> Vec<FailedLevel> {
-    let mut failures: Vec<FailedLevel> = Vec::new();
-    for line in lines {
-        for level in line.levels.iter().filter(|l| l.mark == Mark::Failed) {
-            let same = |f: &&FailedLevel| (f.h / level.h - 1.0).abs() < 0.02;
-            let rank = failures.iter().filter(same).count();
-            failures.push(FailedLevel { h: level.h, look: line.look, rank });
-        }
-    }
-    failures
-}
-
-/// The part of the frame to be kept free above the errors for failed levels.
-pub(super) fn headroom(failures: &[FailedLevel]) -> f64 {
-    let rows = failures.iter().map(|failure| failure.rank + 1).max();
-    rows.map_or(0.0, |rows| (ARROW + FAILED_ROW * rows as f64) / HEIGHT).min(LARGEST_HEAD)
-}
-
-/// The series in the legend.
-pub(super) fn names(lines: &[SeriesLine]) -> Vec<LegendEntry> {
-    lines.iter().map(SeriesLine::entry).collect()
-}
-
-/// The marks in the legend: each which occurs.
-pub(super) fn marks<'a>(lines: impl IntoIterator<Item = &'a SeriesLine<'a>>) -> Vec<LegendEntry> {
-    let levels: Vec<&PlotLevel> = lines.into_iter().flat_map(|line| &line.levels).collect();
-    let occurs = |mark| levels.iter().any(|level| level.mark == mark);
-    let marks = MARKS.iter().filter(|(mark, _)| occurs(*mark));
-    marks.map(|&(mark, text)| LegendEntry::new(key(mark), text)).collect()
-}
-
-/// The key of failed levels, where no named series has any.
-pub(super) fn failed_entry() -> LegendEntry {
-    LegendEntry::new(key(Mark::Failed), MARKS[3].1)
-}
-
-fn key(mark: Mark) -> SvgElement {
-    let at = (KEY / 2.0, 0.0);
-    match mark {
-        Mark::Failed => {
-            let mut failed = SvgElement::new("g");
-            failed.add(&marker::arrow_up((at.0 + 7.0, 5.0), (at.0 + 7.0, -6.0), NEUTRAL));
-            failed.add(&marker::draw(
-                MarkerShape::Circle,
-                Fill::Hollow,
-                NEUTRAL,
-                (at.0 - 5.0, 0.0),
-            ));
-            failed
-        }
-        _ => marker::draw(MarkerShape::Circle, fill(mark), NEUTRAL, at),
-    }
-}
-
-fn fill(mark: Mark) -> Fill {
-    match mark {
-        Mark::Window | Mark::Measured => Fill::Solid,
-        Mark::OutsideWindow | Mark::Failed => Fill::Hollow,
-        Mark::Crossing => Fill::Crossed,
-    }
 }
 
 impl<'a> SeriesLine<'a> {
@@ -126,37 +92,39 @@ impl<'a> SeriesLine<'a> {
         Self { name: &series.name, look, grey: true, levels: levels(&series.points) }
     }
 
-    /// Whether a level failed.
-    pub(super) fn has_failed(&self) -> bool {
-        self.levels.iter().any(|level| level.mark == Mark::Failed)
+    /// Whether the series has a name in the legend.
+    pub(super) fn is_named(&self) -> bool {
+        !self.grey
     }
 
-    /// Number of levels which are drawn.
+    /// Number of levels that are drawn.
     pub(super) fn count(&self) -> usize {
         self.levels.len()
     }
 
-    /// All cell sizes.
-    pub(super) fn sizes(&self) -> impl Iterator<Item = f64> {
-        self.levels.iter().map(|level| level.h)
+    /// The `x` of all levels.
+    pub(super) fn xs(&self) -> impl Iterator<Item = f64> {
+        self.levels.iter().map(|level| level.x)
     }
 
-    /// All errors of levels which have one.
+    /// All errors of levels that have one.
     pub(super) fn errors(&self) -> impl Iterator<Item = f64> {
         self.levels.iter().filter_map(|level| level.error)
     }
 
     /// The pixels of the errors.
-    pub(super) fn path(&self, plot: &Plot) -> Vec<(Pt, Mark)> {
-        self.levels
-            .iter()
-            .filter_map(|l| l.error.map(|error| (plot.place((l.h, error)), l.mark)))
-            .collect()
+    pub(super) fn path(&self, plot: &Plot) -> Vec<Pt> {
+        self.marked_path(plot).into_iter().map(|(at, _)| at).collect()
+    }
+
+    fn marked_path(&self, plot: &Plot) -> Vec<(Pt, Mark)> {
+        let levels = self.levels.iter();
+        levels.filter_map(|l| Some((plot.place((l.x, l.error?)), l.mark))).collect()
     }
 
     /// Line and markers; failed levels are drawn apart.
     pub(super) fn draw(&self, plot: &Plot) -> SvgElement {
-        let path = self.path(plot);
+        let path = self.marked_path(plot);
         let mut group = SvgElement::new("g");
         group.add(&SvgElement::new("title").content(self.name));
         if self.grey {
@@ -197,23 +165,127 @@ impl<'a> SeriesLine<'a> {
     }
 }
 
-impl FailedLevel {
-    /// The pixel of the marker.
-    pub(super) fn place(&self, plot: &Plot) -> Pt {
-        let below = ARROW + 7.0 + FAILED_ROW * self.rank as f64;
-        (plot.place_x(self.h), plot.frame.y + below.min(plot.frame.h))
-    }
+/// Every mark with its text in the legend, in the order of the legend.
+const MARKS: [(Mark, &str); 4] = [
+    (Mark::Window, "in the asymptotic window"),
+    (Mark::OutsideWindow, "outside the window"),
+    (Mark::Crossing, "particles changed cell"),
+    (Mark::Failed, "failed or not finite"),
+];
 
+/// Legend entries of the named series.
+pub(super) fn names(lines: &[SeriesLine]) -> Vec<LegendEntry> {
+    lines.iter().filter(|line| line.is_named()).map(SeriesLine::entry).collect()
+}
+
+/// Legend entries of the marks that are drawn. Series without a name have no markers, but their
+/// failed levels are drawn.
+pub(super) fn marks(lines: &[SeriesLine]) -> Vec<LegendEntry> {
+    let occurs = |mark| {
+        let drawn = lines.iter().filter(|line| line.is_named() || mark == Mark::Failed);
+        drawn.flat_map(|line| &line.levels).any(|level| level.mark == mark)
+    };
+    let marks = MARKS.iter().filter(|(mark, _)| occurs(*mark));
+    marks.map(|&(mark, text)| LegendEntry::new(key(mark), text)).collect()
+}
+
+fn key(mark: Mark) -> SvgElement {
+    let (x, y) = (KEY / 2.0, 0.0);
+    if mark != Mark::Failed {
+        return marker::draw(MarkerShape::Circle, fill(mark), NEUTRAL, (x, y));
+    }
+    let mut failed = SvgElement::new("g");
+    failed.add(&marker::arrow_up((x + 7.0, y + 5.0), (x + 7.0, y - 6.0), NEUTRAL));
+    failed.add(&marker::draw(MarkerShape::Circle, Fill::Hollow, NEUTRAL, (x - 5.0, y)));
+    failed
+}
+
+fn fill(mark: Mark) -> Fill {
+    match mark {
+        Mark::Window | Mark::Measured => Fill::Solid,
+        Mark::OutsideWindow | Mark::Failed => Fill::Hollow,
+        Mark::Crossing => Fill::Crossed,
+    }
+}
+
+/// A failed level with its place below the upper edge.
+pub(super) struct FailedLevel {
+    x: f64,
+    look: Look,
+    /// Number of failures of other series above it at the same `x`.
+    rank: usize,
+}
+
+/// Height of the arrow (px), and of each failed marker below it.
+const ARROW: f64 = 13.0;
+const FAILED_ROW: f64 = 13.0;
+
+/// Largest part of the frame that failed levels take from the others.
+const LARGEST_HEAD: f64 = 0.4;
+
+/// The failed levels; those of different series at the same `x` stand in a column.
+pub(super) fn failures(lines: &[SeriesLine]) -> Vec<FailedLevel> {
+    let mut failures: Vec<FailedLevel> = Vec::new();
+    for line in lines {
+        for level in line.levels.iter().filter(|l| l.mark == Mark::Failed) {
+            let same = |f: &&FailedLevel| (f.x / level.x - 1.0).abs() < 0.02;
+            let rank = failures.iter().filter(same).count();
+            failures.push(FailedLevel { x: level.x, look: line.look, rank });
+        }
+    }
+    failures
+}
+
+/// The part of the frame to be kept free above the errors for failed levels.
+pub(super) fn headroom(failures: &[FailedLevel]) -> f64 {
+    let rows = failures.iter().map(|failure| failure.rank + 1).max();
+    rows.map_or(0.0, |rows| (ARROW + FAILED_ROW * rows as f64) / FRAME_HEIGHT).min(LARGEST_HEAD)
+}
+
+impl FailedLevel {
     /// The marker, below an arrow in the first row.
     pub(super) fn draw(&self, plot: &Plot) -> SvgElement {
-        let at = self.place(plot);
+        let top = plot.frame.y;
+        let below = ARROW + 7.0 + FAILED_ROW * self.rank as f64;
+        let at = (plot.place_x(self.x), top + below.min(plot.frame.h));
         let Look { colour, shape, .. } = self.look;
         let mut group = SvgElement::new("g");
         if self.rank == 0 {
-            let top = plot.frame.y;
             group.add(&marker::arrow_up((at.0, top + ARROW), (at.0, top + 1.5), NEUTRAL));
         }
         group.add(&marker::draw(shape, Fill::Hollow, colour, at));
         group
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case(0.1, 0.5, Mark::Window, Some((Some(0.5), Mark::Window)))]
+    #[case(0.1, f64::NAN, Mark::Window, Some((None, Mark::Failed)))]
+    #[case(0.1, f64::INFINITY, Mark::OutsideWindow, Some((None, Mark::Failed)))]
+    #[case(0.1, 0.5, Mark::Failed, Some((None, Mark::Failed)))]
+    #[case(0.1, 0.0, Mark::Window, None)]
+    #[case(0.1, -0.5, Mark::Window, None)]
+    #[case(0.0, 0.5, Mark::Window, None)]
+    #[case(f64::NAN, 0.5, Mark::Failed, None)]
+    fn points_without_a_place_are_dropped(
+        #[case] x: f64,
+        #[case] error: f64,
+        #[case] mark: Mark,
+        #[case] drawn: Option<(Option<f64>, Mark)>,
+    ) {
+        let levels = levels(&[PlotPoint { x, error, mark }]);
+        assert_eq!(levels.first().map(|l| (l.error, l.mark)), drawn);
+    }
+
+    #[test]
+    fn levels_are_ordered_by_x() {
+        let points = [0.1, 0.4, 0.2].map(|x| PlotPoint { x, error: x, mark: Mark::Window });
+        let sorted: Vec<f64> = levels(&points).iter().map(|l| l.x).collect();
+        assert_eq!(sorted, [0.1, 0.2, 0.4]);
     }
 }

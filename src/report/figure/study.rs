@@ -1,7 +1,7 @@
 //! The figures of convergence and internal-force studies.
 
 use super::drawing::Figure;
-use super::{ConvergencePlot, Curve, ErrorMap, HistoryPlot, Mark, PlotPoint, PlotSeries};
+use super::{Curve, ErrorMap, HistoryPlot, LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::subject::Totals;
 use crate::verify::{
     Axis, Convergence, ErrorField, InternalForce, LevelOutcome, SuiteOutcome, Verdict,
@@ -39,8 +39,8 @@ fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
     studies.retain(|(_, study)| study.levels.len() > 1);
     let plots = studies.len().div_ceil(MOST_SERIES).max(1);
     let parts = studies.chunks(studies.len().div_ceil(plots).max(1));
-    let drawn: Vec<ConvergencePlot> = parts.map(|part| plot(outcome, part)).collect();
-    let figure = |(i, one): (usize, &ConvergencePlot)| {
+    let drawn: Vec<LogLogPlot> = parts.map(|part| plot(outcome, part)).collect();
+    let figure = |(i, one): (usize, &LogLogPlot)| {
         let number = if plots > 1 { format!("-{}", i + 1) } else { String::new() };
         Figure { file: format!("{}{number}.svg", outcome.suite), svg: one.to_svg_among(&drawn) }
     };
@@ -52,7 +52,7 @@ fn look(outcome: &SuiteOutcome, case: &str) -> usize {
     outcome.cases.iter().position(|known| known.case == case).unwrap_or(0)
 }
 
-fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> ConvergencePlot {
+fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> LogLogPlot {
     let series = |(name, study): &(&str, &Convergence)| PlotSeries {
         name: (*name).to_owned(),
         look: look(outcome, name),
@@ -63,12 +63,13 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> Convergence
         orders.extend(studies.first().map(|(_, study)| study.formal_order));
     }
     let judged = studies.first().map_or(String::new(), |(_, study)| study.judged());
-    ConvergencePlot {
+    LogLogPlot {
         title: outcome.title.clone(),
         x_label: spacing(studies.first().map_or(Axis::Space, |(_, study)| study.axis)).to_owned(),
         y_label: judged,
         series: studies.iter().map(series).collect(),
         reference_orders: orders,
+        ..LogLogPlot::default()
     }
 }
 
@@ -132,7 +133,7 @@ fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> PlotPoint {
         Mark::OutsideWindow
     };
     let error = study.judgement.levels.get(index).map_or(f64::NAN, |judged| judged.error);
-    PlotPoint { h: level.spacing, error, mark }
+    PlotPoint { x: level.spacing, error, mark }
 }
 
 /// Exact and computed velocity at the observed label, on a coarse, the middle and the finest level.

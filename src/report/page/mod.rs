@@ -1,16 +1,12 @@
 //! One HTML page for a run: everything that was found, in one file that needs no network.
 //!
 //! It is read without JavaScript; a small script only sorts and filters its tables and unfolds what
-//! a link leads to. Figures are inline SVG, coloured anew for light and dark (`theme`). Nothing on
-//! the page depends on the time or the machine, but for the commit that a CI service names: the
-//! same run gives the same bytes.
+//! a link leads to. Figures are inline SVG and share one style sheet for dark colours. Nothing on the
+//! page depends on the time or the machine, except the commit that a CI service names: the same run
+//! gives the same bytes.
 //!
 //! A section shows all that a suite reports: every figure of [`svg()`](super::svg()) and the whole
 //! of [`text()`](super::text()). What is added to either is on the page.
-
-#[cfg(test)]
-pub(crate) mod colour_contrast;
-pub(crate) mod dark_theme;
 
 mod cells;
 mod figure_list;
@@ -20,7 +16,6 @@ mod links;
 mod section;
 mod source;
 mod suites;
-mod theme;
 mod verdicts;
 
 #[cfg(test)]
@@ -28,6 +23,7 @@ mod tests;
 
 pub use source::SuiteSource;
 
+use crate::report::figure::plot::style::style_sheet;
 use crate::report::json::document::commit;
 use crate::report::matrix::by_group;
 use crate::verify::CaseOutcome;
@@ -73,7 +69,7 @@ fn meta() -> Vec<Html> {
         // Otherwise browsers ask for one.
         Html::void("link", &[("rel", "icon"), ("href", "data:,")]),
         Html::tag("title", &[], "MPM verification"),
-        Html::tag("style", &[], Html::trusted(theme::css() + STYLE)),
+        Html::tag("style", &[], Html::trusted(style_sheet() + STYLE)),
     ]
 }
 

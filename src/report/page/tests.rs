@@ -1,6 +1,8 @@
 use super::*;
+use crate::report::figure::plot::style::contrast;
 use crate::report::{svg, text};
 use crate::verify::{ForceRow, InternalForce, SuiteOutcome};
+use rstest::rstest;
 use std::collections::BTreeSet;
 
 const HOSTILE: &str = "</pre></script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&lt;";
@@ -114,7 +116,8 @@ fn whatever_a_suite_reports_is_on_the_page() {
     assert_eq!(page.matches("<figure ").count(), figures.len());
     for figure in figures {
         let caption = format!(">{}</figcaption>", figure.file);
-        assert!(page.contains(&caption) && page.contains(figure.svg.trim()), "{}", figure.file);
+        let drawn = inline::svg(&figure.svg, "").into_string();
+        assert!(page.contains(&caption) && page.contains(&drawn), "{}", figure.file);
     }
 }
 
@@ -159,4 +162,31 @@ fn nothing_is_loaded() {
     assert!(addresses.is_empty(), "{addresses:?}");
     assert_eq!(page.matches("default-src &#39;none&#39;").count(), 1);
     assert!(!STYLE.contains("url(") && !STYLE.contains("@import") && !SCRIPT.contains("fetch"));
+}
+
+/// A colour of the page by its name, light and dark.
+fn colour(name: &str) -> [&'static str; 2] {
+    let key = format!("--{name}:light-dark(");
+    let (_, value) = STYLE.split_once(&key).expect(name);
+    let (light, rest) = value.split_once(',').expect("two colours");
+    [light, rest.split_once(')').expect("the end of the colours").0]
+}
+
+#[rstest]
+fn texts_can_be_read(
+    #[values("ink", "muted", "link", "ok", "bad")] text: &str,
+    #[values("page", "raised")] behind: &str,
+) {
+    for (text, behind) in colour(text).into_iter().zip(colour(behind)) {
+        assert!(contrast(text, behind) >= 4.5, "{text} on {behind}: {}", contrast(text, behind));
+    }
+}
+
+/// Browsers without `light-dark()` show the light colours.
+#[test]
+fn light_colours_are_the_fallback() {
+    for name in ["page", "raised", "rule", "ink", "muted", "link", "ok", "bad"] {
+        let plain = format!("--{name}:{}", colour(name)[0]);
+        assert!(STYLE.split_once("@supports").expect("a fallback").0.contains(&plain), "{plain}");
+    }
 }

@@ -6,8 +6,35 @@ use super::verdicts;
 use crate::report::matrix::{COLUMNS, LEGEND, by_group, failures, findings};
 use crate::verify::{CaseOutcome, Convergence, SuiteOutcome};
 
+/// Widths of the columns in the overview of all suites, which is a snapshot.
+const WIDTHS: [(&str, usize); 16] = [
+    ("suite", 31),
+    ("linear", BASIS),
+    ("uGIMP", BASIS),
+    ("cpGIMP", BASIS),
+    ("CPDI", BASIS),
+    ("quadratic", BASIS),
+    ("cubic", BASIS),
+    ("FEM", BASIS),
+    ("other", BASIS),
+    ("case", 38),
+    ("verdict", 14),
+    ("95 %", 14),
+    ("finest error", 12),
+    ("floor", 9),
+    ("for 1e-3", 8),
+    ("found", 66),
+];
+
+/// Width of the orders and verdicts of a basis.
+const BASIS: usize = 15;
+
 /// Suites at a glance: the result, and the matrix of problems and methods.
 pub fn glance(outcomes: &[SuiteOutcome]) -> String {
+    at_a_glance(outcomes, Table::lines)
+}
+
+fn at_a_glance(outcomes: &[SuiteOutcome], lines_of: fn(&Table) -> Vec<String>) -> String {
     let mut lines = Vec::new();
     let cases: Vec<&CaseOutcome> = outcomes.iter().flat_map(|suite| &suite.cases).collect();
     row(&mut lines, "result", &verdicts::result(&cases));
@@ -31,20 +58,22 @@ pub fn glance(outcomes: &[SuiteOutcome]) -> String {
     }
     lines.push(String::new());
     paragraph_lines(&mut lines, LEGEND);
-    grouped(&mut lines, outcomes, matrix(outcomes));
+    grouped(&mut lines, outcomes, lines_of(&matrix(outcomes)));
     lines.join("\n") + "\n"
 }
 
-/// The overview of suites: what they are at a glance, then a line for each case, in groups.
+/// The overview of suites: what they are at a glance, then a line for each case, in groups. Columns
+/// have fixed widths, so that a changed case changes one line.
 pub fn overview(outcomes: &[SuiteOutcome]) -> String {
+    let fixed = |table: &Table| table.lines_of_widths(&WIDTHS);
     let mut lines = vec!["Overview of all suites".to_owned(), String::new()];
-    lines.push(glance(outcomes).trim_end().to_owned());
+    lines.push(at_a_glance(outcomes, fixed).trim_end().to_owned());
     for (group, suites) in groups(outcomes) {
         lines.extend([String::new(), format!("== {group} ==")]);
         for suite in suites {
             lines.extend([String::new(), format!("  {}: {}", suite.suite, suite.title)]);
             let rankings = super::cost::by_transfers(suite);
-            lines.extend(verdicts::table(&suite.cases, &rankings).lines());
+            lines.extend(fixed(&verdicts::table(&suite.cases, &rankings)));
         }
     }
     lines.join("\n") + "\n"
@@ -73,15 +102,15 @@ fn groups(outcomes: &[SuiteOutcome]) -> Vec<(&str, Vec<&SuiteOutcome>)> {
     by_group(outcomes, |suite| suite)
 }
 
-/// Lines of the matrix: headings, then one line for each suite in the order of the groups.
-fn matrix(outcomes: &[SuiteOutcome]) -> Vec<String> {
+/// The matrix: headings, then a row for each suite in the order of the groups.
+fn matrix(outcomes: &[SuiteOutcome]) -> Table {
     let headings = ["suite"].iter().chain(&COLUMNS).map(|heading| (*heading).to_owned());
     let row = |suite: &&SuiteOutcome| {
         std::iter::once(suite.suite.clone()).chain(findings(suite)).collect()
     };
     let suites = groups(outcomes).into_iter().flat_map(|(_, suites)| suites);
     let rows = suites.map(|suite| row(&suite)).collect();
-    Table::of_cells(headings.collect(), rows).without_empty_columns().lines()
+    Table::of_cells(headings.collect(), rows).without_empty_columns()
 }
 
 /// Lines of a table, the names of groups above those of their suites.

@@ -77,14 +77,27 @@ impl Table {
         self.rows[0].len()
     }
 
-    /// The lines, each indented by two spaces.
+    /// The lines, each indented by two spaces, with columns as wide as their widest cells.
     pub(crate) fn lines(&self) -> Vec<String> {
         let columns = self.rows[0].len();
         let width =
             |c: usize| self.rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0);
-        let widths: Vec<usize> = (0..columns).map(width).collect();
+        self.aligned(&(0..columns).map(width).collect::<Vec<_>>())
+    }
+
+    /// The lines with columns of fixed widths by heading: a wider cell moves the rest of its own line,
+    /// and no other line. Columns that `widths` does not list are as wide as their headings.
+    pub(crate) fn lines_of_widths(&self, widths: &[(&str, usize)]) -> Vec<String> {
+        let width = |heading: &String| {
+            let listed = widths.iter().find(|(known, _)| known == heading);
+            listed.map_or(heading.chars().count(), |(_, width)| *width)
+        };
+        self.aligned(&self.rows[0].iter().map(width).collect::<Vec<_>>())
+    }
+
+    fn aligned(&self, widths: &[usize]) -> Vec<String> {
         let set = |row: &Vec<String>| {
-            let cells = row.iter().zip(&widths).zip(&self.flush_left);
+            let cells = row.iter().zip(widths).zip(&self.flush_left);
             let cells = cells.map(|((cell, width), flush_left)| match flush_left {
                 true => format!("{cell:<width$}"),
                 false => format!("{cell:>width$}"),
@@ -115,5 +128,20 @@ mod tests {
         let table = Table::new(&columns, [["5", "1.0"], ["160", "0.25"]]);
         let lines = table.without_empty_columns().lines();
         assert_eq!(lines, ["  cells   rms", "      5   1.0", "    160  0.25"]);
+    }
+    #[test]
+    fn a_wide_cell_moves_only_its_own_line_between_fixed_widths() {
+        let rows = |name: &str| {
+            vec![vec![name.to_owned(), "1".to_owned()], vec!["b".to_owned(), "2".to_owned()]]
+        };
+        let lines = |name: &str| {
+            let table = Table::of_cells(vec!["case".to_owned(), "order".to_owned()], rows(name));
+            table.lines_of_widths(&[("case", 6)])
+        };
+        assert_eq!(lines("a"), ["  case    order", "  a           1", "  b           2"]);
+        assert_eq!(
+            lines("a long name"),
+            ["  case    order", "  a long name      1", "  b           2"]
+        );
     }
 }

@@ -25,6 +25,29 @@ fn samples_are_well_formed(#[case] svg: String) {
     assert!(svg.contains("role=\"img\"") && svg.contains("<title>"));
 }
 
+/// Plain colours are attributes, which every viewer knows; the style sheet replaces each of them.
+#[rstest]
+#[case(samples::three_series().to_svg())]
+#[case(samples::eight_long_names().to_svg())]
+#[case(samples::square_wave().to_svg())]
+#[case(work::diagram().to_svg())]
+fn every_colour_has_a_dark_counterpart(#[case] svg: String) {
+    let (before, rest) = svg.split_once("<style>").expect("a style sheet");
+    let (sheet, after) = rest.split_once("</style>").expect("its end");
+    let mut count = 0;
+    for (drawn, key) in
+        [before, after].into_iter().flat_map(|part| ["fill", "stroke"].map(|key| (part, key)))
+    {
+        for value in drawn.split(&format!(" {key}=\"")).skip(1) {
+            let colour = value.split('"').next().expect("a value");
+            let rule = format!("[{key}=\"{colour}\"]{{{key}:light-dark({colour},#");
+            assert!(colour == "none" || sheet.contains(&rule), "{key} {colour}");
+            count += 1;
+        }
+    }
+    assert!(count > 10);
+}
+
 #[test]
 fn the_same_figure_has_the_same_bytes() {
     assert_eq!(samples::three_series().to_svg(), samples::three_series().to_svg());
@@ -55,7 +78,7 @@ const KEYS: [(Mark, &str); 4] = [
 #[case(&[Mark::Window, Mark::OutsideWindow, Mark::Crossing, Mark::Failed])]
 fn the_legend_explains_the_marks_which_occur(#[case] marks: &[Mark]) {
     let points = marks.iter().zip(1_u8..).map(|(&mark, i)| PlotPoint {
-        h: 0.5 / f64::from(i),
+        x: 0.5 / f64::from(i),
         error: 0.1 / f64::from(i),
         mark,
     });
@@ -74,7 +97,7 @@ fn the_legend_explains_the_marks_which_occur(#[case] marks: &[Mark]) {
 #[case(&[(0.1, f64::NAN), (0.2, f64::INFINITY)])]
 #[case(&[(5e-324, f64::MAX), (f64::MAX, 5e-324)])]
 fn degenerate_series(#[case] points: &[(f64, f64)]) {
-    let points = points.iter().map(|&(h, error)| PlotPoint { h, error, mark: Mark::Window });
+    let points = points.iter().map(|&(x, error)| PlotPoint { x, error, mark: Mark::Window });
     let one = PlotSeries { name: "one".to_owned(), look: 0, points: points.collect() };
     let svg = samples::convergence(vec![one], &[2.0]).to_svg();
     assert_eq!(well_formed(&svg), Ok(()));
@@ -82,10 +105,10 @@ fn degenerate_series(#[case] points: &[(f64, f64)]) {
 }
 
 #[test]
-fn what_has_no_place_is_noted() {
+fn points_without_a_place_are_noted() {
     let mut figure = samples::less_than_a_decade();
     figure.series[0].points[0].error = 0.0;
-    assert!(figure.to_svg().contains("axes: 1 point (error zero"));
+    assert!(figure.to_svg().contains("Not drawn on logarithmic axes: 1 point"));
 }
 
 #[test]
@@ -93,7 +116,7 @@ fn a_failure_at_the_same_size_stands_below_the_other() {
     let failed = |name: &str| PlotSeries {
         name: name.to_owned(),
         look: 0,
-        points: vec![PlotPoint { h: 0.1, error: f64::NAN, mark: Mark::Failed }],
+        points: vec![PlotPoint { x: 0.1, error: f64::NAN, mark: Mark::Failed }],
     };
     let svg = samples::convergence(vec![failed("one"), failed("two")], &[]).to_svg();
     // The first failure and the key in the legend.
@@ -136,7 +159,7 @@ proptest! {
         let series = points.into_iter().map(|points| PlotSeries {
             name: text.clone(),
             look: 0,
-            points: points.into_iter().map(|(h, error, mark)| PlotPoint { h, error, mark }).collect(),
+            points: points.into_iter().map(|(x, error, mark)| PlotPoint { x, error, mark }).collect(),
         });
         let svg = samples::convergence(series.collect(), &orders).to_svg();
         prop_assert_eq!(well_formed(&svg), Ok(()));

@@ -1,37 +1,40 @@
 //! Figures which the tests share.
 
-use mpm_verify::report::figure::{
-    ConvergencePlot, Curve, HistoryPlot, Mark, PlotPoint, PlotSeries,
-};
+use mpm_verify::report::figure::{Curve, HistoryPlot, LogLogPlot, Mark, PlotPoint, PlotSeries};
 
 /// Halved cell sizes from 1/4 m.
 fn sizes(count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(|i| 0.25 / f64::from(1 << i))
 }
 
-fn series(name: &str, count: usize, error: impl Fn(usize, f64) -> (f64, Mark)) -> PlotSeries {
+pub(super) fn series(
+    name: &str,
+    count: usize,
+    error: impl Fn(usize, f64) -> (f64, Mark),
+) -> PlotSeries {
     let point = |(i, h)| {
         let (error, mark) = error(i, h);
-        PlotPoint { h, error, mark }
+        PlotPoint { x: h, error, mark }
     };
     let points = sizes(count).enumerate().map(point).collect();
     PlotSeries { name: name.to_owned(), look: 0, points }
 }
 
-pub(super) fn convergence(series: Vec<PlotSeries>, orders: &[f64]) -> ConvergencePlot {
+pub(super) fn convergence(series: Vec<PlotSeries>, orders: &[f64]) -> LogLogPlot {
     let series = series.into_iter().enumerate();
     let series = series.map(|(look, one)| PlotSeries { look, ..one }).collect();
-    ConvergencePlot {
+    LogLogPlot {
         title: "Vibrating bar, one element per cell".to_owned(),
         x_label: "cell size h (m)".to_owned(),
         y_label: "relative error in displacement (-)".to_owned(),
         series,
         reference_orders: orders.to_vec(),
+        ..LogLogPlot::default()
     }
 }
 
 /// A clean order with a plateau, one which turns where particles cross, one which fails.
-pub(super) fn three_series() -> ConvergencePlot {
+pub(super) fn three_series() -> LogLogPlot {
     let plateau = series("displacement", 7, |i, h| {
         let mark = if (1..5).contains(&i) { Mark::Window } else { Mark::OutsideWindow };
         (0.3 * h * h + 4e-5, mark)
@@ -48,7 +51,7 @@ pub(super) fn three_series() -> ConvergencePlot {
     convergence(vec![plateau, crossing, failing], &[2.0, 5.0 / 3.0])
 }
 
-pub(super) fn eight_long_names() -> ConvergencePlot {
+pub(super) fn eight_long_names() -> LogLogPlot {
     let all = (0..8).map(|k| {
         let name = format!("basis {k}: cubic B-spline, APIC, dt = {k}/8 CFL");
         series(&name, 5, |i, h| {
@@ -60,13 +63,13 @@ pub(super) fn eight_long_names() -> ConvergencePlot {
     convergence(all.collect(), &[1.0, 2.0])
 }
 
-pub(super) fn less_than_a_decade() -> ConvergencePlot {
+pub(super) fn less_than_a_decade() -> LogLogPlot {
     let one = series("total energy", 3, |_, h| (0.05 + 0.4 * h, Mark::Window));
     let two = series("kinetic energy", 3, |_, h| (0.04 + 0.3 * h, Mark::OutsideWindow));
     convergence(vec![one, two], &[1.0])
 }
 
-pub(super) fn ten_decades() -> ConvergencePlot {
+pub(super) fn ten_decades() -> LogLogPlot {
     let one = series("spectral", 6, |_, h| (libm::pow(h, 5.0), Mark::Window));
     let two = series("linear", 6, |_, h| (30.0 * h, Mark::Window));
     convergence(vec![one, two], &[1.0, 5.0])

@@ -1,6 +1,6 @@
 //! The canvas of a figure: the SVG document with its paper, and a title of several lines.
 
-use super::style::{FONT, INK, PAPER, TEXT, TITLE};
+use super::style::{FONT, INK, PAPER, TEXT, TITLE, style_sheet};
 use super::svg::{SvgElement, number};
 use super::text;
 
@@ -12,7 +12,7 @@ const LEADING: f64 = 17.0;
 /// Most lines of a title.
 const LINES: usize = 3;
 
-/// A document of this size (px) with nothing but paper on it; `title` is read to who does not see.
+/// A document of this size (px) with nothing but paper on it. Screen readers read `title`.
 pub(crate) fn canvas((width, height): (f64, f64), title: &str) -> SvgElement {
     let mut svg = SvgElement::new("svg")
         .set("xmlns", "http://www.w3.org/2000/svg")
@@ -24,11 +24,13 @@ pub(crate) fn canvas((width, height): (f64, f64), title: &str) -> SvgElement {
         .at("font-size", TEXT)
         .set("fill", INK);
     svg.add(&SvgElement::new("title").content(title));
+    svg.add(&SvgElement::style(&style_sheet()));
     svg.add(&SvgElement::new("rect").at("width", width).at("height", height).set("fill", PAPER));
     svg
 }
 
 /// A title in the middle above a figure of some width (px).
+#[derive(Debug)]
 pub(crate) struct Heading {
     lines: Vec<String>,
     width: f64,

@@ -1,11 +1,11 @@
 //! The frame of a figure: title, axes, grid, and the document around them.
 
-use super::canvas::canvas;
+use super::canvas::{Heading, canvas};
 use super::label::Label;
+use super::legend::Legend;
 use super::scale::Scale;
-use super::space::Rect;
-use super::style::{GRID, HEIGHT, INK, NEUTRAL, TEXT, TITLE, WIDTH};
-use super::svg::{Pt, SvgElement, number};
+use super::style::{FRAME_HEIGHT, GRID, INK, NEUTRAL, TEXT, WIDTH};
+use super::svg::{Pt, Rect, SvgElement, number};
 use super::ticks::Tick;
 use super::{text, ticks};
 
@@ -21,9 +21,8 @@ pub(crate) struct Titles<'a> {
 #[derive(Debug)]
 pub(crate) struct Plot<'a> {
     titles: Titles<'a>,
-    /// The title broken into lines.
-    heading: Vec<String>,
-    /// The box which holds the data.
+    heading: Heading,
+    /// The box that holds the data.
     pub(crate) frame: Rect,
     x: PlotAxis,
     y: PlotAxis,
@@ -47,27 +46,23 @@ impl PlotAxis {
     }
 }
 
-/// Bold faces are wider than regular ones by about this factor.
-const BOLD: f64 = 1.12;
-const TITLE_LEADING: f64 = 17.0;
 const NOTE_LEADING: f64 = 16.0;
 const NOTE_GAP: f64 = 6.0;
 const MARGIN: f64 = 18.0;
 /// Height below the frame for tick labels and the axis label.
 const FOOT: f64 = 52.0;
+/// Minimum width of the labels of the vertical axis, so that most frames have the same width.
+const LABELS: f64 = 38.0;
 const MAJOR: f64 = 6.0;
 const MINOR: f64 = 3.0;
 
 impl<'a> Plot<'a> {
     /// Lays the frame out so that titles and tick labels have their place around it.
     pub(crate) fn new(titles: Titles<'a>, x: Scale, y: Scale) -> Self {
-        let heading = text::wrap(titles.title, BOLD * TITLE, WIDTH - 2.0 * MARGIN, 3);
-        let mut top = 12.0 + TITLE_LEADING * heading.len() as f64;
-        let y = PlotAxis::new(y, HEIGHT - top - FOOT, |_| TEXT + 10.0);
-        if y.factor.is_some() {
-            top += 14.0;
-        }
-        let widest = y.labels().map(|(_, l)| l.width()).fold(0.0, f64::max);
+        let heading = Heading::new(titles.title, WIDTH);
+        let y = PlotAxis::new(y, FRAME_HEIGHT, |_| TEXT + 10.0);
+        let top = heading.bottom() + if y.factor.is_some() { 14.0 } else { 0.0 };
+        let widest = y.labels().map(|(_, l)| l.width()).fold(LABELS, f64::max);
         let left = MARGIN + 18.0 + widest;
         let room = WIDTH - left - MARGIN;
         let x = PlotAxis::new(x, room, |l| l.width() + 12.0);
@@ -75,13 +70,8 @@ impl<'a> Plot<'a> {
             .labels()
             .map(|(at, l)| l.width() / 2.0 - (1.0 - at) * room + 6.0)
             .fold(MARGIN, f64::max);
-        Self {
-            titles,
-            heading,
-            frame: Rect { x: left, y: top, w: WIDTH - left - overhang, h: HEIGHT - top - FOOT },
-            x,
-            y,
-        }
+        let frame = Rect { x: left, y: top, w: WIDTH - left - overhang, h: FRAME_HEIGHT };
+        Self { titles, heading, frame, x, y }
     }
 
     /// The pixel of a pair of values.
@@ -108,29 +98,29 @@ impl<'a> Plot<'a> {
         SvgElement::text(middle, "middle", text).set("fill", NEUTRAL)
     }
 
-    /// The complete document: `layers` over the grid, `notes` below everything, the canvas grown
-    /// to hold the legend where it lies outside.
+    /// The complete document: `layers` over the grid, then `legend` and `notes` below the frame.
     pub(crate) fn document(
         &self,
         layers: &[SvgElement],
-        legend: Option<Rect>,
+        legend: &Legend,
         notes: &[String],
     ) -> String {
-        let width = legend.map_or(WIDTH, |r| WIDTH.max(r.right() + 10.0));
-        let bottom = legend.map_or(HEIGHT, |r| HEIGHT.max(r.bottom() + 10.0));
+        let below = self.frame.bottom() + FOOT;
         let notes: Vec<String> =
-            notes.iter().flat_map(|note| text::wrap(note, TEXT, width - 2.0 * MARGIN, 4)).collect();
-        let gap = if notes.is_empty() { 0.0 } else { NOTE_GAP };
-        let height = bottom + gap + NOTE_LEADING * notes.len() as f64;
-        let mut svg = canvas((width, height), self.titles.title);
+            notes.iter().flat_map(|note| text::wrap(note, TEXT, WIDTH - 2.0 * MARGIN, 4)).collect();
+        let first_note = below + legend.height() + NOTE_LEADING - 4.0;
+        let height = below + legend.height() + NOTE_LEADING * notes.len() as f64;
+        let height = if notes.is_empty() { height } else { height + NOTE_GAP };
+        let mut svg = canvas((WIDTH, height), self.titles.title);
         svg.add(&self.grid());
         for layer in layers {
             svg.add(layer);
         }
         svg.add(&self.frame_and_ticks());
         svg.add(&self.texts());
+        svg.add(&legend.draw(below));
         for (i, note) in notes.iter().enumerate() {
-            let at = (MARGIN, height - 10.0 - NOTE_LEADING * (notes.len() - 1 - i) as f64);
+            let at = (MARGIN, first_note + NOTE_LEADING * i as f64);
             svg.add(&SvgElement::text(at, "start", note).set("fill", NEUTRAL));
         }
         svg.render() + "\n"
@@ -174,14 +164,7 @@ impl<'a> Plot<'a> {
         let Rect { x, y, w, h } = self.frame;
         let (right, bottom) = (self.frame.right(), self.frame.bottom());
         let mut group = SvgElement::new("g");
-        for (i, line) in self.heading.iter().enumerate() {
-            let at = (WIDTH / 2.0, 22.0 + TITLE_LEADING * i as f64);
-            group.add(
-                &SvgElement::text(at, "middle", line)
-                    .at("font-size", TITLE)
-                    .set("font-weight", "bold"),
-            );
-        }
+        self.heading.draw(&mut group);
         let ticks = || SvgElement::new("g").set("class", "ticks");
         let (mut below, mut beside) = (ticks(), ticks());
         for (at, label) in self.x.labels() {

@@ -6,7 +6,6 @@ pub(crate) mod label;
 pub(crate) mod legend;
 pub(crate) mod marker;
 pub(crate) mod scale;
-pub(crate) mod space;
 pub(crate) mod style;
 pub(crate) mod svg;
 pub(crate) mod text;

@@ -2,8 +2,8 @@
 
 /// Width of a figure in pixels: on a narrow screen its texts still have 9 pixels.
 pub(crate) const WIDTH: f64 = 440.0;
-/// Height of a figure in pixels, before a legend or notes below the axes lengthen it.
-pub(crate) const HEIGHT: f64 = 340.0;
+/// Height of the frame around the data in pixels.
+pub(crate) const FRAME_HEIGHT: f64 = 256.0;
 
 /// The font stack: sans-serif faces with the same metrics as far as possible.
 pub(crate) const FONT: &str = "Helvetica, Arial, 'DejaVu Sans', sans-serif";
@@ -14,21 +14,61 @@ pub(crate) const SUPERSCRIPT: f64 = 11.0;
 /// Size of the title.
 pub(crate) const TITLE: f64 = 13.0;
 
-/// The page.
+/// Paper, and the inside of hollow markers.
 pub(crate) const PAPER: &str = "#ffffff";
 /// Texts, frame and ticks.
 pub(crate) const INK: &str = "#222222";
 /// Grid lines.
 pub(crate) const GRID: &str = "#e3e3e3";
-/// The exact solution: light, since the subject curves are drawn over it.
-pub(crate) const EXACT: &str = "#bdbdbd";
-/// Colour of all that belongs to no series: keys of the marks, slope triangles.
+/// Inside of slope triangles.
+pub(crate) const SHADE: &str = "#f3f3f3";
+/// Colour of everything that belongs to no series: keys of the marks, slope triangles.
 pub(crate) const NEUTRAL: &str = "#4d4d4d";
-
-/// Colour of the Pareto front, a band below all lines.
-pub(crate) const FRONT: &str = "#fbe9a6";
+/// The exact solution: light, because the computed curves are drawn over it.
+pub(crate) const EXACT: &str = "#929292";
 /// Methods that are there for comparison only.
-pub(crate) const CONTEXT: &str = "#b8b8b8";
+pub(crate) const CONTEXT: &str = "#8e8e8e";
+/// The Pareto front, a band below all lines.
+pub(crate) const FRONT: &str = "#fbe9a6";
+
+/// Colours on light paper with those that replace them on dark paper.
+const PALETTE: [(&str, &str); 8] = [
+    (PAPER, "#15181e"),
+    (INK, "#e6e6e6"),
+    (GRID, "#333943"),
+    (SHADE, "#23282f"),
+    (NEUTRAL, "#b4b8bf"),
+    (EXACT, "#6d727b"),
+    (CONTEXT, "#747a83"),
+    (FRONT, "#4a4a2a"),
+];
+
+/// Colours of series on light and on dark paper, after those of Okabe and Ito. The yellow is left
+/// out, orange and sky blue are darker on light paper: WCAG 2.2 (1.4.11) asks for a contrast of 3:1.
+const SERIES: [(&str, &str); 7] = [
+    ("#0072b2", "#4ba6e3"),
+    ("#d55e00", "#f0803c"),
+    ("#009e73", "#1fbf92"),
+    ("#cc79a7", "#d98cba"),
+    ("#b97f00", "#e69f00"),
+    ("#2f94cf", "#8fd0f5"),
+    ("#000000", "#ffffff"),
+];
+
+/// The style sheet that gives figures dark colours where the reader prefers them. Elements have
+/// plain light colours as attributes, so that the figure is the same in print and in programs that
+/// do not know `light-dark()`. Colours outside the palette, such as those of fields, do not change.
+pub(crate) fn style_sheet() -> String {
+    let rule = |(light, dark): &(&str, &str)| {
+        let colour = format!("light-dark({light},{dark})");
+        format!("[fill=\"{light}\"]{{fill:{colour}}}[stroke=\"{light}\"]{{stroke:{colour}}}\n")
+    };
+    let rules: String = PALETTE.iter().chain(&SERIES).map(rule).collect();
+    format!(
+        "@supports (color:light-dark(#000,#fff)){{\nsvg{{color-scheme:light dark}}\n{rules}}}\n\
+         @media print{{svg{{color-scheme:light}}}}\n"
+    )
+}
 
 /// Outline of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,10 +94,6 @@ pub(crate) struct Look {
     pub(crate) dash: &'static str,
 }
 
-/// The colours of Okabe and Ito, without the yellow, which is too pale on white paper.
-const COLOURS: [&str; 7] =
-    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
-
 const SHAPES: [MarkerShape; 8] = [
     MarkerShape::Circle,
     MarkerShape::Square,
@@ -76,15 +112,31 @@ const DASHES: [&str; 8] =
 /// their combination repeats only after 56 series.
 pub(crate) fn look(index: usize) -> Look {
     Look {
-        colour: COLOURS[index % COLOURS.len()],
+        colour: SERIES[index % SERIES.len()].0,
         shape: SHAPES[index % SHAPES.len()],
         dash: DASHES[index % DASHES.len()],
     }
 }
 
+/// Contrast of two colours `#rrggbb` by WCAG 2.2, from 1 to 21.
+#[cfg(test)]
+pub(crate) fn contrast(a: &str, b: &str) -> f64 {
+    let luminance = |colour: &str| {
+        let channel = |at: usize| {
+            let value = u8::from_str_radix(&colour[at..at + 2], 16).expect("two digits");
+            let value = f64::from(value) / 255.0;
+            if value <= 0.040_45 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) }
+        };
+        0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5)
+    };
+    let (a, b) = (luminance(a), luminance(b));
+    (f64::max(a, b) + 0.05) / (f64::min(a, b) + 0.05)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rstest::rstest;
 
     #[test]
     fn the_first_eight_series_differ_in_grey_print() {
@@ -100,6 +152,47 @@ mod tests {
     fn no_look_is_repeated_within_56_series() {
         for a in 0..56 {
             assert!((0..a).all(|b| look(a) != look(b)));
+        }
+    }
+
+    #[rstest]
+    #[case("#000000", "#ffffff", 21.0)]
+    #[case("#777777", "#ffffff", 4.48)]
+    #[case("#ff0000", "#ffffff", 4.0)]
+    fn contrasts_are_those_of_the_standard(#[case] a: &str, #[case] b: &str, #[case] ratio: f64) {
+        assert!((contrast(a, b) - ratio).abs() < 0.005, "{}", contrast(a, b));
+    }
+
+    /// A colour of the palette on light paper and on dark paper.
+    fn schemes(light: &str) -> [&'static str; 2] {
+        let mut all = PALETTE.iter().chain(&SERIES);
+        all.find(|colour| colour.0 == light).map(|colour| [colour.0, colour.1]).expect(light)
+    }
+
+    #[test]
+    fn texts_and_lines_stand_out_on_either_paper() {
+        let lines = SERIES.iter().map(|colour| colour.0).chain([EXACT, CONTEXT]);
+        for (colour, least) in lines.map(|colour| (colour, 3.0)).chain([(INK, 7.0), (NEUTRAL, 7.0)])
+        {
+            for (ink, paper) in schemes(colour).iter().zip(schemes(PAPER)) {
+                assert!(contrast(ink, paper) >= least, "{ink}: {}", contrast(ink, paper));
+            }
+        }
+        for (colour, _) in SERIES {
+            for (ink, band) in schemes(colour).iter().zip(schemes(FRONT)) {
+                assert!(contrast(ink, band) >= 2.3, "{ink}: {}", contrast(ink, band));
+            }
+        }
+    }
+
+    #[test]
+    fn colours_differ_on_either_paper() {
+        for scheme in [0, 1] {
+            let all = PALETTE.iter().chain(&SERIES).map(|colour| schemes(colour.0)[scheme]);
+            let mut all: Vec<&str> = all.collect();
+            all.sort_unstable();
+            all.dedup();
+            assert_eq!(all.len(), PALETTE.len() + SERIES.len());
         }
     }
 }

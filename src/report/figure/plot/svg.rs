@@ -7,6 +7,27 @@ use std::fmt::Write as _;
 /// A position on the canvas in pixels, y downwards.
 pub(crate) type Pt = (f64, f64);
 
+/// An axis-parallel box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rect {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    pub(crate) w: f64,
+    pub(crate) h: f64,
+}
+
+impl Rect {
+    /// The right-hand side.
+    pub(crate) fn right(&self) -> f64 {
+        self.x + self.w
+    }
+
+    /// The lower side.
+    pub(crate) fn bottom(&self) -> f64 {
+        self.y + self.h
+    }
+}
+
 /// One SVG element.
 #[derive(Clone, Debug)]
 pub(crate) struct SvgElement {
@@ -45,6 +66,11 @@ impl SvgElement {
     /// A text whose baseline is anchored at `at` (`start`, `middle` or `end`).
     pub(crate) fn text(at: Pt, anchor: &str, text: &str) -> Self {
         Self::new("text").at("x", at.0).at("y", at.1).set("text-anchor", anchor).content(text)
+    }
+
+    /// A style sheet, whose text is not escaped.
+    pub(crate) fn style(sheet: &str) -> Self {
+        Self { content: sheet.to_owned(), ..Self::new("style") }
     }
 
     /// Sets a textual attribute.

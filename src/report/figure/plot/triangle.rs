@@ -1,167 +1,136 @@
-//! Slope triangles: the reference orders, drawn where they touch nothing.
+//! Slope triangles: reference orders in the lower right corner of a frame.
 
 use super::frame::Plot;
-use super::space::{Rect, Space};
-use super::style::{NEUTRAL, TEXT};
+use super::scale::Pad;
+use super::style::{FRAME_HEIGHT, NEUTRAL, SHADE, TEXT};
 use super::svg::{Pt, SvgElement};
 use super::text;
 
-/// A slope triangle with its place.
-#[derive(Clone, Debug)]
-pub(crate) struct Triangle {
+/// A slope triangle by the length of its sides (px).
+#[derive(Clone, Copy, Debug)]
+struct Triangle {
     order: f64,
-    /// Ends of the hypotenuse and the right angle.
-    corners: [Pt; 3],
-    captions: [Caption; 2],
-    /// The box around triangle and captions.
-    pub(crate) area: Rect,
-}
-
-#[derive(Clone, Debug)]
-struct Caption {
-    at: Pt,
-    anchor: &'static str,
-    area: Rect,
-}
-
-/// Square roots of run times rise, tried from large to small.
-const SIZES: [f64; 5] = [66.0, 54.0, 44.0, 34.0, 26.0];
-/// A side shorter than this (pixels) could not be read as a slope.
-const SHORTEST: f64 = 12.0;
-/// No side exceeds this fraction of the frame.
-const LONGEST: f64 = 0.4;
-/// Distance of places which are tried.
-const STEP: f64 = 7.0;
-/// Distance from the data; a marker reaches about six pixels from its centre.
-const CLEAR: f64 = 12.0;
-
-/// The free place for the triangle of `order` where its hypotenuse follows the data best, so that
-/// slopes can be compared by eye.
-pub(crate) fn place(order: f64, plot: &Plot, space: &Space, taken: &[Rect]) -> Option<Triangle> {
-    let (across, up) = plot.pace();
-    let aspect = libm::sqrt(order * up / across);
-    let frame = plot.frame;
-    let caption_width = text::width(&name(order), TEXT);
-    for size in SIZES {
-        let (run, rise) = (size / aspect, size * aspect);
-        let shrink = (LONGEST * frame.w / run).min(LONGEST * frame.h / rise).min(1.0);
-        let (run, rise) = (run * shrink, rise * shrink);
-        // Also false for an aspect which is not a number.
-        if !(run >= SHORTEST && rise >= SHORTEST) {
-            continue;
-        }
-        let mut best: Option<(f64, Triangle)> = None;
-        for i in 0..(frame.w / STEP) as i32 {
-            for j in 0..(frame.h / STEP) as i32 {
-                let low = (frame.x + STEP * f64::from(i), frame.bottom() - STEP * f64::from(j));
-                for below in [true, false] {
-                    let corners = corners(low, (run, rise), below);
-                    let triangle = Triangle::new(order, corners, caption_width);
-                    if !triangle.is_free(&frame, space, taken) {
-                        continue;
-                    }
-                    let mismatch = triangle.mismatch(space);
-                    if best.as_ref().is_none_or(|(least, _)| mismatch < *least) {
-                        best = Some((mismatch, triangle));
-                    }
-                }
-            }
-        }
-        if let Some((_, triangle)) = best {
-            return Some(triangle);
-        }
-    }
-    None
-}
-
-/// Both ends of a hypotenuse which rises from `low`, then the right angle below or above it.
-fn corners(low: Pt, (run, rise): Pt, below: bool) -> [Pt; 3] {
-    let high = (low.0 + run, low.1 - rise);
-    [low, high, if below { (high.0, low.1) } else { (low.0, high.1) }]
+    run: f64,
+    rise: f64,
+    /// Width of the captions and gaps at its side.
+    captions: f64,
 }
 
 impl Triangle {
-    /// The triangle with its captions outside, the slope's being `caption_width` wide.
-    fn new(order: f64, corners: [Pt; 3], caption_width: f64) -> Self {
-        let [low, high, right_angle] = corners;
-        let (middle_x, middle_y) = (f64::midpoint(low.0, high.0), f64::midpoint(low.1, high.1));
-        let (x, y) = right_angle;
-        let below = y > high.1;
-        let (baseline, side, anchor) =
-            if below { (y + 14.0, x + 5.0, "start") } else { (y - 5.0, x - 5.0, "end") };
-        let slope_left = if below { side } else { side - caption_width };
-        let run = Caption {
-            at: (middle_x, baseline),
-            anchor: "middle",
-            area: Rect { x: middle_x - 5.0, y: baseline - 10.0, w: 10.0, h: 11.0 },
+    /// Whether the triangle is neither too flat nor too narrow. Sides that are not numbers are.
+    fn is_drawn(&self) -> bool {
+        self.run >= SHORTEST && self.rise >= SHORTEST
+    }
+}
+
+/// The slope triangles of a figure, side by side in the lower right corner.
+#[derive(Clone, Debug)]
+pub(crate) struct TriangleRow {
+    triangles: Vec<Triangle>,
+    /// Maximum width of the row, whatever the vertical axis.
+    widest: f64,
+}
+
+/// Length of both sides (px) where the slope on paper is 1. Other slopes keep the area.
+const SIDE: f64 = 44.0;
+/// Maximum length of a side (px).
+const LONGEST: f64 = 52.0;
+/// Minimum length of a side (px): a shorter one could not be read as a slope.
+const SHORTEST: f64 = 8.0;
+/// Maximum width of the row as a share of the frame.
+const WIDEST: f64 = 0.85;
+/// Distance from the frame, and between a triangle and the caption of another (px).
+const GAP: f64 = 12.0;
+/// Height of the caption below a triangle (px).
+const CAPTION: f64 = 14.0;
+/// Distance between a triangle and the caption at its side (px).
+const CAPTION_GAP: f64 = 5.0;
+/// Distance from the data (px); a marker reaches about six pixels from its centre.
+const CLEAR: f64 = 14.0;
+
+impl TriangleRow {
+    /// Triangles of `orders` for the axes of `plot`.
+    pub(crate) fn new(orders: &[f64], plot: &Plot) -> Self {
+        let (across, up) = plot.pace();
+        let slot = WIDEST * plot.frame.w / orders.len().max(1) as f64;
+        let mut widest = 0.0;
+        let triangle = |&order: &f64| {
+            let slope = order * up / across;
+            let captions = CAPTION_GAP + text::width(&name(order), TEXT) + GAP;
+            let longest = f64::min(LONGEST, slot - captions);
+            widest += longest + captions;
+            let run = (SIDE / libm::sqrt(slope)).min(LONGEST / slope).min(longest);
+            Triangle { order, run, rise: run * slope, captions }
         };
-        let slope = Caption {
-            at: (side, middle_y + 4.0),
-            anchor,
-            area: Rect { x: slope_left, y: middle_y - 6.0, w: caption_width, h: 11.0 },
-        };
-        let (left, top) = (low.0.min(slope.area.x), high.1.min(run.area.y).min(slope.area.y));
-        let right = high.0.max(slope.area.right());
-        let bottom = low.1.max(run.area.bottom()).max(slope.area.bottom());
-        let area = Rect { x: left, y: top, w: right - left, h: bottom - top };
-        Self { order, corners, captions: [run, slope], area }
+        let triangles = orders.iter().map(triangle).collect();
+        Self { triangles, widest }
     }
 
-    fn is_free(&self, frame: &Rect, space: &Space, taken: &[Rect]) -> bool {
-        frame.grown(-8.0).contains(&self.area)
-            && taken.iter().all(|other| !self.area.grown(8.0).overlaps(other))
-            && self.samples().all(|at| space.clearance(at) >= CLEAR)
-            && self.captions.iter().all(|t| space.clearance_of(&t.area) >= CLEAR)
+    /// Orders whose triangles would be too flat, too steep or too small to be read.
+    pub(crate) fn left_out(&self) -> impl Iterator<Item = f64> {
+        self.triangles.iter().filter(|triangle| !triangle.is_drawn()).map(|triangle| triangle.order)
     }
 
-    /// Points spread over the area, closer to one another than twice the required clearance.
-    fn samples(&self) -> impl Iterator<Item = Pt> {
-        const PARTS: i32 = 16;
-        let [a, b, c] = self.corners;
-        (0..=PARTS).flat_map(move |i| {
-            (0..=PARTS - i).map(move |j| {
-                let (u, v) = (f64::from(i) / f64::from(PARTS), f64::from(j) / f64::from(PARTS));
-                let along = |a: f64, b: f64, c: f64| a + u * (b - a) + v * (c - a);
-                (along(a.0, b.0, c.0), along(a.1, b.1, c.1))
-            })
-        })
+    fn drawn(&self) -> impl Iterator<Item = &Triangle> {
+        self.triangles.iter().filter(|triangle| triangle.is_drawn())
     }
 
-    /// How ill the hypotenuse compares with the data beside it: its mean distance, and what the
-    /// distance varies along it, which is little beside a line of the same slope.
-    fn mismatch(&self, space: &Space) -> f64 {
-        const PARTS: i32 = 12;
-        const VARIATION: f64 = 4.0;
-        let [low, high, _] = self.corners;
-        let distances = (0..=PARTS)
-            .map(|i| f64::from(i) / f64::from(PARTS))
-            .map(|s| (low.0 + s * (high.0 - low.0), low.1 + s * (high.1 - low.1)))
-            .map(|at| space.clearance(at));
-        let (mut sum, mut least, mut largest) = (0.0, f64::INFINITY, 0.0_f64);
-        for distance in distances {
-            sum += distance;
-            least = least.min(distance);
-            largest = largest.max(distance);
+    /// Share of the frame that must be free below the data so that triangles touch none of `paths`.
+    /// `plot` is drawn with `pad` at the ends of its vertical axis; `paths` are its pixels.
+    ///
+    /// A wider strip compresses the data, and triangles of the new axis are lower. A triangle that
+    /// is too narrow now may then be drawn, so that all heights count.
+    pub(crate) fn strip(&self, plot: &Plot, paths: &[Vec<Pt>], pad: Pad) -> f64 {
+        let highest = self.triangles.iter().map(|t| t.rise).fold(0.0, f64::max);
+        let left = plot.frame.right() - self.widest - CLEAR;
+        let lowest = paths.iter().filter_map(|path| lowest_right_of(path, left));
+        let lowest = lowest.fold(f64::NEG_INFINITY, f64::max);
+        if highest < SHORTEST || lowest.is_infinite() {
+            return pad.lo;
         }
-        sum / f64::from(PARTS + 1) + VARIATION * (largest - least)
+        let needed = (GAP + CAPTION + highest + CLEAR) / FRAME_HEIGHT;
+        // Height of the lowest data as a share of the range of all data.
+        let height = (plot.frame.bottom() - lowest) / FRAME_HEIGHT;
+        let share = (height - pad.lo) / (1.0 - pad.lo - pad.hi);
+        let rest = 1.0 - share;
+        if rest > 0.0 { f64::max(pad.lo, (needed - share * (1.0 - pad.hi)) / rest) } else { pad.lo }
     }
 
-    /// The triangle with its run and its slope.
-    pub(crate) fn draw(&self) -> SvgElement {
+    /// The triangles, each with its run and its slope.
+    pub(crate) fn draw(&self, plot: &Plot) -> SvgElement {
+        let bottom = plot.frame.bottom() - GAP - CAPTION;
+        let width: f64 = self.drawn().map(|triangle| triangle.run + triangle.captions).sum();
+        let mut left = plot.frame.right() - width;
         let mut group = SvgElement::new("g").set("fill", NEUTRAL);
-        group.add(
-            &SvgElement::through("polygon", &self.corners)
-                .set("fill", "#f3f3f3")
-                .set("stroke", NEUTRAL)
-                .at("stroke-width", 0.9)
-                .set("stroke-linejoin", "round"),
-        );
-        let texts = ["1".to_owned(), name(self.order)];
-        for (caption, text) in self.captions.iter().zip(&texts) {
-            group.add(&SvgElement::text(caption.at, caption.anchor, text));
+        for &Triangle { order, run, rise, captions } in self.drawn() {
+            let right = left + run;
+            let corners = [(left, bottom), (right, bottom - rise), (right, bottom)];
+            group.add(
+                &SvgElement::through("polygon", &corners)
+                    .set("fill", SHADE)
+                    .set("stroke", NEUTRAL)
+                    .at("stroke-width", 0.9)
+                    .set("stroke-linejoin", "round"),
+            );
+            let below = (f64::midpoint(left, right), bottom + CAPTION);
+            group.add(&SvgElement::text(below, "middle", "1"));
+            let beside = (right + CAPTION_GAP, bottom - rise / 2.0 + 4.0);
+            group.add(&SvgElement::text(beside, "start", &name(order)));
+            left = right + captions;
         }
         group
     }
+}
+
+/// The lowest pixel of a path right of `left`.
+fn lowest_right_of(path: &[Pt], left: f64) -> Option<f64> {
+    let points = path.iter().filter(|point| point.0 >= left).map(|point| point.1);
+    let crossing = path.windows(2).filter(|ends| ends[0].0 < left && ends[1].0 >= left);
+    let crossing = crossing.map(|ends| {
+        let (a, b) = (ends[0], ends[1]);
+        a.1 + (left - a.0) / (b.0 - a.0) * (b.1 - a.1)
+    });
+    points.chain(crossing).max_by(f64::total_cmp)
 }
 
 /// An order as it is customarily written: thirds as fractions, others as short decimals.
@@ -190,5 +159,20 @@ mod tests {
     #[case(10.0, "10")]
     fn names(#[case] order: f64, #[case] expected: &str) {
         assert_eq!(name(order), expected);
+    }
+
+    #[rstest]
+    #[case(&[(0.0, 0.0), (10.0, 20.0)], 5.0, Some(20.0))]
+    #[case(&[(0.0, 20.0), (10.0, 0.0)], 5.0, Some(10.0))]
+    #[case(&[(0.0, 20.0), (10.0, 0.0)], 10.0, Some(0.0))]
+    #[case(&[(0.0, 20.0), (10.0, 0.0)], 11.0, None)]
+    #[case(&[(7.0, 3.0)], 5.0, Some(3.0))]
+    #[case(&[], 5.0, None)]
+    fn lowest_pixels_include_lines_between_points(
+        #[case] path: &[Pt],
+        #[case] left: f64,
+        #[case] lowest: Option<f64>,
+    ) {
+        assert_eq!(lowest_right_of(path, left), lowest);
     }
 }
