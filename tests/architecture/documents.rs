@@ -14,13 +14,8 @@ const MADE_LATER: &[(&str, &str)] = &[
 ];
 
 /// Folders with the keys of JSON documents: reports, messages, and numbers of loads.
-const KEYS_IN: &[&str] = &[
-    "src/report/",
-    "src/verify/",
-    "src/external/",
-    "src/mpm/material/",
-    "src/suite/scene/load/",
-];
+const KEYS_IN: &[&str] =
+    &["src/report/", "src/verify/", "src/external/", "src/mpm/material/", "src/suite/scene/load/"];
 
 /// The repository as documents may speak of it.
 pub(crate) struct Repository {

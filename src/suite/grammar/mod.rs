@@ -13,11 +13,11 @@ pub(crate) mod stability;
 pub(crate) mod truth;
 
 pub(crate) use super::evaluator::ParameterSpec;
+pub use crate::verify::NormName;
+pub use convergence::CrossingLevels;
 pub(crate) use convergence::{
     ConvergenceSpec, ObserveSpec, ReferenceSpec, RefineSpec, ScatterSpec,
 };
-pub use crate::verify::NormName;
-pub use convergence::CrossingLevels;
 pub use expect::WarningName;
 pub(crate) use expect::{AcknowledgeSpec, AnyMethodSpec, CrossingsName, DriftSpec, ExpectSpec};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
