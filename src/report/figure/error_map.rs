@@ -151,7 +151,7 @@ mod tests {
         for fill in ["#002051", "#fdea45"] {
             assert!(svg.contains(&format!("z\" fill=\"{fill}\"")), "{svg}");
         }
-        assert_eq!(svg.matches(&format!("stroke=\"{NEUTRAL}\"")).count(), 2, "{svg}");
+        assert_eq!(svg.matches(&format!(" stroke=\"{NEUTRAL}\"")).count(), 2, "{svg}");
         assert!(svg.contains(">\u{2212}6<") && svg.contains(">\u{2212}4<"), "{svg}");
     }
 

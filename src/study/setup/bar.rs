@@ -129,9 +129,12 @@ mod tests {
     fn known(hardening: f64) -> impl Iterator<Item = (MaterialPlan, Equation)> {
         let every = MaterialPlan::every(|parameter| match parameter.symbol {
             "nu" => 0.3,
-            "Y" => 5.0,
+            "Y" | "k" | "c" => 5.0,
             "H" => hardening,
             "eta" => 0.5,
+            "etab" => 0.2,
+            "phi" => 30.0,
+            "psi" => 10.0,
             _ => 100.0,
         });
         let known = every.into_iter().filter_map(|plan| Some((plan, equation_of(&plan)?)));

@@ -44,6 +44,11 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("yield", "1"),
     ("bulk", "100"),
     ("viscosity", "0"),
+    ("dilation", "0"),
+    ("strength", "1"),
+    ("friction_angle", "30"),
+    ("dilation_angle", "0"),
+    ("cohesion", "1"),
     ("density", "1"),
     // Loads.
     ("on", "right"),
