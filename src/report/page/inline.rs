@@ -1,8 +1,9 @@
 //! A standalone SVG document inside the page.
 //!
 //! An `id` is unique in a figure and must be so on a page of hundreds: all ids get the figure's
-//! prefix, and what refers to them follows. The page has the style sheet of figures once, so that it
-//! is left out here. The size is left to the style sheet of the page; the `viewBox` keeps the shape.
+//! prefix, and what refers to them follows. The page has the style sheet of figures once, so that
+//! it is left out here. The size is left to the style sheet of the page; the `viewBox` keeps the
+//! shape.
 
 use super::html::Html;
 

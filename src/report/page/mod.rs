@@ -1,9 +1,9 @@
 //! One HTML page for a run: everything that was found, in one file that needs no network.
 //!
 //! It is read without JavaScript; a small script only sorts and filters its tables and unfolds what
-//! a link leads to. Figures are inline SVG and share one style sheet for dark colours. Nothing on the
-//! page depends on the time or the machine, except the commit that a CI service names: the same run
-//! gives the same bytes.
+//! a link leads to. Figures are inline SVG and share one style sheet for dark colours. Nothing on
+//! the page depends on the time or the machine, except the commit that a CI service names: the same
+//! run gives the same bytes.
 //!
 //! A section shows all that a suite reports: every figure of [`svg()`](super::svg()) and the whole
 //! of [`text()`](super::text()). What is added to either is on the page.

@@ -85,8 +85,8 @@ impl Table {
         self.aligned(&(0..columns).map(width).collect::<Vec<_>>())
     }
 
-    /// The lines with columns of fixed widths by heading: a wider cell moves the rest of its own line,
-    /// and no other line. Columns that `widths` does not list are as wide as their headings.
+    /// The lines with columns of fixed widths by heading: a wider cell moves the rest of its own
+    /// line, and no other line. Columns that `widths` does not list are as wide as their headings.
     pub(crate) fn lines_of_widths(&self, widths: &[(&str, usize)]) -> Vec<String> {
         let width = |heading: &String| {
             let listed = widths.iter().find(|(known, _)| known == heading);

@@ -44,7 +44,8 @@ const PALETTE: [(&str, &str); 8] = [
 ];
 
 /// Colours of series on light and on dark paper, after those of Okabe and Ito. The yellow is left
-/// out, orange and sky blue are darker on light paper: WCAG 2.2 (1.4.11) asks for a contrast of 3:1.
+/// out, orange and sky blue are darker on light paper: WCAG 2.2 (1.4.11) asks for a contrast of
+/// 3:1.
 const SERIES: [(&str, &str); 7] = [
     ("#0072b2", "#4ba6e3"),
     ("#d55e00", "#f0803c"),
