@@ -117,7 +117,7 @@ pub struct NodeWeight<'a, const D: usize> {
     pub weight: f64,
     /// grad N_i at the particle (1/m).
     pub gradient: &'a Vector<D>,
-    /// Position of the function ([`Basis::abscissa`](super::Basis::abscissa)) from the particle,
+    /// Position of the function ([`Basis::abscissa`]) from the particle,
     /// x_i - x_p (m).
     pub offset: Vector<D>,
 }

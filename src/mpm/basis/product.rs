@@ -97,7 +97,7 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
     }
 }
 
-/// Batch of [`Product`](super::Product)s. With `OUTWARD = 1` the gradient of a function is its
+/// Batch of [`Product`]s. With `OUTWARD = 1` the gradient of a function is its
 /// weight times a vector of the patch, as for the corners of [CPDI](super::Cpdi); with 0 it is the
 /// derivative.
 #[derive(Debug)]

@@ -5,7 +5,7 @@
 //! coincide are no special case, and those of a positive definite matrix are accurate relative to
 //! their own size (Demmel & Veselic 1992), which the logarithm of a small one needs.
 //!
-//! Jacobi's rotations for a batch of particles: the operations of [`spectral`](spectral) for
+//! Jacobi's rotations for a batch of particles: the operations of [`spectral`] for
 //! all of them at a time, without its branches, so that the compiler fills registers with them. A
 //! test holds them to the same bits.
 

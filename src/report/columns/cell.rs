@@ -1,6 +1,6 @@
 //! A value of a table, in both its forms.
 
-use crate::report::json::number::number;
+use crate::report::columns::number::number;
 use serde_json::Value;
 
 /// A value as text and as JSON.

@@ -1,7 +1,7 @@
 //! Columns of the tables of cost: the work that methods take for an error.
 
 use super::{Cell, TableColumn, decimals, json_object, short};
-use crate::report::json::number::number;
+use crate::report::columns::number::number;
 use crate::verify::{Agreement, End, Exponent, Model, Ranked, Ranking, Reach};
 
 type MethodColumn<'a> = TableColumn<'a, Ranked>;

@@ -8,6 +8,7 @@ mod column;
 pub(crate) mod cost;
 pub(crate) mod force;
 pub(crate) mod level;
+pub(crate) mod number;
 pub(crate) mod stability;
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! A comparison as JSON.
 
 use super::changes::{CheapestMove, ErrorMove, Moved, ProblemMove, ReportComparison};
-use crate::report::json::number::number;
+use crate::report::columns::number::number;
 use serde_json::{Value, json};
 
 /// One document: suites whose problem is another one; cases that moved, the most important first;

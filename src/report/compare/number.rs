@@ -65,7 +65,7 @@ mod tests {
     #[test]
     fn what_is_written_reads_back() {
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.1, 1e-300, -0.0] {
-            let text = crate::report::json::number::number(value).to_string();
+            let text = crate::report::columns::number::number(value).to_string();
             let JsonNumber(read) = serde_json::from_str(&text).expect("a number");
             assert_eq!(read.to_bits(), value.to_bits(), "{text}");
         }

@@ -33,7 +33,6 @@ pub(crate) mod drawing;
 pub(crate) mod map;
 pub(crate) mod plot;
 pub(crate) mod study;
-pub(crate) mod suite;
 pub(crate) mod sweep;
 
 mod colour_scale;

@@ -1,8 +1,7 @@
 //! Figures of what runs have shown over a swept parameter: curves over many values, a map of few.
 
-use super::map::column_head;
+use super::map::{column_head, merged_fields};
 use super::{Curve, HistoryPlot, Map, MapField};
-use crate::report::text::stability::merged_fields;
 use crate::verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome};
 
 /// Values from which on they make curves.

@@ -1,8 +1,8 @@
 //! Rankings by cost as JSON, see [`crate::report::json()`].
 
-use super::number::number;
 use crate::report::columns::cost::json_columns;
 use crate::report::columns::json_object;
+use crate::report::columns::number::number;
 use crate::verify::Ranking;
 use serde_json::{Value, json};
 

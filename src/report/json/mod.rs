@@ -2,8 +2,6 @@
 
 pub(crate) mod cost;
 pub(crate) mod diagnosis;
-pub(crate) mod document;
-pub(crate) mod number;
 pub(crate) mod schema;
 pub(crate) mod stability;
 pub(crate) mod timed_suite;

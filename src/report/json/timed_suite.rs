@@ -18,9 +18,9 @@
 //! with the ends of a 95 % interval, and measured.
 
 use super::cost::rankings;
-use super::number::number;
 use crate::report::columns::cost::{model, models};
 use crate::report::columns::json_object;
+use crate::report::columns::number::number;
 use crate::report::columns::timed_level::{json_columns, rows, timing};
 use crate::verify::{BestCandidate, CaseOutcome, Machine, TimedSuite};
 use serde_json::{Value, json};

@@ -24,8 +24,8 @@ mod tests;
 pub use source::SuiteSource;
 
 use crate::report::figure::plot::style::style_sheet;
-use crate::report::json::document::commit;
 use crate::report::matrix::by_group;
+use crate::report::suite::json::commit;
 use crate::verify::CaseOutcome;
 use html::Html;
 

@@ -1,10 +1,10 @@
 //! Convergence studies in reports.
 
 use super::kind::{StudyReport, members, studies};
+use crate::report::columns::number::{interval, number};
 use crate::report::columns::{json_object, level};
 use crate::report::figure::drawing::Figure;
 use crate::report::figure::study;
-use crate::report::json::number::{interval, number};
 use crate::report::text::levels;
 use crate::verify::{
     Axis, CaseOutcome, Convergence, Floor, FloorCause, LevelOutcome, Probe, SuiteOutcome,

@@ -4,15 +4,10 @@
 
 use super::table::Table;
 use crate::report::columns::{cost as columns, short};
-use crate::verify::{self, Ranked, Ranking, SuiteOutcome};
+use crate::verify::{Ranked, Ranking};
 
 /// The unit of work that is counted.
 pub(crate) const TRANSFERS: &str = "particle-node transfers";
-
-/// The rankings of a suite by transfers.
-pub(crate) fn by_transfers(outcome: &SuiteOutcome) -> Vec<Ranking> {
-    verify::by_transfers(&outcome.cases)
-}
 
 /// The tables of a ranking, `work` being its unit.
 pub fn cost(ranking: &Ranking, work: &str) -> String {

@@ -3,7 +3,7 @@
 use super::table::Table;
 use crate::report::columns::TableColumn;
 use crate::report::columns::stability::{self, limit_of, limit_text};
-use crate::report::figure::map::column_head;
+use crate::report::figure::map::{column_head, merged_fields};
 use crate::report::figure::{Map, MapField};
 use crate::verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
 
@@ -35,35 +35,6 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<String> {
         rows: merged_fields(studies.iter().map(row).collect()),
     };
     Some(map.to_svg())
-}
-
-/// Rows with names without what all begin with, of which neighbours that show the same and are
-/// called the same but for the last word are one: `flip-usf/musl`.
-pub(crate) fn merged_fields(rows: Vec<(String, Vec<MapField>)>) -> Vec<(String, Vec<MapField>)> {
-    let first =
-        |name: &str| name.split_once('-').map_or(String::new(), |(word, _)| word.to_owned());
-    let common = rows.first().map(|(name, _)| first(name)).unwrap_or_default();
-    let is_common = rows.iter().all(|(name, _)| first(name) == common);
-    let mut kept: Vec<(String, Vec<MapField>)> = Vec::new();
-    for (name, fields) in rows {
-        let name = if is_common { name[common.len()..].trim_start_matches('-') } else { &name };
-        let (stem, last) = name.rsplit_once('-').unwrap_or(("", name));
-        match kept.last_mut() {
-            Some((known, shown)) if shown_alike(shown, &fields) && stem_of(known) == stem => {
-                *known += &format!("/{last}");
-            }
-            _ => kept.push((name.to_owned(), fields)),
-        }
-    }
-    kept
-}
-
-fn stem_of(name: &str) -> &str {
-    name.rsplit_once('-').map_or("", |(stem, _)| stem)
-}
-
-fn shown_alike(a: &[MapField], b: &[MapField]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.text == b.text)
 }
 
 /// The name of a case and its study.

@@ -69,7 +69,7 @@ pub(super) fn largest(column: &[f64]) -> f64 {
     column.iter().fold(0.0, |most: f64, number| most.max(number.abs()))
 }
 
-/// A breach of the contract of [`Subject`](crate::subject::Subject).
+/// A breach of the contract of [`Subject`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Breach {

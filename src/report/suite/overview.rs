@@ -1,9 +1,9 @@
 //! All suites at a glance: the matrix of problems and methods, and a line for each case.
 
-use super::prose::{paragraph_lines, row};
-use super::table::Table;
 use super::verdicts;
 use crate::report::matrix::{COLUMNS, LEGEND, by_group, failures, findings};
+use crate::report::text::prose::{paragraph_lines, row};
+use crate::report::text::table::Table;
 use crate::verify::{CaseOutcome, Convergence, SuiteOutcome};
 
 /// Widths of the columns in the overview of all suites, which is a snapshot.
@@ -72,7 +72,7 @@ pub fn overview(outcomes: &[SuiteOutcome]) -> String {
         lines.extend([String::new(), format!("== {group} ==")]);
         for suite in suites {
             lines.extend([String::new(), format!("  {}: {}", suite.suite, suite.title)]);
-            let rankings = super::cost::by_transfers(suite);
+            let rankings = crate::verify::by_transfers(&suite.cases);
             lines.extend(fixed(&verdicts::table(&suite.cases, &rankings)));
         }
     }

@@ -3,19 +3,19 @@
 //! Errors have four significant digits, orders two decimals; counters are exact. Nothing in it
 //! depends on the machine.
 
-use super::merged::shared;
-use super::profile::effects;
-use super::prose::{paragraph_lines, row};
-use super::table::Table;
-use super::{cost, verdicts};
+use super::verdicts;
 use crate::report::columns::TableColumn;
 use crate::report::study::KINDS;
+use crate::report::text::merged::shared;
+use crate::report::text::profile::effects;
+use crate::report::text::prose::{paragraph_lines, row};
+use crate::report::text::table::Table;
 use crate::verify::{CaseOutcome, SuiteOutcome};
 
 /// The whole report of a suite.
 pub fn text(outcome: &SuiteOutcome) -> String {
     let mut lines = vec![format!("{}: {}", outcome.suite, outcome.title), String::new()];
-    let rankings = cost::by_transfers(outcome);
+    let rankings = crate::verify::by_transfers(&outcome.cases);
     verdicts::head(&mut lines, &outcome.cases, &rankings);
     lines.push(String::new());
     if !outcome.about.is_empty() {

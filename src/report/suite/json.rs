@@ -54,10 +54,9 @@
 //! Keys may be added; none is renamed or removed without a new major version. `docs/columns.md`
 //! lists those of rows.
 
-use super::cost;
+use crate::report::json::cost;
 use crate::report::study::KINDS;
 use crate::report::study::kind::members;
-use crate::report::text::cost::by_transfers;
 use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, Exemption, SuiteOutcome};
 use serde_json::{Value, json};
@@ -85,7 +84,7 @@ fn suite(outcome: &SuiteOutcome) -> Value {
         "statement": outcome.statement,
         "passed": outcome.passed(),
         "cases": outcome.cases.iter().map(case).collect::<Vec<_>>(),
-        "cost": cost::rankings(&by_transfers(outcome), "transfers"),
+        "cost": cost::rankings(&crate::verify::by_transfers(&outcome.cases), "transfers"),
     })
 }
 

@@ -1,12 +1,12 @@
 //! The head of a report: what came of each case, and what was expected of it.
 
-use super::cost::cheapest;
-use super::merged::together;
-use super::prose::{hanging, row};
-use super::table::Table;
 use crate::report::columns::{TableColumn, decimals, scientific};
 use crate::report::grouping::{distinct, grouped};
 use crate::report::study::KINDS;
+use crate::report::text::cost::cheapest;
+use crate::report::text::merged::together;
+use crate::report::text::prose::{hanging, row};
+use crate::report::text::table::Table;
 use crate::verify::{CaseOutcome, Ranking};
 
 /// The target error whose cost stands beside each verdict.

@@ -1,0 +1,20 @@
+//! The report of a suite as text, JSON and figures, whatever its kinds of study.
+
+pub(crate) mod json;
+pub(crate) mod overview;
+pub(crate) mod text;
+pub(crate) mod verdicts;
+
+use super::figure::cost;
+use super::figure::drawing::Figure;
+use super::study::KINDS;
+use crate::verify::{self, SuiteOutcome};
+
+/// Every figure of a suite: those of its kind of study, and error against work.
+pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
+    let mut figures: Vec<Figure> = KINDS.iter().flat_map(|kind| kind.figures(outcome)).collect();
+    let rankings = verify::by_transfers(&outcome.cases);
+    let work = "particle-node transfers";
+    figures.extend(cost::cost_figures(outcome, &rankings, work, "transfers"));
+    figures
+}
