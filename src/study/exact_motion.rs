@@ -5,7 +5,7 @@
 
 use crate::exact::{Derivatives, Problem, Survey};
 use crate::suite::NormName;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::shown;
 use crate::suite::model::{ConvergencePlan, Suite};
 
 /// Largest displacement and displacement gradient of the exact solution, on a raster of the body

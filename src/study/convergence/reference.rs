@@ -4,8 +4,8 @@ use crate::exact::Truth;
 use crate::fem::Bar;
 use crate::study::setup::bar::{bar, reference_method};
 use crate::subject::Subject;
-use crate::suite::model::grid_size::cell_size;
 use crate::suite::model::{Against, ConvergencePlan};
+use crate::suite::scene::grid_size::cell_size;
 
 /// Displacement and velocity of a fine bar, kept at every instant of the study. Only asked at
 /// instants, so nothing is interpolated in time.

@@ -5,10 +5,10 @@ use crate::study::describe::statement::{Rows, push, scene, stated};
 use crate::study::exact_motion;
 use crate::study::exact_motion::amplitude;
 use crate::suite::compile::truth::conservation_only;
-use crate::suite::compile::wording::shown;
-use crate::suite::model::lattice::LatticeOffsets;
+use crate::suite::evaluator::shown;
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
 use crate::suite::model::{Case, ConvergencePlan, SameMethod};
+use crate::suite::scene::lattice::LatticeOffsets;
 use crate::verify::Axis;
 
 /// Rows of the whole study.

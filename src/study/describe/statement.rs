@@ -3,8 +3,8 @@
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialParameter, MaterialPlan};
 use crate::subject::PlaneState;
-use crate::suite::model::load::LoadTarget;
 use crate::suite::model::{Scene, Suite};
+use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::sources;
 use crate::verify::rounded;
 

@@ -7,10 +7,10 @@ use crate::mpm::FrameName;
 use crate::study::exact_motion::Extremes;
 use crate::study::exact_motion::raster;
 use crate::study::handover::level_problem;
-use crate::suite::model::grid_size::grid_axis;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, SceneFace};
+use crate::suite::scene::grid_size::grid_axis;
 use crate::verify::{KnownCause, KnownCauseKind, LevelOutcome};
 
 /// Distance from the end of the grid that is rounding, in cells.

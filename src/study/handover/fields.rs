@@ -6,7 +6,7 @@ use crate::mpm::{Block, Fragment, Matrix, Particles, Vector, complete_start};
 use crate::study::setup::initial_state::Initial;
 use crate::subject::PlaneState;
 use crate::suite::model::Scene;
-use crate::suite::model::numbers::LoadNumbers;
+use crate::suite::scene::numbers::LoadNumbers;
 
 /// Radius at which stresses on the axis of a body of revolution are evaluated, relative to the size
 /// of the body: the hoop stretch r/R has no value at R = 0.

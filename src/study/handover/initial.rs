@@ -10,11 +10,11 @@ use crate::external::{
 };
 use crate::study::setup::body::periodic;
 use crate::study::setup::initial_state::Initial;
-use crate::suite::model::grid_size::{cell_size, grid_axis};
-use crate::suite::model::load::{EffectName, ListedLoad, LoadTarget};
-use crate::suite::model::numbers::LoadNumbers;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace};
+use crate::suite::scene::grid_size::{cell_size, grid_axis};
+use crate::suite::scene::load::{EffectName, ListedLoad, LoadTarget};
+use crate::suite::scene::numbers::LoadNumbers;
 use std::sync::Arc;
 
 /// The problem of one level of a case, of the suite called `suite`.

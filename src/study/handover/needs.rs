@@ -4,8 +4,8 @@ use super::particles::starts_deformed;
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::study::kind::study;
 use crate::subject::PlaneState;
-use crate::suite::model::load::ListedLoad;
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace, Suite};
+use crate::suite::scene::load::ListedLoad;
 use crate::verify::{Quantity, SumNeed};
 
 /// The needs of a convergence study.

@@ -5,7 +5,7 @@ use crate::external::SolverFactory;
 use crate::mpm::{MaterialParameter, MaterialPlan, Range};
 use crate::study::setup::dispatch::subject;
 use crate::subject::Subject;
-use crate::suite::model::external_method::{ExternalMethod, GateTerms};
+use crate::suite::model::method::{ExternalMethod, GateTerms};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Suite};
 use std::sync::Arc;

@@ -1,10 +1,10 @@
 //! Interfaces and loaded faces inside a cell.
 
 use super::subject::Preflight;
-use crate::suite::compile::path::Path;
 use crate::suite::model::Scene;
-use crate::suite::model::grid_size::grid_axis;
-use crate::suite::model::load::LoadTarget;
+use crate::suite::scene::grid_size::grid_axis;
+use crate::suite::scene::load::LoadTarget;
+use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
 
 /// Distance from a grid line that is rounding, in cells.

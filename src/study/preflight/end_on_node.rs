@@ -5,11 +5,11 @@
 
 use super::subject::Preflight;
 use crate::mpm::BasisName;
-use crate::suite::compile::path::Path;
 use crate::suite::model::ConvergencePlan;
-use crate::suite::model::grid_size::{grid_axis, per_axis};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::scene::grid_size::{grid_axis, per_axis};
+use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
 
 /// Warns of a box that ends with a row of particles on nodes before the last ones of the grid.

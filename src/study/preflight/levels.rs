@@ -3,8 +3,8 @@
 use super::subject::{Preflight, moves_on_grid};
 use crate::study::exact_motion::Extremes;
 use crate::suite::grammar::CrossingLevels;
-use crate::suite::model::grid_size::per_axis;
 use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::scene::grid_size::per_axis;
 use crate::suite::yaml::{Diagnostic, Severity};
 use crate::verify::FEWEST_LEVELS;
 

@@ -1,7 +1,7 @@
 //! A motion that leaves the grid.
 
 use super::subject::{Preflight, moves_on_grid};
-use crate::suite::model::grid_size::grid_axis;
+use crate::suite::scene::grid_size::grid_axis;
 use crate::suite::yaml::{Diagnostic, Severity};
 
 /// Distance beyond the grid that is rounding, in cells.

@@ -2,11 +2,11 @@
 
 use crate::mpm::FrameName;
 use crate::study::exact_motion::Extremes;
-use crate::suite::compile::path::Path;
 use crate::suite::grammar::WarningName;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan};
+use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity, Source};
 use crate::verify::{Axis, Verdict};
 

@@ -2,9 +2,9 @@
 
 use super::subject::Preflight;
 use crate::study::convergence::formal_order::in_time;
-use crate::suite::compile::path::Path;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
 use crate::verify::Axis;
 

@@ -5,10 +5,10 @@ use crate::exact::{Problem, Truth, variables};
 use crate::mpm::{TransferChoice, TransferName};
 use crate::study::exact_motion::raster;
 use crate::study::handover::level_problem;
-use crate::suite::compile::path::Path;
-use crate::suite::model::load::EffectName;
 use crate::suite::model::method::Method;
 use crate::suite::model::{Case, ConvergencePlan, Scene};
+use crate::suite::scene::load::EffectName;
+use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
 
 /// Share of the final load that a load has at the start, to be applied at once.

@@ -7,10 +7,10 @@ use crate::fem::{Bar, BarLaw, Sampling};
 use crate::mpm::MaterialPlan;
 use crate::subject::Start;
 use crate::suite::grammar::EquationName;
-use crate::suite::model::grid_size::cell_size;
-use crate::suite::model::load::{ListedLoad, LoadTarget};
 use crate::suite::model::method::Method;
 use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene};
+use crate::suite::scene::grid_size::cell_size;
+use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
 /// The FEM bar of `method`; also what references are made of.
 pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, String> {

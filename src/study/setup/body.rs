@@ -9,13 +9,13 @@ use crate::mpm::{
     Vector, kernel,
 };
 use crate::subject::PlaneState;
-use crate::suite::model::boundary::{self, FaceSite};
-use crate::suite::model::grid_size::{cell_size, grid_axis, per_axis};
-use crate::suite::model::load::{self, BodySite, ListedLoad, LoadTarget};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::LatticeEdits;
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace, Suite};
+use crate::suite::scene::boundary::{self, FaceSite};
+use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
+use crate::suite::scene::load::{self, BodySite, ListedLoad, LoadTarget};
 
 /// A body at the start of a run.
 pub(crate) struct Body<'a> {

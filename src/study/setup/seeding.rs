@@ -1,10 +1,10 @@
-//! Bodies filled with particles, see [`lattice`](crate::suite::model::lattice).
+//! Bodies filled with particles, see [`lattice`](crate::suite::scene::lattice).
 
 use crate::exact::{Cut, Piece, Random, join_small};
 use crate::mpm::{Fragment, Matrix, Particles, Vector};
 use crate::suite::model::Scene;
-use crate::suite::model::lattice::{LatticeOffsets, block};
 use crate::suite::model::stability::LatticeEdits;
+use crate::suite::scene::lattice::{LatticeOffsets, block};
 
 /// The particles of a scene on a grid that starts at `origin`, with cells of size `h`.
 pub(crate) fn particles<const D: usize>(

@@ -2,7 +2,7 @@
 
 use crate::study::describe::statement::{Rows, push, scene};
 use crate::suite::compile::stability::setup::RunSetup;
-use crate::suite::compile::wording::shown;
+use crate::suite::evaluator::shown;
 use crate::suite::model::stability::StabilityPlan;
 
 /// Rows of the study, with the set-up of its first row.

@@ -13,6 +13,3 @@ pub(crate) mod truth;
 
 #[cfg(test)]
 mod missing_keys;
-
-pub(crate) use super::evaluator as wording;
-pub(crate) use super::yaml::locate as path;

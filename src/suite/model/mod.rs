@@ -8,9 +8,8 @@ pub(crate) mod refine_plan;
 pub(crate) mod stability;
 pub(crate) mod study_plan;
 
-pub(crate) use super::scene::{Scene, SceneFace, boundary, grid_size, lattice, load, numbers};
+pub(crate) use super::scene::{Scene, SceneFace};
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
-pub(crate) use method as external_method;
 pub use refine_plan::SameMethod;
 
 use self::method::{AnyMethod, ExternalMethod, GateTerms, Method};

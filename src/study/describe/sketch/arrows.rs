@@ -4,7 +4,7 @@ use super::view::View;
 use crate::report::figure::plot::style::look;
 use crate::report::figure::plot::svg::{Pt, SvgElement};
 use crate::suite::model::Scene;
-use crate::suite::model::load::LoadTarget;
+use crate::suite::scene::load::LoadTarget;
 
 /// Length of the longest arrow.
 const LONGEST: f64 = 24.0;

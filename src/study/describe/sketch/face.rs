@@ -7,7 +7,7 @@ use crate::exact::Region;
 use crate::report::figure::plot::style::{INK, PAPER, look};
 use crate::report::figure::plot::svg::{Pt, SvgElement};
 use crate::suite::model::SceneFace;
-use crate::suite::model::load::{ListedLoad, LoadTarget};
+use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
 /// Distance between hatches, rollers and arrows along a face.
 const STEP: f64 = 9.0;

@@ -1,8 +1,8 @@
 //! The sketch as lines of characters, for `explain`.
 
 use super::view::View;
-use crate::suite::model::load::LoadTarget;
 use crate::suite::model::{Scene, SceneFace, Suite};
+use crate::suite::scene::load::LoadTarget;
 
 /// Most characters along the first axis, and along the second.
 const COLUMNS: usize = 60;

@@ -2,9 +2,9 @@
 
 use crate::report::figure::plot::style::WIDTH;
 use crate::report::figure::plot::svg::Pt;
-use crate::suite::model::grid_size::grid_axis;
 use crate::suite::model::stability::StabilityPlan;
 use crate::suite::model::{ConvergencePlan, Scene, Suite};
+use crate::suite::scene::grid_size::grid_axis;
 
 /// Distance of the grid from the edges of the canvas.
 pub(super) const MARGIN: f64 = 52.0;
