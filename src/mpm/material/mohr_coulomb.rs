@@ -26,6 +26,9 @@ pub struct Pyramid {
     strength: f64,
 }
 
+/// Negative part of the flow on an edge that rounding explains.
+const ROUNDING: f64 = 1e-9;
+
 /// A plane of the pyramid, by the places of the largest and the smallest stress.
 type YieldPlane = [usize; 2];
 
@@ -73,7 +76,8 @@ impl Pyramid {
         trial - self.relief(plane) * flow
     }
 
-    /// The stress where two planes meet; none if a flow is negative.
+    /// The stress where two planes meet; none if a flow is negative beyond rounding, which it is
+    /// not at the rim of a plane.
     fn on_edge(&self, [a, b]: [YieldPlane; 2], trial: &Vector<3>) -> Option<Vector<3>> {
         let (f_a, f_b) = (self.excess(a, trial), self.excess(b, trial));
         let (aa, ab) = (self.slope(a, a), self.slope(a, b));
@@ -81,7 +85,8 @@ impl Pyramid {
         let determinant = aa * bb - ab * ba;
         let flow_a = (f_a * bb - ab * f_b) / determinant;
         let flow_b = (aa * f_b - f_a * ba) / determinant;
-        (flow_a >= 0.0 && flow_b >= 0.0)
+        let least = -ROUNDING * (flow_a.abs() + flow_b.abs());
+        (flow_a >= least && flow_b >= least)
             .then(|| trial - self.relief(a) * flow_a - self.relief(b) * flow_b)
     }
 
@@ -107,7 +112,7 @@ impl Pyramid {
         } else {
             low_edge().or_else(high_edge)
         };
-        // The edges of Tresca's prism never meet, so that the sine is above zero here.
+        // The edges of Tresca's prism never meet: the sine is above zero here.
         edge.unwrap_or_else(|| Vector::<3>::from_element(self.strength / (2.0 * self.sines[0])))
     }
 }
@@ -220,6 +225,25 @@ mod tests {
                 assert_abs_diff_eq!(largest, 0.0, epsilon = 1e-10);
                 prop_assert!(flow > 0.0);
             }
+        }
+
+        /// A trial stress that returns to a plane next to an edge, within rounding: the return to
+        /// the edge has a flow of zero on the other plane, which rounding makes negative.
+        #[test]
+        fn a_return_to_the_rim_of_a_plane_ends_there(
+            friction in prop_oneof![Just(0.0), 0.0..50.0_f64],
+            share in 0.0..1.0_f64,
+            low in -100.0..-20.0_f64,
+            flow in 1e-6..1e-2_f64,
+            is_high in any::<bool>(),
+        ) {
+            let law = MohrCoulomb::new(2e4, 0.2, friction, share * friction, 10.0).surface;
+            let sine = law.sines[0];
+            let high = (law.strength + (1.0 - sine) * low) / (1.0 + sine);
+            let edge = Vector::<3>::new(high, if is_high { high } else { low }, low);
+            let trial = edge + law.relief([0, 2]) * flow;
+            let back = law.returned([0, 1, 2], &trial);
+            assert_abs_diff_eq!(back, edge, epsilon = 1e-9);
         }
     }
 }
