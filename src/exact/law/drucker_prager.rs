@@ -10,10 +10,8 @@
 //! Both invariants change linearly, `sqrt(J2)` by `A - mu g` and the multiplier by
 //! `g = (A + s eta K)/D` per unit of strain, so that extension ends at the apex.
 
-use super::contract::{ConstitutiveLaw, Lame};
-use super::uniaxial_flow::{UNIAXIAL_ONLY, UniaxialFlow, UniaxialLaw};
-use crate::exact::formula::Number;
-use crate::exact::tensor::Tensor;
+use super::contract::Lame;
+use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
 
 /// Drucker-Prager plasticity with Hencky elasticity in uniaxial strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,32 +44,20 @@ impl DruckerPragerLaw {
     }
 }
 
-impl ConstitutiveLaw for DruckerPragerLaw {
-    const NAME: &'static str = "drucker_prager";
-    const EQUATION: &'static str = "Drucker-Prager in uniaxial strain that never reverses, \
-                                    rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
-                                    tau = L tr(eps_e) I + 2 mu eps_e, sqrt(J2) + eta p <= k";
-    const HAS_HISTORY: bool = true;
+impl UniaxialPlasticity for DruckerPragerLaw {
+    const MATERIAL: &'static str = "drucker_prager";
+    const TEXT: &'static str = "Drucker-Prager in uniaxial strain that never reverses, \
+                                rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
+                                tau = L tr(eps_e) I + 2 mu eps_e, sqrt(J2) + eta p <= k";
 
-    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
-        self.0.piola(grad)
-    }
-
-    fn modulus(&self) -> f64 {
-        self.0.lame.modulus()
-    }
-
-    fn flows(&self, grad: f64) -> bool {
-        self.0.flows(grad)
-    }
-
-    fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
-        if dimension == 1 { Ok(()) } else { Err(UNIAXIAL_ONLY) }
+    fn response(&self) -> &UniaxialLaw {
+        &self.0
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::contract::ConstitutiveLaw;
     use super::*;
     use approx::assert_relative_eq;
     use rstest::rstest;

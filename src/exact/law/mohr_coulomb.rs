@@ -6,10 +6,8 @@
 //! t + 4 mu (1 + t))` from an axial stress that is the largest, or add `g (4 mu (1 - t) - 4 L t)`
 //! to one that is the smallest, and half of the shear part from or to the lateral ones.
 
-use super::contract::{ConstitutiveLaw, Lame};
-use super::uniaxial_flow::{UNIAXIAL_ONLY, UniaxialFlow, UniaxialLaw};
-use crate::exact::formula::Number;
-use crate::exact::tensor::Tensor;
+use super::contract::Lame;
+use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
 
 /// Mohr-Coulomb plasticity with Hencky elasticity in uniaxial strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,33 +63,21 @@ impl MohrCoulombLaw {
     }
 }
 
-impl ConstitutiveLaw for MohrCoulombLaw {
-    const NAME: &'static str = "mohr_coulomb";
-    const EQUATION: &'static str = "Mohr-Coulomb in uniaxial strain that never reverses, \
-                                    rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
-                                    tau = L tr(eps_e) I + 2 mu eps_e, \
-                                    (t1 - t3) + (t1 + t3) sin(phi) <= 2 c cos(phi)";
-    const HAS_HISTORY: bool = true;
+impl UniaxialPlasticity for MohrCoulombLaw {
+    const MATERIAL: &'static str = "mohr_coulomb";
+    const TEXT: &'static str = "Mohr-Coulomb in uniaxial strain that never reverses, \
+                                rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
+                                tau = L tr(eps_e) I + 2 mu eps_e, \
+                                (t1 - t3) + (t1 + t3) sin(phi) <= 2 c cos(phi)";
 
-    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
-        self.0.piola(grad)
-    }
-
-    fn modulus(&self) -> f64 {
-        self.0.lame.modulus()
-    }
-
-    fn flows(&self, grad: f64) -> bool {
-        self.0.flows(grad)
-    }
-
-    fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
-        if dimension == 1 { Ok(()) } else { Err(UNIAXIAL_ONLY) }
+    fn response(&self) -> &UniaxialLaw {
+        &self.0
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::contract::ConstitutiveLaw;
     use super::*;
     use approx::assert_relative_eq;
     use rstest::rstest;

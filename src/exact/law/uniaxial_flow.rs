@@ -5,15 +5,49 @@
 //! up to a strain at yield, then with the elastic-plastic modulus, and constant where all principal
 //! stresses are equal, at an apex.
 
-use super::contract::Lame;
+use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
 use crate::exact::tensor::{Tensor, tensor};
 
-/// Why a law of this kind does not hold in more dimensions, and what to state instead.
-pub(super) const UNIAXIAL_ONLY: [&str; 2] = [
-    "the stress is a function of the deformation in uniaxial strain only",
-    "make it a scene of dimension 1",
-];
+/// A law of plastic flow that is known in uniaxial strain.
+pub(super) trait UniaxialPlasticity {
+    /// See [`ConstitutiveLaw::NAME`].
+    const MATERIAL: &'static str;
+
+    /// See [`ConstitutiveLaw::EQUATION`].
+    const TEXT: &'static str;
+
+    /// Its axial stress.
+    fn response(&self) -> &UniaxialLaw;
+}
+
+impl<L: UniaxialPlasticity> ConstitutiveLaw for L {
+    const NAME: &'static str = L::MATERIAL;
+    const EQUATION: &'static str = L::TEXT;
+    const HAS_HISTORY: bool = true;
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        self.response().piola(grad)
+    }
+
+    fn modulus(&self) -> f64 {
+        self.response().lame.modulus()
+    }
+
+    fn flows(&self, grad: f64) -> bool {
+        self.response().flows(grad)
+    }
+
+    fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
+        if dimension == 1 {
+            return Ok(());
+        }
+        Err([
+            "the stress is a function of the deformation in uniaxial strain only",
+            "make it a scene of dimension 1",
+        ])
+    }
+}
 
 /// The flow in one sense, of compression or of extension.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +80,7 @@ impl UniaxialLaw {
     }
 
     /// Kirchhoff stress (Pa) at the logarithmic strain `strain`.
-    pub(super) fn kirchhoff<T: Number>(&self, strain: T) -> T {
+    fn kirchhoff<T: Number>(&self, strain: T) -> T {
         let (sign, flow) = self.sense(strain.value());
         let elastic = self.lame.modulus();
         let beyond = sign * strain.value() - flow.strain;
@@ -61,14 +95,14 @@ impl UniaxialLaw {
     }
 
     /// P (Pa) for the displacement gradient of a uniaxial strain along the first axis.
-    pub(super) fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
         let stretch = T::from(1.0) + grad[0][0];
         let along = self.kirchhoff(Number::ln(stretch)) / stretch;
         tensor(|i, j| if i + j == 0 { along } else { T::from(0.0) })
     }
 
     /// Whether the body flows at the displacement gradient `grad`.
-    pub(super) fn flows(&self, grad: f64) -> bool {
+    fn flows(&self, grad: f64) -> bool {
         let strain = libm::log1p(grad);
         strain.abs() > self.sense(strain).1.strain
     }
