@@ -191,16 +191,15 @@ fn stretch_errors(
     Ok(std::array::from_fn(|k| {
         let (end, scene, course) = (ends[k], &scenes[k], &courses[k]);
         let strain = scene.velocity.gradient[axis][axis] * course.times[course.last()];
-        let mut largest = 0.0_f64;
-        for (label, u) in course.points(displacement, course.last()) {
+        let errors = course.points(displacement, course.last()).filter_map(|(label, u)| {
             let depth = end.depth(scene, label);
             let error = (-end.sign() * u[axis] - strain * depth) / (strain * H);
-            // NaN stays.
-            if depth <= 2.0 * H && !(error.abs() <= largest.abs()) {
-                largest = error;
-            }
-        }
-        largest
+            (depth <= 2.0 * H).then_some(error)
+        });
+        // The larger one; NaN stays.
+        errors.fold(0.0, |largest: f64, error| {
+            if largest.is_nan() || error.abs() <= largest.abs() { largest } else { error }
+        })
     }))
 }
 
