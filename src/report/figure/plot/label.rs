@@ -29,16 +29,22 @@ impl Label {
 
     /// The label with its baseline anchored at `at`.
     pub(crate) fn draw(&self, at: Pt, anchor: &str) -> SvgElement {
-        let label = SvgElement::text(at, anchor, &self.base);
         if self.exponent.is_none() {
-            return label;
+            return SvgElement::text(at, anchor, &self.base);
         }
-        // A shift by `dy` is understood by viewers which ignore `baseline-shift`.
-        let raised = SvgElement::new("tspan")
-            .at("dy", -5.0)
-            .at("font-size", SUPERSCRIPT)
-            .content(&self.superscript());
-        label.inline(&raised)
+        // Two texts that meet at `joint`, and not one with a raised part: some converters anchor
+        // each part of a text anew.
+        let left_of_joint = text::width(&self.base, TEXT);
+        let joint = match anchor {
+            "start" => at.0 + left_of_joint,
+            "middle" => at.0 - self.width() / 2.0 + left_of_joint,
+            _ => at.0 - self.width() + left_of_joint,
+        };
+        let mut label = SvgElement::new("g");
+        label.add(&SvgElement::text((joint, at.1), "end", &self.base));
+        let exponent = SvgElement::text((joint, at.1 - 5.0), "start", &self.superscript());
+        label.add(&exponent.at("font-size", SUPERSCRIPT));
+        label
     }
 
     fn superscript(&self) -> String {
@@ -62,10 +68,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exponents_are_raised() {
+    fn exponents_are_texts_of_their_own() {
         let svg = Label::power("10", -3).draw((0.0, 0.0), "end").render();
+        let (base, exponent) = svg.split_once("</text>").unwrap();
+        assert!(base.contains("text-anchor=\"end\">10"), "{svg}");
         assert!(
-            svg.contains(">10<tspan dy=\"-5.00\" font-size=\"11.00\">\u{2212}3</tspan>"),
+            exponent.contains("y=\"-5.00\" text-anchor=\"start\" font-size=\"11.00\">\u{2212}3<"),
             "{svg}"
         );
     }

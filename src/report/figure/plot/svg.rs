@@ -91,12 +91,6 @@ impl SvgElement {
         self
     }
 
-    /// Appends a child with no white space around it, as texts need.
-    pub(crate) fn inline(mut self, child: &Self) -> Self {
-        self.content.push_str(&child.render());
-        self
-    }
-
     /// Appends a child on a line of its own.
     pub(crate) fn add(&mut self, child: &Self) {
         self.content.push('\n');

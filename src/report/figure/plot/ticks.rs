@@ -12,8 +12,8 @@ pub(crate) struct Tick {
     pub(crate) label: Option<Label>,
 }
 
-/// A shorter logarithmic axis shows too few decades to be read by them alone.
-const SHORT: f64 = 1.5;
+/// Decades of a logarithmic axis below which it is labelled between powers of ten too.
+const SHORT: f64 = 2.0;
 
 /// Between these powers of ten a short logarithmic axis shows plain numbers.
 const WRITTEN_OUT: (f64, f64) = (-3.0, 4.0);
