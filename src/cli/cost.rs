@@ -125,8 +125,12 @@ fn draw(folder: &Path, timed: &TimedSuite) -> Result<(), CommandError> {
     let counted = timed.by_transfers();
     figures.extend(report::cost_figures(outcome, &counted, transfers, "transfers"));
     for figure in figures {
-        let path = folder.join(&figure.file);
-        fs::write(&path, figure.svg).map_err(|error| unwritable(&path, &error))?;
+        for (file, text) in
+            [(&figure.file, &figure.svg), (&figure.pgfplots_file(), &figure.pgfplots)]
+        {
+            let path = folder.join(file);
+            fs::write(&path, text).map_err(|error| unwritable(&path, &error))?;
+        }
     }
     Ok(())
 }

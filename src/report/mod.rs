@@ -2,6 +2,8 @@
 //!
 //! - [`text()`]: the aligned text that is kept as a snapshot. No time, host, date or path.
 //! - [`json()`]: one document, an interface.
+//! - [`latex()`]: tables for papers; with the feature `cli` also `csv()`, and `junit()` for continuous
+//!   integration services.
 //! - [`svg()`]: figures, drawn by the layer in [`figure`].
 //! - [`mod@page`]: one HTML page with all of it.
 //! - [`drift`]: comparison of two texts, number by number.
@@ -9,20 +11,30 @@
 
 pub(crate) mod columns;
 pub mod compare;
+#[cfg(feature = "cli")]
+mod csv;
 pub mod figure;
 pub(crate) mod grouping;
 pub(crate) mod json;
+#[cfg(feature = "cli")]
+mod junit;
+pub(crate) mod latex;
 pub(crate) mod matrix;
 pub mod page;
 pub(crate) mod study;
 pub(crate) mod suite;
 pub(crate) mod text;
 
+#[cfg(feature = "cli")]
+pub use csv::csv;
 pub use figure::cost::cost_figures;
 pub use figure::drawing::Figure;
 pub use json::diagnosis::diagnosis_json;
 pub use json::schema::report_schema;
 pub use json::timed_suite::timed_json;
+#[cfg(feature = "cli")]
+pub use junit::junit;
+pub use latex::latex;
 pub use suite::json::{json, profile as profile_json};
 pub use suite::overview::{glance, overview};
 pub use suite::svg;

@@ -34,8 +34,9 @@ pub fn cost_figures(
             1 => title.to_owned(),
             _ => format!("{title}, {}", ranking.problem),
         };
-        let svg = diagram(ranking, title, work, &methods).to_svg();
-        Figure { file: format!("{suite}-work-{unit}{number}.svg"), svg }
+        let plot = diagram(ranking, title, work, &methods);
+        let file = format!("{suite}-work-{unit}{number}.svg");
+        Figure { file, svg: plot.to_svg(), pgfplots: plot.to_pgfplots() }
     };
     rankings.iter().enumerate().map(figure).collect()
 }

@@ -7,4 +7,13 @@ pub struct Figure {
     pub file: String,
     /// The SVG document.
     pub svg: String,
+    /// The same figure as a LaTeX document that uses the package PGFPlots.
+    pub pgfplots: String,
+}
+
+impl Figure {
+    /// Name of the file of the LaTeX document, without a folder.
+    pub fn pgfplots_file(&self) -> String {
+        format!("{}.tex", self.file.strip_suffix(".svg").unwrap_or(&self.file))
+    }
 }

@@ -39,6 +39,7 @@ mod colour_scale;
 mod error_map;
 mod history;
 mod log_log;
+mod pgfplots;
 mod series;
 
 pub use error_map::ErrorMap;

@@ -42,7 +42,8 @@ fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
     let drawn: Vec<LogLogPlot> = parts.map(|part| plot(outcome, part)).collect();
     let figure = |(i, one): (usize, &LogLogPlot)| {
         let number = if plots > 1 { format!("-{}", i + 1) } else { String::new() };
-        Figure { file: format!("{}{number}.svg", outcome.suite), svg: one.to_svg_among(&drawn) }
+        let file = format!("{}{number}.svg", outcome.suite);
+        Figure { file, svg: one.to_svg_among(&drawn), pgfplots: one.to_pgfplots() }
     };
     drawn.iter().enumerate().map(figure).collect()
 }
@@ -101,8 +102,9 @@ fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
     let figure = |(i, part): (usize, &[(String, ErrorField)])| {
         let number = if fields.len() > MOST_PANELS { format!("-{}", i + 1) } else { String::new() };
         let title = format!("{}: error on the finest level", outcome.title);
-        let svg = ErrorMap { title, label: label.clone(), panels: part.to_vec() }.to_svg();
-        Figure { file: format!("{}-error{number}.svg", outcome.suite), svg }
+        let map = ErrorMap { title, label: label.clone(), panels: part.to_vec() };
+        let file = format!("{}-error{number}.svg", outcome.suite);
+        Figure { file, svg: map.to_svg(), pgfplots: map.to_pgfplots() }
     };
     parts.map(figure).collect()
 }
@@ -180,7 +182,10 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
     let draw = |plot: &HistoryPlot| {
         if alike { plot.to_svg_among(&plots) } else { plot.to_svg() }
     };
-    let figure = |(file, plot): (String, &HistoryPlot)| Figure { file, svg: draw(plot) };
+    let figure = |(file, plot): (String, &HistoryPlot)| {
+        let pgfplots = plot.to_pgfplots();
+        Figure { file, svg: draw(plot), pgfplots }
+    };
     files.into_iter().zip(&plots).map(figure).collect()
 }
 
@@ -201,8 +206,9 @@ fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
     }
     let title = format!("{}: energy", outcome.title);
     let (x_label, y_label) = ("time (s)".to_owned(), "energy over that of the start".to_owned());
-    let svg = HistoryPlot { title, x_label, y_label, curves }.to_svg();
-    Some(Figure { file: format!("{}-energy.svg", outcome.suite), svg })
+    let plot = HistoryPlot { title, x_label, y_label, curves };
+    let file = format!("{}-energy.svg", outcome.suite);
+    Some(Figure { file, svg: plot.to_svg(), pgfplots: plot.to_pgfplots() })
 }
 
 /// The forces of an internal-force study.
@@ -227,11 +233,12 @@ pub(crate) fn forces(outcome: &SuiteOutcome) -> Option<Figure> {
     if curves.is_empty() {
         return None;
     }
-    let svg = HistoryPlot {
+    let plot = HistoryPlot {
         title: outcome.title.clone(),
         x_label: "position of the moving particle, x/h".to_owned(),
         y_label: "internal force on the node (N)".to_owned(),
         curves,
     };
-    Some(Figure { file: format!("{}.svg", outcome.suite), svg: svg.to_svg() })
+    let file = format!("{}.svg", outcome.suite);
+    Some(Figure { file, svg: plot.to_svg(), pgfplots: plot.to_pgfplots() })
 }

@@ -1,5 +1,6 @@
 //! Figures of what runs have shown over a swept parameter: curves over many values, a map of few.
 
+use super::drawing::Figure;
 use super::map::{column_head, merged_fields};
 use super::{Curve, HistoryPlot, Map, MapField};
 use crate::verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome};
@@ -10,9 +11,6 @@ const CURVES: usize = 5;
 /// Most curves in one plot.
 const MOST_CURVES: usize = 6;
 
-/// A file name, and what the file holds.
-type Named = (String, String);
-
 /// Studies without a limit that is sought, with the names of their cases.
 fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_none()).collect()
@@ -20,11 +18,11 @@ fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
 
 /// A figure for each figure of the runs that the suite speaks of, where there is something to
 /// compare.
-pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Named> {
+pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let studies = studies(outcome);
     let Some((_, first)) = studies.first() else { return Vec::new() };
     let values = first.rows.len();
-    let shown = |figure: &RunFigure| -> Vec<Named> {
+    let shown = |figure: &RunFigure| -> Vec<Figure> {
         if values >= CURVES {
             curves(outcome, &studies, *figure)
         } else if values > 1 || studies.len() > 1 {
@@ -62,7 +60,7 @@ fn curves(
     outcome: &SuiteOutcome,
     studies: &[(&str, &StabilityStudy)],
     figure: RunFigure,
-) -> Vec<Named> {
+) -> Vec<Figure> {
     let plots = studies.len().div_ceil(MOST_CURVES);
     let in_each = studies.len().div_ceil(plots.max(1)).max(1);
     let parts = studies.chunks(in_each).enumerate();
@@ -85,12 +83,12 @@ fn curves(
     let drawn = figures.iter().enumerate().map(|(i, one)| {
         let number = if plots > 1 { format!("-{}", i + 1) } else { String::new() };
         let file = format!("{}-{}{number}.svg", outcome.suite, figure.name());
-        (file, one.to_svg_among(&figures))
+        Figure { file, svg: one.to_svg_among(&figures), pgfplots: one.to_pgfplots() }
     });
     drawn.collect()
 }
 
-fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunFigure) -> Named {
+fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunFigure) -> Figure {
     let field = |row: &StabilityRow| {
         let value = value(row, figure);
         MapField { value: Some(value), text: short(value) }
@@ -99,7 +97,7 @@ fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunF
         ((*name).to_owned(), study.rows.iter().map(field).collect())
     };
     let first = studies.first().map(|(_, study)| *study);
-    let svg = Map {
+    let map = Map {
         title: title(outcome, figure),
         x_label: first.map_or(String::new(), |study| study.swept.clone()),
         z_label: figure.head().to_owned(),
@@ -108,7 +106,7 @@ fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunF
         rows: merged_fields(studies.iter().map(row).collect()),
     };
     let file = format!("{}-{}.svg", outcome.suite, figure.name());
-    (file, svg.to_svg())
+    Figure { file, svg: map.to_svg(), pgfplots: map.to_pgfplots() }
 }
 
 #[cfg(test)]

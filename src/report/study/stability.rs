@@ -25,8 +25,11 @@ impl StudyReport for StabilityReport {
     }
 
     fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure> {
-        let map = stability::map(outcome).map(|svg| (format!("{}.svg", outcome.suite), svg));
-        let named = map.into_iter().chain(sweep::figures(outcome));
-        named.map(|(file, svg)| Figure { file, svg }).collect()
+        let limits = stability::map(outcome).map(|map| Figure {
+            file: format!("{}.svg", outcome.suite),
+            svg: map.to_svg(),
+            pgfplots: map.to_pgfplots(),
+        });
+        limits.into_iter().chain(sweep::figures(outcome)).collect()
     }
 }

@@ -88,7 +88,7 @@ fn suite(outcome: &SuiteOutcome) -> Value {
     })
 }
 
-fn case(outcome: &CaseOutcome) -> Value {
+pub(crate) fn case(outcome: &CaseOutcome) -> Value {
     let mut members = members(json!({
         "case": outcome.case,
         "subject": outcome.subject,

@@ -13,7 +13,7 @@ fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
 }
 
 /// The same as a figure.
-pub(crate) fn map(outcome: &SuiteOutcome) -> Option<String> {
+pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
     let studies = seeking(outcome);
     let (_, first) = studies.first()?;
     let sought = first.sought.as_deref().unwrap_or_default();
@@ -27,14 +27,13 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<String> {
     let row = |(name, study): &(&str, &StabilityStudy)| {
         ((*name).to_owned(), study.rows.iter().map(field).collect())
     };
-    let map = Map {
+    Some(Map {
         title: outcome.title.clone(),
         x_label: first.swept.clone(),
         z_label: format!("limit of {sought}"),
         columns: first.rows.iter().map(|row| column_head(row.value)).collect(),
         rows: merged_fields(studies.iter().map(row).collect()),
-    };
-    Some(map.to_svg())
+    })
 }
 
 /// The name of a case and its study.

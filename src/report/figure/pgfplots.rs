@@ -1,0 +1,451 @@
+//! Figures as source for the LaTeX package PGFPlots, with their data.
+//!
+//! Each document compiles on its own (class `standalone`). In a paper its `tikzpicture` can be copied,
+//! or the file can be included with the package `standalone`.
+
+use super::plot::style::{CONTEXT, EXACT, MarkerShape, NEUTRAL, look};
+use super::{ErrorMap, HistoryPlot, LogLogPlot, Map, Mark, PlotPoint, PlotSeries};
+use crate::report::latex::escaped;
+
+/// Most points of a curve: TeX is slow, and a page has no more pixels across.
+const MOST_POINTS: usize = 400;
+
+/// Place of the legend.
+const LEGEND: &str = "legend pos=outer north east, legend cell align=left";
+
+/// Decades of a logarithmic axis below which it is labelled at 1, 2 and 5 times powers of ten.
+const SHORT: f64 = 2.0;
+
+/// Panels of an error map that are next to each other.
+const PANELS: usize = 4;
+
+/// A document under construction.
+struct PgfDocument {
+    text: String,
+}
+
+impl PgfDocument {
+    fn new() -> Self {
+        let mut document = Self { text: String::new() };
+        document.line(&format!("% Written by mpm-verify {}.", env!("CARGO_PKG_VERSION")));
+        document.line("\\documentclass{standalone}");
+        document.line("\\usepackage{pgfplots}");
+        document.line("\\usepgfplotslibrary{groupplots}");
+        document.line("\\pgfplotsset{compat=1.15}");
+        document.line("\\begin{document}");
+        document.line("\\begin{tikzpicture}");
+        document
+    }
+
+    fn line(&mut self, line: &str) {
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    /// A colour `#rrggbb`, for what follows.
+    fn colour(&mut self, name: &str, colour: &str) {
+        let digits = colour.trim_start_matches('#').to_uppercase();
+        self.line(&format!("\\definecolor{{{name}}}{{HTML}}{{{digits}}}"));
+    }
+
+    /// One curve with its data.
+    fn plot(&mut self, options: &str, points: impl Iterator<Item = (f64, f64)>) {
+        self.line(&format!("\\addplot[{options}] table {{"));
+        self.line("x y");
+        for (x, y) in points {
+            self.line(&format!("{} {}", number(x), number(y)));
+        }
+        self.line("};");
+    }
+
+    /// An entry of the legend, with a line or marker of this style; it does not depend on whether the
+    /// curve has points.
+    fn legend(&mut self, style: &str, name: &str) {
+        self.line(&format!("\\addlegendimage{{{style}}}"));
+        self.line(&format!("\\addlegendentry{{{name}}}"));
+    }
+
+    fn finished(mut self, environment: &str) -> String {
+        self.line(&format!("\\end{{{environment}}}"));
+        self.line("\\end{tikzpicture}");
+        self.line("\\end{document}");
+        self.text
+    }
+}
+
+/// A number as PGFPlots reads it.
+fn number(value: f64) -> String {
+    if value.is_finite() { format!("{value:e}") } else { "nan".to_owned() }
+}
+
+/// The option for the labels of a logarithmic axis with these values, if it is short: powers of ten
+/// alone would be too few.
+fn log_ticks(axis: &str, values: impl Iterator<Item = f64> + Clone) -> String {
+    let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(0.0, f64::max));
+    if !(low > 0.0 && libm::log10(high / low) < SHORT) {
+        return String::new();
+    }
+    let exponents = libm::floor(libm::log10(low)) as i32..=libm::ceil(libm::log10(high)) as i32;
+    let ticks = exponents.flat_map(|exponent| [1, 2, 5].map(|digit| format!("{digit}e{exponent}")));
+    let labels = ticks.clone().map(|tick| {
+        let (digit, exponent) = tick.split_once('e').unwrap_or((&tick, "0"));
+        let factor = if digit == "1" { String::new() } else { format!("{digit} \\cdot ") };
+        match exponent {
+            "-2" | "-1" | "0" | "1" | "2" => {
+                format!("${}$", tick.parse::<f64>().unwrap_or(f64::NAN))
+            }
+            _ => format!("${factor}10^{{{exponent}}}$"),
+        }
+    });
+    let labels: Vec<String> = labels.collect();
+    let ticks: Vec<String> = ticks.collect();
+    format!(", {axis}tick={{{}}}, {axis}ticklabels={{{}}}", ticks.join(","), labels.join(","))
+}
+
+/// Title and labels as options of an axis.
+fn titles(title: &str, x_label: &str, y_label: &str) -> String {
+    format!(
+        "title={{{}}}, xlabel={{{}}}, ylabel={{{}}}",
+        escaped(title),
+        escaped(x_label),
+        escaped(y_label)
+    )
+}
+
+/// Outline of a marker, filled or hollow.
+fn mark(shape: MarkerShape, is_filled: bool) -> String {
+    let (mark, rotation) = match shape {
+        MarkerShape::Circle => ("*", 0),
+        MarkerShape::Square => ("square*", 0),
+        MarkerShape::Up => ("triangle*", 0),
+        MarkerShape::Diamond => ("diamond*", 0),
+        MarkerShape::Down => ("triangle*", 180),
+        MarkerShape::Pentagon => ("pentagon*", 0),
+        MarkerShape::Right => ("triangle*", 270),
+        MarkerShape::Star => ("star", 0),
+    };
+    let fill = if is_filled { "" } else { "fill=white, " };
+    format!("mark={mark}, mark options={{solid, {fill}rotate={rotation}}}")
+}
+
+/// Whether a level can be drawn on logarithmic axes.
+fn is_drawn(point: &&PlotPoint) -> bool {
+    let positive = |value: f64| value.is_finite() && value > 0.0;
+    positive(point.x) && positive(point.error) && point.mark != Mark::Failed
+}
+
+impl LogLogPlot {
+    /// The figure as a LaTeX document: a solid line with filled markers through the levels of the
+    /// asymptotic window, a thin dashed one with hollow markers through all levels, and a grey line
+    /// for each reference order.
+    pub fn to_pgfplots(&self) -> String {
+        let mut document = PgfDocument::new();
+        let titles = titles(&self.title, &self.x_label, &self.y_label);
+        let points =
+            || self.series.iter().chain(&self.others).flat_map(|one| sorted(one, |_| true));
+        let x_ticks = log_ticks("x", points().map(|point| point.0));
+        let y_ticks = log_ticks("y", points().map(|point| point.1));
+        document.line(&format!(
+            "\\begin{{loglogaxis}}[{titles}, grid=major, {LEGEND}{x_ticks}{y_ticks}]"
+        ));
+        document.colour("neutral", NEUTRAL);
+        document.colour("context", CONTEXT);
+        for series in &self.others {
+            document.plot("context, forget plot", sorted(series, |_| true).into_iter());
+        }
+        for (number, series) in self.series.iter().enumerate() {
+            let look = look(series.look);
+            let colour = format!("series{number}");
+            document.colour(&colour, look.colour);
+            let thin = format!("{colour}, dashed, thin, forget plot, {}", mark(look.shape, false));
+            document.plot(&thin, sorted(series, |_| true).into_iter());
+            let thick = format!("{colour}, thick, {}", mark(look.shape, true));
+            let in_window = |mark| matches!(mark, Mark::Window | Mark::Measured);
+            let window = sorted(series, in_window);
+            document.plot(&format!("{thick}, forget plot"), window.into_iter());
+            document.legend(&thick, &escaped(&series.name));
+        }
+        if !self.front.is_empty() {
+            let style = "context, line width=4pt, opacity=0.3";
+            document.plot(&format!("{style}, forget plot"), self.front.iter().copied());
+            document.legend(style, "Pareto front");
+        }
+        self.reference_lines(&mut document);
+        document.finished("loglogaxis")
+    }
+
+    /// Lines of the reference orders, a factor of two below the least error of the coarsest level.
+    fn reference_lines(&self, document: &mut PgfDocument) {
+        let all: Vec<(f64, f64)> =
+            self.series.iter().flat_map(|series| sorted(series, |_| true)).collect();
+        let xs = || all.iter().map(|point| point.0);
+        let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(0.0, f64::max));
+        let at_high = all.iter().filter(|point| point.0 == high).map(|point| point.1);
+        let top = 0.5 * at_high.fold(f64::INFINITY, f64::min);
+        if !(low < high && top.is_finite()) {
+            return;
+        }
+        for order in self.reference_orders.iter().filter(|order| **order > 0.0) {
+            let bottom = top * libm::pow(low / high, *order);
+            let style = "neutral, dotted, thick";
+            let ends = [(low, bottom), (high, top)];
+            document.plot(&format!("{style}, forget plot"), ends.into_iter());
+            document.legend(style, &format!("order ${}$", rounded(*order)));
+        }
+    }
+}
+
+/// An order with as many decimals as it needs, at most two.
+fn rounded(order: f64) -> String {
+    let text = format!("{order:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// The levels with a mark that `is_chosen`, by their spacing or work.
+fn sorted(series: &PlotSeries, is_chosen: impl Fn(Mark) -> bool) -> Vec<(f64, f64)> {
+    let drawn = series.points.iter().filter(is_drawn).filter(|point| is_chosen(point.mark));
+    let mut points: Vec<(f64, f64)> = drawn.map(|point| (point.x, point.error)).collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    points
+}
+
+impl HistoryPlot {
+    /// The figure as a LaTeX document. Of a curve with more than 400 points evenly chosen ones are
+    /// drawn.
+    pub fn to_pgfplots(&self) -> String {
+        let mut document = PgfDocument::new();
+        let titles = titles(&self.title, &self.x_label, &self.y_label);
+        document.line(&format!(
+            "\\begin{{axis}}[{titles}, grid=major, unbounded coords=jump, {LEGEND}]"
+        ));
+        document.colour("exact", EXACT);
+        for (number, curve) in self.curves.iter().enumerate() {
+            let look = look(curve.look);
+            let colour = format!("series{number}");
+            document.colour(&colour, look.colour);
+            let marks = if curve.markers { mark(look.shape, false) } else { "no marks".to_owned() };
+            let style = if curve.exact {
+                "exact, line width=3pt, no marks".to_owned()
+            } else {
+                format!("{colour}, thick, {marks}")
+            };
+            let stride = curve.points.len().div_ceil(MOST_POINTS).max(1);
+            let last = curve.points.len().saturating_sub(1);
+            let chosen = curve.points.iter().enumerate();
+            let chosen = chosen.filter(|(k, _)| k % stride == 0 || *k == last);
+            document.plot(&format!("{style}, forget plot"), chosen.map(|(_, point)| *point));
+            if !curve.name.is_empty() {
+                document.legend(&style, &escaped(&curve.name));
+            }
+        }
+        document.finished("axis")
+    }
+}
+
+impl Map {
+    /// The figure as a LaTeX document: a field for each number, with its text.
+    pub fn to_pgfplots(&self) -> String {
+        let mut document = PgfDocument::new();
+        let titles = titles(&self.title, &self.x_label, "");
+        let list = |names: &mut dyn Iterator<Item = &str>| {
+            names.map(|name| format!("{{{}}}", escaped(name))).collect::<Vec<_>>().join(", ")
+        };
+        let columns = list(&mut self.columns.iter().map(String::as_str));
+        let rows = list(&mut self.rows.iter().map(|(name, _)| name.as_str()));
+        let (across, down) = (self.columns.len(), self.rows.len());
+        let (width, height) = (2.0 + 1.6 * across as f64, 2.0 + 0.6 * down as f64);
+        document.line(&format!(
+            "\\begin{{axis}}[{titles}, width={width:.1}cm, height={height:.1}cm, scale only axis, \
+             enlargelimits=false, y dir=reverse, colormap/viridis, colorbar, \
+             colorbar style={{ylabel={{{}}}}}, \
+             xtick={{0,...,{}}}, xticklabels={{{columns}}}, ytick={{0,...,{}}}, yticklabels={{{rows}}}, \
+             xmin=-0.5, xmax={}.5, ymin=-0.5, ymax={}.5]",
+            escaped(&self.z_label),
+            across.saturating_sub(1),
+            down.saturating_sub(1),
+            across.saturating_sub(1),
+            down.saturating_sub(1),
+        ));
+        document.line(&format!(
+            "\\addplot[matrix plot*, mesh/cols={across}, point meta=explicit] table[meta=z] {{"
+        ));
+        document.line("x y z");
+        for (y, (_, fields)) in self.rows.iter().enumerate() {
+            for (x, field) in fields.iter().enumerate() {
+                document.line(&format!("{x} {y} {}", number(field.value.unwrap_or(f64::NAN))));
+            }
+        }
+        document.line("};");
+        for (y, (_, fields)) in self.rows.iter().enumerate() {
+            for (x, field) in fields.iter().enumerate() {
+                let text = escaped(&field.text);
+                document.line(&format!(
+                    "\\node[font=\\scriptsize, fill=white, fill opacity=0.7, text opacity=1, inner sep=1pt] at (axis cs:{x},{y}) {{{text}}};"
+                ));
+            }
+        }
+        document.finished("axis")
+    }
+}
+
+impl ErrorMap {
+    /// The figure as a LaTeX document. Bodies in the plane have a panel for each case, with a square
+    /// for each part, coloured by the decimal logarithm of its error; bars have one plot of the
+    /// errors over the position, with a curve for each case.
+    pub fn to_pgfplots(&self) -> String {
+        if self.panels.iter().any(|(_, field)| field.is_plane) {
+            self.panels_to_pgfplots()
+        } else {
+            self.curves_to_pgfplots()
+        }
+    }
+
+    fn curves_to_pgfplots(&self) -> String {
+        let mut document = PgfDocument::new();
+        let titles = titles(&self.title, "position (m)", &self.label);
+        document.line(&format!(
+            "\\begin{{semilogyaxis}}[{titles}, grid=major, unbounded coords=jump, {LEGEND}]"
+        ));
+        for (number, (name, field)) in self.panels.iter().enumerate() {
+            let look = look(number);
+            let colour = format!("series{number}");
+            document.colour(&colour, look.colour);
+            let mut points: Vec<(f64, f64)> =
+                field.parts.iter().map(|part| (part[0], part[2])).collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let positive = |error: f64| if error > 0.0 { error } else { f64::NAN };
+            let points = points.into_iter().map(|(x, error)| (x, positive(error)));
+            let style = format!("{colour}, thick, no marks");
+            document.plot(&format!("{style}, forget plot"), points);
+            document.legend(&style, &escaped(name));
+        }
+        document.finished("semilogyaxis")
+    }
+
+    fn panels_to_pgfplots(&self) -> String {
+        let mut document = PgfDocument::new();
+        let errors = || self.panels.iter().flat_map(|(_, field)| &field.parts).map(|part| part[2]);
+        let logs = || errors().filter(|e| e.is_finite() && *e > 0.0).map(libm::log10);
+        let (low, high) =
+            (logs().fold(f64::INFINITY, f64::min), logs().fold(f64::NEG_INFINITY, f64::max));
+        let range = if low < high {
+            format!(", point meta min={low:.4}, point meta max={high:.4}")
+        } else {
+            String::new()
+        };
+        let columns = self.panels.len().clamp(1, PANELS);
+        let rows = self.panels.len().div_ceil(columns);
+        document.line(&format!(
+            "\\begin{{groupplot}}[group style={{group size={columns} by {rows}, \
+             horizontal sep=2cm, vertical sep=1.6cm}}, axis equal image, \
+             max space between ticks=60, try min ticks=2, colormap/viridis{range}, \
+             title style={{font=\\small, align=center, text width=3cm}}]"
+        ));
+        let with_bar = columns - 1;
+        for (index, (name, field)) in self.panels.iter().enumerate() {
+            let bar = if index == with_bar {
+                let label = escaped(&self.label);
+                format!(
+                    ", colorbar, colorbar style={{height=4cm, \
+                     ylabel={{$\\log_{{10}}$ of {label}}}, ylabel style={{font=\\small}}}}"
+                )
+            } else {
+                String::new()
+            };
+            document.line(&format!("\\nextgroupplot[title={{{}}}{bar}]", escaped(name)));
+            document.line(
+                "\\addplot[scatter, only marks, mark=square*, mark size=1.2pt, \
+                 scatter src=explicit] table[meta=z] {",
+            );
+            document.line("x y z");
+            for part in &field.parts {
+                let log = if part[2] > 0.0 { libm::log10(part[2]) } else { f64::NAN };
+                document.line(&[part[0], part[1], log].map(number).join(" "));
+            }
+            document.line("};");
+        }
+        document.finished("groupplot")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::figure::Curve;
+
+    #[test]
+    fn a_log_log_plot_has_its_data_and_a_legend_in_order() {
+        let point = |x: f64, mark| PlotPoint { x, error: x * x, mark };
+        let points = vec![point(0.5, Mark::Window), point(1.0, Mark::OutsideWindow)];
+        let plot = LogLogPlot {
+            title: "50 % of rho_0".to_owned(),
+            x_label: "h".to_owned(),
+            y_label: "error".to_owned(),
+            series: vec![PlotSeries { name: "a_b".to_owned(), look: 0, points }],
+            reference_orders: vec![2.0],
+            ..LogLogPlot::default()
+        };
+        insta::assert_snapshot!(plot.to_pgfplots(), @r#"
+    % Written by mpm-verify 0.1.0.
+    \documentclass{standalone}
+    \usepackage{pgfplots}
+    \usepgfplotslibrary{groupplots}
+    \pgfplotsset{compat=1.15}
+    \begin{document}
+    \begin{tikzpicture}
+    \begin{loglogaxis}[title={50 \% of rho\_0}, xlabel={h}, ylabel={error}, grid=major, legend pos=outer north east, legend cell align=left, xtick={1e-1,2e-1,5e-1,1e0,2e0,5e0}, xticklabels={$0.1$,$0.2$,$0.5$,$1$,$2$,$5$}, ytick={1e-1,2e-1,5e-1,1e0,2e0,5e0}, yticklabels={$0.1$,$0.2$,$0.5$,$1$,$2$,$5$}]
+    \definecolor{neutral}{HTML}{4D4D4D}
+    \definecolor{context}{HTML}{8E8E8E}
+    \definecolor{series0}{HTML}{0072B2}
+    \addplot[series0, dashed, thin, forget plot, mark=*, mark options={solid, fill=white, rotate=0}] table {
+    x y
+    5e-1 2.5e-1
+    1e0 1e0
+    };
+    \addplot[series0, thick, mark=*, mark options={solid, rotate=0}, forget plot] table {
+    x y
+    5e-1 2.5e-1
+    };
+    \addlegendimage{series0, thick, mark=*, mark options={solid, rotate=0}}
+    \addlegendentry{a\_b}
+    \addplot[neutral, dotted, thick, forget plot] table {
+    x y
+    5e-1 1.25e-1
+    1e0 5e-1
+    };
+    \addlegendimage{neutral, dotted, thick}
+    \addlegendentry{order $2$}
+    \end{loglogaxis}
+    \end{tikzpicture}
+    \end{document}
+    "#);
+    }
+
+    #[test]
+    fn a_curve_with_many_points_is_thinned_and_keeps_its_end() {
+        let points: Vec<(f64, f64)> = (0..=1000).map(|k| (f64::from(k), f64::NAN)).collect();
+        let curve = Curve { name: String::new(), look: 0, points, exact: false, markers: false };
+        let (title, label) = (String::new(), String::new());
+        let plot =
+            HistoryPlot { title, x_label: label.clone(), y_label: label, curves: vec![curve] };
+        let text = plot.to_pgfplots();
+        assert_eq!(text.matches(" nan\n").count(), 335, "{text}");
+        assert!(text.contains("\n1e3 nan\n") && !text.contains("legendentry"), "{text}");
+    }
+
+    #[test]
+    fn bars_have_curves_and_bodies_in_the_plane_have_panels() {
+        let field = |is_plane| crate::verify::ErrorField {
+            is_plane,
+            size: 0.5,
+            parts: vec![[1.0, 0.0, 1e-3], [0.0, 0.0, 0.0]],
+        };
+        let map = |is_plane| ErrorMap {
+            title: "A body".to_owned(),
+            label: "error (m)".to_owned(),
+            panels: vec![("one".to_owned(), field(is_plane))],
+        };
+        assert!(map(false).to_pgfplots().contains("x y\n0e0 nan\n1e0 1e-3\n"));
+        assert!(map(true).to_pgfplots().contains("x y z\n1e0 0e0 -3e0\n0e0 0e0 nan\n"));
+    }
+}

@@ -1,0 +1,49 @@
+//! The report as JUnit XML, for continuous integration services.
+
+use crate::report::suite::text;
+use crate::verify::{CaseOutcome, SuiteOutcome};
+use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+use std::collections::BTreeSet;
+
+/// One test suite for each suite and one test case for each case.
+///
+/// A case that is not applicable, excepted or not gated is skipped with its reason, unless its
+/// suite is one of `required`: then it fails, as under `run --gate`. A failure has the report of the
+/// case as its text. There are no times, so that equal results have equal documents.
+///
+/// # Panics
+/// Never: memory is written to.
+pub fn junit(outcomes: &[SuiteOutcome], required: &BTreeSet<String>) -> String {
+    let mut report = Report::new("mpm-verify");
+    for outcome in outcomes {
+        let mut suite = TestSuite::new(outcome.suite.as_str());
+        let is_required = required.contains(&outcome.suite);
+        for case in &outcome.cases {
+            let mut test = TestCase::new(case.case.as_str(), status(case, is_required));
+            test.set_classname(outcome.suite.as_str());
+            suite.add_test_case(test);
+        }
+        report.add_test_suite(suite);
+    }
+    report.to_string().expect("memory is written to")
+}
+
+fn status(case: &CaseOutcome, is_required: bool) -> TestCaseStatus {
+    let failure = |message: &str| {
+        let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+        status
+            .set_message(message)
+            .set_type(case.verdict.as_str())
+            .set_description(text::case(case));
+        status
+    };
+    if !case.is_tested() {
+        if is_required {
+            return failure(&case.reason);
+        }
+        let mut status = TestCaseStatus::skipped();
+        status.set_message(case.reason.as_str());
+        return status;
+    }
+    if case.passed() { TestCaseStatus::success() } else { failure(&case.unmet.join("; ")) }
+}
