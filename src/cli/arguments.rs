@@ -21,6 +21,13 @@ pub(super) struct SolverArgs {
     /// speaks the protocol of docs/protocol.md
     #[arg(long, value_name = "COMMAND")]
     pub(super) solver: Option<String>,
+    #[command(flatten)]
+    pub(super) limits: SolverLimitArgs,
+}
+
+/// Limits of each process of a solver.
+#[derive(Debug, Args)]
+pub(super) struct SolverLimitArgs {
     /// Longest time without an answer of the solver
     #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "60s")]
     pub(super) solver_timeout: f64,

@@ -1,6 +1,6 @@
 //! Suites under a solver of another program.
 
-use super::arguments::SolverArgs;
+use super::arguments::{SolverArgs, SolverLimitArgs};
 use super::output;
 use super::status::CommandError;
 use mpm_verify::external::{ProgramLimits, SolverFactory, SolverProgram};
@@ -14,10 +14,20 @@ use std::time::Duration;
 /// # Errors
 /// The solver cannot be used.
 pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, CommandError> {
-    let Some(command) = &args.solver else { return Ok(None) };
-    let silence = Duration::try_from_secs_f64(args.solver_timeout)
+    args.solver.as_deref().map(|command| greet(command, &args.limits)).transpose()
+}
+
+/// Starts the solver of a command and asks for its capabilities.
+///
+/// # Errors
+/// The solver cannot be used.
+pub(super) fn greet(
+    command: &str,
+    limits: &SolverLimitArgs,
+) -> Result<SolverProgram, CommandError> {
+    let silence = Duration::try_from_secs_f64(limits.solver_timeout)
         .map_err(|error| CommandError::about("--solver-timeout", error))?;
-    let memory = args.solver_memory.map(|mb| mb.saturating_mul(1_000_000));
+    let memory = limits.solver_memory.map(|mb| mb.saturating_mul(1_000_000));
     let limits = ProgramLimits { silence, memory };
     let solver = SolverProgram::greet(command, limits);
     let solver = solver.map_err(|error| {
@@ -26,7 +36,7 @@ pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, Comman
     for warning in solver.warnings() {
         output::complain(&format!("warning: capabilities of the solver: {warning}"));
     }
-    Ok(Some(solver))
+    Ok(solver)
 }
 
 /// The suite with the solver, if there is one, in place of its methods; `None` if the suite is left

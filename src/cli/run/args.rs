@@ -1,7 +1,8 @@
 //! Arguments of `run` and `merge`.
 
-use crate::cli::arguments::{FormatArgs, SolverArgs, Targets, count};
-use clap::Args;
+use super::solvers::SolverCommand;
+use crate::cli::arguments::{SolverLimitArgs, Targets, count};
+use clap::{Args, ValueEnum};
 use mpm_verify::study::Shard;
 use std::path::PathBuf;
 
@@ -34,17 +35,22 @@ pub(in crate::cli) struct RunArgs {
 pub(in crate::cli) struct ReportArgs {
     #[command(flatten)]
     pub(super) targets: Targets,
-    #[command(flatten)]
-    pub(super) format: FormatArgs,
+    /// Format of the output
+    #[arg(long, value_enum, default_value_t = RunFormat::Text)]
+    pub(super) format: RunFormat,
     #[command(flatten)]
     pub(super) print: PrintArgs,
     /// Run the finer levels too that suites list under `full`: takes hours where the others take
     /// seconds
     #[arg(long)]
     pub(super) full: bool,
-    /// Write reports, JSON and figures into this folder
+    /// Write reports, JSON, CSV, LaTeX tables and figures (SVG, and source for PGFPlots) into this
+    /// folder
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Write the results as JUnit XML into this file, one test for each case
+    #[arg(long, value_name = "FILE")]
+    pub(super) junit: Option<PathBuf>,
     /// Write one HTML page with verdicts, figures, reports and suites into this file; it needs no
     /// network
     #[arg(long, value_name = "FILE")]
@@ -52,6 +58,19 @@ pub(in crate::cli) struct ReportArgs {
     /// Threads to use; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub(super) jobs: Option<usize>,
+}
+
+/// What a run prints.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum RunFormat {
+    /// Text for a reader
+    Text,
+    /// One JSON document
+    Json,
+    /// Comma-separated values, a row for each level
+    Csv,
+    /// LaTeX tables of errors and orders, for `booktabs`
+    Latex,
 }
 
 /// Arguments for the extent of the printed text.
@@ -80,8 +99,16 @@ pub(in crate::cli) struct MergeArgs {
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct JudgedSolverArgs {
+    /// Run the suites with this program in place of their methods: a command with its arguments
+    /// that speaks the protocol of docs/protocol.md. With a name in front (`mine='python mpm.py'`)
+    /// it can be given repeatedly: the solvers are then in one report
+    #[arg(long, value_name = "[NAME=]COMMAND")]
+    pub(super) solver: Vec<SolverCommand>,
+    /// Run the methods of the suites too, in the same report
+    #[arg(long, requires = "solver")]
+    pub(super) with_methods: bool,
     #[command(flatten)]
-    pub(super) program: SolverArgs,
+    pub(super) limits: SolverLimitArgs,
     /// Require of each case of the solver of `--solver` the order that theory gives it, or errors
     /// within the bounds of the suite; exit status 1 unless every case passes or is excepted
     #[arg(long, requires = "solver")]

@@ -9,6 +9,7 @@ use mpm_verify::study::{Runner, SeriesFile};
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::{CaseOutcome, SuiteOutcome};
+use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -18,15 +19,20 @@ pub(super) fn prepare_out(folder: &Path) -> Result<(), CommandError> {
     fs::create_dir_all(folder).map_err(|error| unwritable("--out", folder, &error))
 }
 
-/// Writes `NAME.txt` and the figures of each suite, and `report.json` for all.
+/// Writes `NAME.txt`, `NAME-table.tex` and the figures of each suite, and `report.json` and `report.csv` for
+/// all.
 pub(super) fn write_out(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), CommandError> {
     let save = |file: &str, text: &str| -> io::Result<()> { fs::write(folder.join(file), text) };
     let every_file = || -> io::Result<()> {
         save("report.json", &report::json(outcomes))?;
+        save("report.csv", &report::csv(outcomes))?;
         for outcome in outcomes {
             save(&format!("{}.txt", outcome.suite), &report::text(outcome))?;
+            let tables = report::latex(std::slice::from_ref(outcome));
+            save(&format!("{}-table.tex", outcome.suite), &tables)?;
             for figure in report::svg(outcome) {
                 save(&figure.file, &figure.svg)?;
+                save(&figure.pgfplots_file(), &figure.pgfplots)?;
             }
         }
         Ok(())
@@ -34,14 +40,24 @@ pub(super) fn write_out(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), 
     every_file().map_err(|error| unwritable("--out", folder, &error))
 }
 
-/// Makes the folder of the page, before hours are spent on what cannot be written.
-pub(super) fn prepare_page(file: &Path) -> Result<(), CommandError> {
+/// Makes the folder of a file that `option` names, before hours are spent on what cannot be written.
+pub(super) fn prepare_file(option: &str, file: &Path) -> Result<(), CommandError> {
     if file.is_dir() {
-        return Err(unwritable("--html", file, &"this is a folder"));
+        return Err(unwritable(option, file, &"this is a folder"));
     }
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let made = folder.map_or(Ok(()), fs::create_dir_all);
-    made.map_err(|error| unwritable("--html", file, &error))
+    made.map_err(|error| unwritable(option, file, &error))
+}
+
+/// Writes the results as JUnit XML; suites of `required` fail where they are not tested.
+pub(super) fn write_junit(
+    file: &Path,
+    outcomes: &[SuiteOutcome],
+    required: &BTreeSet<String>,
+) -> Result<(), CommandError> {
+    let text = report::junit(outcomes, required);
+    fs::write(file, text).map_err(|error| unwritable("--junit", file, &error))
 }
 
 /// Writes the page; suites and outcomes are in the order of their sources, without those that were

@@ -29,19 +29,24 @@ pub(super) fn prepare(
     suites: Vec<Suite>,
     program: &SolverProgram,
     args: &JudgedSolverArgs,
-    named: impl FnOnce(&[Suite]) -> BTreeSet<String>,
+    named: &BTreeSet<String>,
 ) -> Result<(Vec<Suite>, Option<SolverGate>), Diagnostic> {
     let config = args.solver_config.as_deref().map(|file| SolverConfig::read(file, &suites));
     let config = config.transpose()?.unwrap_or_default();
-    let named = if args.gate { named(&suites) } else { BTreeSet::new() };
     let terms = |suite: &Suite| args.gate.then(|| config.terms(suite));
     let (judged, left_out) = solver::suites_of_solver(suites, program, terms);
     let allows_not_applicable = args.allow_not_applicable;
-    let gate = args.gate.then_some(SolverGate { named, allows_not_applicable, left_out });
+    let gate =
+        args.gate.then(|| SolverGate { named: named.clone(), allows_not_applicable, left_out });
     Ok((judged, gate))
 }
 
 impl SolverGate {
+    /// Suites of which every case must be tested.
+    pub(super) fn required(&self) -> BTreeSet<String> {
+        if self.allows_not_applicable { BTreeSet::new() } else { self.named.clone() }
+    }
+
     /// Prints the exceptions, and what keeps the solver from passing besides cases that fail;
     /// returns whether nothing does.
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {

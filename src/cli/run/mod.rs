@@ -5,6 +5,7 @@ mod files;
 mod gate;
 mod printing;
 mod progress;
+mod solvers;
 
 use super::status::{CommandError, Status};
 use super::{output, select, solver};
@@ -12,13 +13,14 @@ use args::ReportArgs;
 pub(super) use args::{MergeArgs, RunArgs};
 use files::Series;
 use gate::SolverGate;
-use mpm_verify::external::SolverProgram;
 use mpm_verify::study::{ResultCache, Runner, StepWarning};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::SuiteOutcome;
 use printing::Printing;
 use progress::RunProgress;
+use solvers::{JudgedSolver, SuitePart, SuiteRuns};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Runs suites and judges them.
@@ -32,60 +34,61 @@ pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
     let parts = ResultCache::of_parts(&args.from)
         .map_err(|(folder, error)| CommandError::option("--from", folder.display(), error))?;
-    report(&args.report, |suites| Ok((suites, Judging::of_kept(parts))))
+    report(&args.report, |suites| Ok((SuiteRuns::of_methods(suites), Judging::of_kept(parts))))
 }
 
-/// The suites that `args` choose, with the cache and the solver of the run.
-fn chosen(args: &RunArgs, mut suites: Vec<Suite>) -> Result<(Vec<Suite>, Judging), CommandError> {
+/// The suites that `args` choose, with the cache and the solvers of the run.
+fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError> {
     let kept = args.resume.as_deref().map(open).transpose()?;
     let all = args.case.is_some();
     let series = args.vtu.as_deref().map(|folder| Series::prepare(folder, all)).transpose()?;
-    let solver = solver::greeted(&args.judged.program)?;
-    let mut gate = None;
-    if let Some(solver) = &solver {
-        let named = |suites: &[Suite]| select::named_singly(&args.report.targets.targets, suites);
-        (suites, gate) = gate::prepare(suites, solver, &args.judged, named)?;
+    let mut solvers = solvers::greeted(&args.judged)?;
+    let mut runs = if solvers.is_empty() {
+        SuiteRuns::of_methods(suites)
+    } else {
+        let named = select::named_singly(&args.report.targets.targets, &suites);
+        SuiteRuns::of_solvers(suites, &mut solvers, &args.judged, &named)?
+    };
+    if let Some((name, suite)) = runs.iter().find_map(|runs| Some((runs.twice()?, runs.suite()))) {
+        let reason = format!("a case of the suite `{}` has this name", suite.name);
+        return Err(CommandError::option("--solver", name, reason));
     }
     if let Some(text) = &args.case {
-        suites = cases_with(text, &suites);
-        if suites.is_empty() {
+        runs = runs.into_iter().filter_map(|runs| runs.only(|case| case.contains(text))).collect();
+        if runs.is_empty() {
             return Err(CommandError::option("--case", text, "no case has this in its name"));
         }
     }
     if let Some(shard) = args.shard {
-        suites = shard.of(&suites, extent(&args.report));
-        if suites.is_empty() {
+        if args.judged.with_methods || solvers.len() > 1 {
+            return Err(CommandError::about("--shard", "parts have one solver, or methods only"));
+        }
+        runs = SuiteRuns::shard(runs, shard, extent(&args.report));
+        if runs.is_empty() {
             output::complain("note: no case is left for this part");
         }
     }
     let at_interrupt = Some(progress::interrupt_note(args.resume.is_some()));
-    Ok((suites, Judging { kept, solver, gate, series, at_interrupt }))
-}
-
-/// The cases whose names contain `text`; suites without one are left out.
-fn cases_with(text: &str, suites: &[Suite]) -> Vec<Suite> {
-    let has = |suite: &&Suite| suite.case_names().iter().any(|name| name.contains(text));
-    let only = |suite: &Suite| {
-        let names = suite.case_names();
-        suite.only(&|case| names[case].contains(text))
-    };
-    suites.iter().filter(has).map(only).collect()
+    Ok((runs, Judging { kept, solvers, series, at_interrupt }))
 }
 
 /// Runs suites one after the other, each in parallel; whatever has been finished is printed, also
 /// if something later cannot be used.
 fn report(
     args: &ReportArgs,
-    choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<Suite>, Judging), CommandError>,
+    choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError>,
 ) -> Result<Status, CommandError> {
     args.out.as_deref().map_or(Ok(()), files::prepare_out)?;
-    args.html.as_deref().map_or(Ok(()), files::prepare_page)?;
+    for (option, file) in [("--html", &args.html), ("--junit", &args.junit)] {
+        file.as_deref().map_or(Ok(()), |file| files::prepare_file(option, file))?;
+    }
     let (suites, refused): (Vec<_>, Vec<_>) =
         select::with_sources(&args.targets.targets).into_iter().partition(Result::is_ok);
     let (sources, suites): (Vec<Source>, Vec<Suite>) =
         suites.into_iter().filter_map(Result::ok).unzip();
     let names: Vec<String> = suites.iter().map(|suite| suite.name.clone()).collect();
-    let (suites, judging) = choose(suites)?;
+    let (runs, judging) = choose(suites)?;
+    let suites: Vec<Suite> = runs.iter().map(|runs| runs.suite().clone()).collect();
     // Suites of which no case is chosen are left out, and the others stay in their order.
     let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);
     let sources = names.into_iter().zip(sources).filter(is_chosen);
@@ -101,43 +104,66 @@ fn report(
         }
     }
     let printing = Printing::of(args, suites.len());
-    let bar = RunProgress::over(&suites, extent(args), args.print.quiet);
+    let parts = runs.iter().flat_map(SuiteRuns::parts).map(|part| &part.suite);
+    let bar = RunProgress::over(parts, extent(args), args.print.quiet);
     if let Some(note) = &judging.at_interrupt {
         bar.note_at_interrupt(note.clone());
     }
     let mut shown = Ok(());
-    let run = |suite| {
-        let outcome = one(suite, args, &judging, &bar, &mut shown);
-        bar.suspend(|| printing.of_suite(&outcome));
-        outcome
-    };
-    let outcomes: Vec<SuiteOutcome> = suites.iter().map(run).collect();
+    // Outcomes of each solver, for its gate.
+    let mut of_solvers: Vec<Vec<SuiteOutcome>> = vec![Vec::new(); judging.solvers.len()];
+    let mut outcomes: Vec<SuiteOutcome> = Vec::new();
+    for suite in &runs {
+        let mut joined: Option<SuiteOutcome> = None;
+        for part in suite.parts() {
+            let outcome = one(part, args, &judging, &bar, &mut shown);
+            if let Some(number) = part.solver {
+                of_solvers[number].push(outcome.clone());
+            }
+            match &mut joined {
+                None => joined = Some(outcome),
+                Some(joined) => joined.cases.extend(outcome.cases),
+            }
+        }
+        if let Some(outcome) = joined {
+            bar.suspend(|| printing.of_suite(&outcome));
+            outcomes.push(outcome);
+        }
+    }
     bar.clear();
     printing.of_all(args, &sources, &outcomes);
     let written = args.out.as_deref().map_or(Ok(()), |folder| files::write_out(folder, &outcomes));
     let page = |file| files::write_page(file, &sources, &suites, &outcomes, refused.len());
-    let written = written.and(args.html.as_deref().map_or(Ok(()), page)).and(shown);
+    let junit = |file| files::write_junit(file, &outcomes, &judging.required());
+    let written = written.and(args.html.as_deref().map_or(Ok(()), page));
+    let written = written.and(args.junit.as_deref().map_or(Ok(()), junit)).and(shown);
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
         output::diagnose(diagnostic);
     }
     if let Err(error) = &written {
         output::complain(&error.to_string());
     }
-    let Judging { kept, solver, gate, .. } = &judging;
-    let unkept = kept.as_ref().and_then(ResultCache::diagnostic);
+    let unkept = judging.kept.as_ref().and_then(ResultCache::diagnostic);
     if let Some(diagnostic) = &unkept {
         output::complain(&format!("error: --resume {diagnostic}"));
     }
     if !refused.is_empty() || written.is_err() || unkept.is_some() {
         return Ok(Status::BadInput);
     }
-    if solver.is_some() && !solver::is_applicable(&outcomes) {
-        output::complain("error: no case is applicable to the solver");
-        return Ok(Status::Failed);
+    let mut passed = outcomes.iter().all(SuiteOutcome::passed);
+    let any = of_solvers.iter().any(|outcomes| !outcomes.is_empty());
+    for (solver, outcomes) in judging.solvers.iter().zip(&of_solvers) {
+        // `--case` may have chosen cases of other solvers only.
+        if outcomes.is_empty() && any {
+            continue;
+        }
+        if !solver::is_applicable(outcomes) {
+            output::complain("error: no case is applicable to the solver");
+            return Ok(Status::Failed);
+        }
+        // The gate prints its exceptions in any case.
+        passed &= solver.gate.as_ref().is_none_or(|gate| gate.passes(outcomes));
     }
-    // The gate prints its exceptions in any case.
-    let passes_gate = gate.as_ref().is_none_or(|gate| gate.passes(&outcomes));
-    let passed = passes_gate && outcomes.iter().all(SuiteOutcome::passed);
     Ok(if passed { Status::Passed } else { Status::Failed })
 }
 
@@ -156,11 +182,10 @@ fn extent(args: &ReportArgs) -> Extent {
     if args.full { Extent::Full } else { Extent::Usual }
 }
 
-/// The cache and the solver of a run.
+/// The cache and the solvers of a run.
 struct Judging {
     kept: Option<ResultCache>,
-    solver: Option<SolverProgram>,
-    gate: Option<SolverGate>,
+    solvers: Vec<JudgedSolver>,
     /// Cases to be shown as files for ParaView.
     series: Option<Series>,
     /// Note to who ends it by Ctrl-C.
@@ -170,23 +195,29 @@ struct Judging {
 impl Judging {
     /// Results that are there.
     fn of_kept(kept: ResultCache) -> Self {
-        Self { kept: Some(kept), solver: None, gate: None, series: None, at_interrupt: None }
+        Self { kept: Some(kept), solvers: Vec::new(), series: None, at_interrupt: None }
+    }
+
+    /// Suites of which the gate requires every case to be tested.
+    fn required(&self) -> BTreeSet<String> {
+        let gates = self.solvers.iter().filter_map(|solver| solver.gate.as_ref());
+        gates.flat_map(SolverGate::required).collect()
     }
 }
 
 /// Runs a suite; `shown` is the first failure to write files that show cases.
 fn one(
-    suite: &Suite,
+    part: &SuitePart,
     args: &ReportArgs,
     judging: &Judging,
     bar: &RunProgress,
     shown: &mut Result<(), CommandError>,
 ) -> SuiteOutcome {
+    let suite = &part.suite;
     bar.start(suite, extent(args));
-    let (kept, solver) = (judging.kept.as_ref(), judging.solver.as_ref());
-    let runner = Runner::over(suite, extent(args)).keeping(kept);
-    let runner = match solver {
-        Some(solver) => runner.judging(solver),
+    let runner = Runner::over(suite, extent(args)).keeping(judging.kept.as_ref());
+    let runner = match part.solver {
+        Some(number) => runner.judging(&judging.solvers[number].program),
         None => runner,
     };
     let warn = |warning: &StepWarning| {
@@ -205,7 +236,7 @@ fn one(
     if let (Some(series), Ok(())) = (&judging.series, &shown) {
         *shown = series.write(&runner, &outcome, bar);
     }
-    if suite.explores() && solver.is_none() && !args.print.quiet {
+    if suite.explores() && part.solver.is_none() && !args.print.quiet {
         let name = &suite.name;
         let note = "expects nothing, and is no gate; `mpm-verify propose` writes expectations";
         bar.suspend(|| output::complain(&format!("note: {name} {note}")));

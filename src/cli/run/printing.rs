@@ -1,7 +1,6 @@
 //! Printed text of a run, and when it is printed.
 
-use super::args::ReportArgs;
-use crate::cli::arguments::Format;
+use super::args::{ReportArgs, RunFormat};
 use crate::cli::output;
 use mpm_verify::report;
 use mpm_verify::suite::yaml::Source;
@@ -16,6 +15,10 @@ const FEW: usize = 5;
 pub(super) enum Printing {
     /// One JSON document.
     Json,
+    /// One table of comma-separated values.
+    Csv,
+    /// LaTeX tables.
+    Latex,
     /// Every report, then one line for each case.
     Reports,
     /// One line for each case.
@@ -30,12 +33,14 @@ impl Printing {
     /// The extent that the options ask for, of so many suites.
     pub(super) fn of(args: &ReportArgs, suites: usize) -> Self {
         let few_are_named = !args.targets.targets.is_empty() && suites <= FEW;
-        match args.format.format {
-            Format::Json => Self::Json,
-            Format::Text if args.print.quiet => Self::Unexpected,
-            Format::Text if args.print.brief => Self::Verdicts,
-            Format::Text if args.print.reports || few_are_named => Self::Reports,
-            Format::Text => Self::Overview,
+        match args.format {
+            RunFormat::Json => Self::Json,
+            RunFormat::Csv => Self::Csv,
+            RunFormat::Latex => Self::Latex,
+            RunFormat::Text if args.print.quiet => Self::Unexpected,
+            RunFormat::Text if args.print.brief => Self::Verdicts,
+            RunFormat::Text if args.print.reports || few_are_named => Self::Reports,
+            RunFormat::Text => Self::Overview,
         }
     }
 
@@ -50,6 +55,8 @@ impl Printing {
     pub(super) fn of_all(self, args: &ReportArgs, sources: &[Source], outcomes: &[SuiteOutcome]) {
         match self {
             Self::Json => output::print(&report::json(outcomes)),
+            Self::Csv => output::print(&report::csv(outcomes)),
+            Self::Latex => output::print(&report::latex(outcomes)),
             _ if outcomes.is_empty() => {}
             Self::Reports | Self::Verdicts => output::print(&report::summary(outcomes)),
             Self::Overview => {

@@ -33,15 +33,19 @@ struct ProgressState {
 
 impl RunProgress {
     /// A bar for all levels of `suites`, hidden if it is to be quiet.
-    pub(super) fn over(suites: &[Suite], extent: Extent, quiet: bool) -> Self {
-        let levels = suites.iter().map(|suite| Runner::over(suite, extent).units()).sum();
+    pub(super) fn over<'a>(
+        suites: impl Iterator<Item = &'a Suite> + Clone,
+        extent: Extent,
+        quiet: bool,
+    ) -> Self {
+        let levels = suites.clone().map(|suite| Runner::over(suite, extent).units()).sum();
         let target =
             if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(levels), target);
         if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} levels  {msg}") {
             bar.set_style(style);
         }
-        let all = suites.iter().flat_map(|suite| unit_seconds(suite, extent)).sum();
+        let all = suites.flat_map(|suite| unit_seconds(suite, extent)).sum();
         let (suite, units) = (String::new(), Vec::new());
         let state = ProgressState { suite, units, done: 0.0, all, start: Instant::now() };
         Self { bar, state: Mutex::new(state) }

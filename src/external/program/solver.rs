@@ -32,6 +32,8 @@ pub struct SolverProgram {
     limits: ProgramLimits,
     hello: Hello,
     identity: u64,
+    /// Name of its cases in place of that in `hello`.
+    called: Option<String>,
 }
 
 impl SolverProgram {
@@ -47,7 +49,19 @@ impl SolverProgram {
         let (connection, hello) = connected(&command, limits)?;
         connection.end();
         let identity = identity(&command, &hello);
-        Ok(Self { command, limits, hello, identity })
+        Ok(Self { command, limits, hello, identity, called: None })
+    }
+
+    /// The solver with another name for its cases, which tells two of the same program apart. What
+    /// a suite states for a solver by its name is then for `name`.
+    ///
+    /// # Errors
+    /// `name` is none for a solver.
+    pub fn called(self, name: &str) -> Result<Self, ProgramError> {
+        if !is_solver_name(name) {
+            return Err(ProgramError::Name(printable(name)));
+        }
+        Ok(Self { called: Some(name.to_owned()), ..self })
     }
 
     /// One line for each name in the solver's capabilities that has no meaning.
@@ -127,7 +141,7 @@ fn connected(
 
 impl SolverFactory for SolverProgram {
     fn name(&self) -> &str {
-        &self.hello.name
+        self.called.as_deref().unwrap_or(&self.hello.name)
     }
 
     fn formal_order(&self) -> f64 {

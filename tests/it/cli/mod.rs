@@ -6,6 +6,7 @@ mod compare;
 mod cost;
 mod explain;
 mod explore;
+mod exports;
 mod hostile;
 mod interrupt;
 mod json;

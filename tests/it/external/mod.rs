@@ -8,6 +8,8 @@ mod library;
 mod misbehaving;
 #[cfg(unix)]
 mod program;
+#[cfg(unix)]
+mod several;
 mod stated;
 #[cfg(unix)]
 mod values;

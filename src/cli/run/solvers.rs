@@ -1,0 +1,165 @@
+//! The solvers of a run, and the suites as each of them runs them.
+
+use super::args::JudgedSolverArgs;
+use super::gate::{self, SolverGate};
+use crate::cli::arguments::Expected;
+use crate::cli::solver;
+use crate::cli::status::CommandError;
+use mpm_verify::external::SolverProgram;
+use mpm_verify::study::Shard;
+use mpm_verify::suite::{Extent, Suite};
+use std::collections::BTreeSet;
+use std::str::FromStr;
+
+/// A value of `--solver`.
+#[derive(Debug, Clone)]
+pub(super) struct SolverCommand {
+    /// Name in reports; the solver's own if there is none.
+    name: Option<String>,
+    command: String,
+}
+
+impl FromStr for SolverCommand {
+    type Err = Expected;
+
+    /// Reads `NAME=COMMAND` or `COMMAND`. A name has letters, digits, `-`, `_` and `.` only.
+    fn from_str(text: &str) -> Result<Self, Expected> {
+        let is_name = |name: &str| {
+            !name.is_empty()
+                && name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.'))
+        };
+        match text.split_once('=').filter(|(name, _)| is_name(name)) {
+            Some((_, command)) if command.trim().is_empty() => {
+                Err(Expected("a command after `=`".into()))
+            }
+            Some((name, command)) => {
+                Ok(Self { name: Some(name.to_owned()), command: command.to_owned() })
+            }
+            None => Ok(Self { name: None, command: text.to_owned() }),
+        }
+    }
+}
+
+/// A solver that has been greeted, and what is required of it.
+pub(super) struct JudgedSolver {
+    pub(super) program: SolverProgram,
+    pub(super) gate: Option<SolverGate>,
+}
+
+/// Starts all solvers of the command line.
+///
+/// # Errors
+/// One cannot be used, or their names do not tell them apart.
+pub(super) fn greeted(args: &JudgedSolverArgs) -> Result<Vec<JudgedSolver>, CommandError> {
+    let mut names = BTreeSet::new();
+    for one in &args.solver {
+        let (value, reason) = match &one.name {
+            None if args.solver.len() > 1 => {
+                (&one.command, "several solvers need a name each: `NAME=COMMAND`")
+            }
+            Some(name) if !names.insert(name) => (name, "another solver has this name"),
+            _ => continue,
+        };
+        return Err(CommandError::option("--solver", value, reason));
+    }
+    let greet = |one: &SolverCommand| -> Result<JudgedSolver, CommandError> {
+        let mut program = solver::greet(&one.command, &args.limits)?;
+        if let Some(name) = &one.name {
+            let error = |error| CommandError::option("--solver", name, error);
+            program = program.called(name).map_err(error)?;
+        }
+        Ok(JudgedSolver { program, gate: None })
+    };
+    args.solver.iter().map(greet).collect()
+}
+
+/// A suite as it runs: with its own methods, with each solver, or both.
+pub(super) struct SuiteRuns {
+    /// The suite, and the number of the solver that runs it, if it is not run by its methods.
+    parts: Vec<SuitePart>,
+}
+
+/// A suite with the methods, or the solver, that run it.
+pub(super) struct SuitePart {
+    pub(super) suite: Suite,
+    /// Number of the solver; none for the suite's own methods.
+    pub(super) solver: Option<usize>,
+}
+
+impl SuiteRuns {
+    /// The suites with their own methods.
+    pub(super) fn of_methods(suites: Vec<Suite>) -> Vec<Self> {
+        let part = |suite| SuitePart { suite, solver: None };
+        suites.into_iter().map(|suite| Self { parts: vec![part(suite)] }).collect()
+    }
+
+    /// The suites with each solver, gated if the command line says so. Suites that no solver can
+    /// take are left out.
+    ///
+    /// # Errors
+    /// A mistake in the configuration of the gate.
+    pub(super) fn of_solvers(
+        suites: Vec<Suite>,
+        solvers: &mut [JudgedSolver],
+        args: &JudgedSolverArgs,
+        named: &BTreeSet<String>,
+    ) -> Result<Vec<Self>, CommandError> {
+        let mut all: Vec<(String, Vec<SuitePart>)> =
+            suites.iter().map(|suite| (suite.name.clone(), Vec::new())).collect();
+        let mut put = |suite: Suite, solver: Option<usize>| {
+            // Two suites may have the same name; they come in their order.
+            let is_free = |(name, parts): &&mut (String, Vec<SuitePart>)| {
+                *name == suite.name && parts.last().is_none_or(|part| part.solver != solver)
+            };
+            if let Some((_, parts)) = all.iter_mut().find(is_free) {
+                parts.push(SuitePart { suite, solver });
+            }
+        };
+        if args.with_methods {
+            suites.iter().for_each(|suite| put(suite.clone(), None));
+        }
+        for (number, solver) in solvers.iter_mut().enumerate() {
+            let (judged, gate) = gate::prepare(suites.clone(), &solver.program, args, named)?;
+            solver.gate = gate;
+            judged.into_iter().for_each(|suite| put(suite, Some(number)));
+        }
+        let has_parts = |(_, parts): &(String, Vec<SuitePart>)| !parts.is_empty();
+        Ok(all.into_iter().filter(has_parts).map(|(_, parts)| Self { parts }).collect())
+    }
+
+    /// The cases with a name that `is_chosen`; nothing if there is none.
+    pub(super) fn only(self, is_chosen: impl Fn(&str) -> bool) -> Option<Self> {
+        let part = |SuitePart { suite, solver }: SuitePart| {
+            let names = suite.case_names();
+            let any = names.iter().any(|name| is_chosen(name));
+            let suite = any.then(|| suite.only(&|case| is_chosen(&names[case])))?;
+            Some(SuitePart { suite, solver })
+        };
+        let parts: Vec<SuitePart> = self.parts.into_iter().filter_map(part).collect();
+        (!parts.is_empty()).then_some(Self { parts })
+    }
+
+    /// The part of the cases that `shard` has, where each suite runs in one way only.
+    pub(super) fn shard(runs: Vec<Self>, shard: Shard, extent: Extent) -> Vec<Self> {
+        let solver = runs.iter().find_map(|runs| runs.parts[0].solver);
+        let suites: Vec<Suite> = runs.into_iter().map(|runs| runs.suite().clone()).collect();
+        let part = |suite| Self { parts: vec![SuitePart { suite, solver }] };
+        shard.of(&suites, extent).into_iter().map(part).collect()
+    }
+
+    pub(super) fn parts(&self) -> &[SuitePart] {
+        &self.parts
+    }
+
+    /// The statement of the problem, which all parts share.
+    pub(super) fn suite(&self) -> &Suite {
+        &self.parts[0].suite
+    }
+
+    /// The first name that two cases have.
+    pub(super) fn twice(&self) -> Option<String> {
+        let mut names = BTreeSet::new();
+        let all = self.parts.iter().flat_map(|part| part.suite.case_names());
+        all.into_iter().find(|name| !names.insert(*name)).map(str::to_owned)
+    }
+}

@@ -1,0 +1,113 @@
+//! Several solvers in one report: names, cases, gates, and what cannot be told apart.
+
+use super::bar;
+use super::program::{HELLO, SECOND_ORDER};
+use crate::cli::{BAD_INPUT, Folder, SOUND};
+use rstest::{fixture, rstest};
+use serde_json::Value;
+
+/// A folder with a suite and two solvers, the second of which has another factor in its error.
+#[fixture]
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("bar.yaml", bar());
+    let solver = SECOND_ORDER.replace("HELLO", HELLO);
+    folder.write("one.sh", &solver);
+    folder.write("two.sh", solver.replace("1 + h * h", "1 + 2 * h * h"));
+    folder
+}
+
+#[rstest]
+fn solvers_and_methods_are_cases_of_one_suite(folder: Folder) {
+    let answer = folder.call(&[
+        "run",
+        "bar.yaml",
+        "--with-methods",
+        "--format",
+        "json",
+        "--solver",
+        "first=sh one.sh",
+        "--solver",
+        "second=sh two.sh",
+    ]);
+    assert_eq!(answer.code, SOUND, "{}", answer.errors);
+    let document: Value = serde_json::from_str(&answer.out).unwrap();
+    let suites = document["suites"].as_array().unwrap();
+    assert_eq!(suites.len(), 1);
+    let cases = suites[0]["cases"].as_array().unwrap();
+    let names: Vec<&str> = cases.iter().filter_map(|case| case["case"].as_str()).collect();
+    assert_eq!(names, ["mpm-linear-flip-musl", "fem-linear-lumped", "first", "second"]);
+    let error = |case: usize| cases[case]["levels"][0]["judged"].as_f64().unwrap();
+    assert!((error(3) / error(2) - 2.0).abs() <= 1e-3, "{} {}", error(3), error(2));
+    // One ranking has all of them.
+    assert_eq!(suites[0]["cost"][0]["methods"].as_array().map(Vec::len), Some(4));
+}
+
+#[rstest]
+fn each_solver_has_its_own_gate(folder: Folder) {
+    let gate = ["run", "bar.yaml", "--gate", "--brief", "--solver"];
+    let broken = SECOND_ORDER.replace("HELLO", HELLO).replace("1 + h * h", "1 + h");
+    folder.write("low.sh", broken);
+    let both = |second: &'static str| {
+        folder.call(&[&gate[..], &["first=sh one.sh", "--solver", second]].concat())
+    };
+    assert_eq!(both("second=sh two.sh").code, SOUND);
+    let answer = both("low=sh low.sh");
+    let lines = answer.out.lines().filter(|line| line.contains("short-bar::"));
+    let results: Vec<String> =
+        lines.map(|line| line.split_whitespace().take(2).collect::<Vec<_>>().join(" ")).collect();
+    assert_eq!(results, ["pass short-bar::first", "FAIL short-bar::low"]);
+}
+
+#[rstest]
+fn a_case_is_chosen_by_the_name_that_the_solver_is_given(folder: Folder) {
+    let answer = folder.call(&[
+        "run",
+        "bar.yaml",
+        "--brief",
+        "--case",
+        "second",
+        "--solver",
+        "first=sh one.sh",
+        "--solver",
+        "second=sh two.sh",
+    ]);
+    assert_eq!(answer.code, SOUND, "{}", answer.errors);
+    assert!(!answer.out.contains("first") && answer.out.contains("::second"), "{}", answer.out);
+}
+
+#[rstest]
+#[case::without_a_name(
+    "--solver|a=sh one.sh|--solver|sh two.sh",
+    "error: --solver sh two.sh: several solvers need a name each: `NAME=COMMAND`"
+)]
+#[case::the_same_name(
+    "--solver|a=sh one.sh|--solver|a=sh two.sh",
+    "error: --solver a: another solver has this name"
+)]
+#[case::the_name_of_a_case(
+    "--with-methods|--solver|fem-linear-lumped=sh one.sh",
+    "error: --solver fem-linear-lumped: a case of the suite `short-bar` has this name"
+)]
+#[case::parts(
+    "--with-methods|--shard|1/2|--solver|a=sh one.sh",
+    "error: --shard: parts have one solver, or methods only"
+)]
+#[case::no_command(
+    "--solver|a=",
+    "error: invalid value 'a=' for '--solver <[NAME=]COMMAND>': expected a command after `=`"
+)]
+#[case::methods_without_a_solver(
+    "--with-methods",
+    "error: the following required arguments were not provided:"
+)]
+fn what_cannot_be_told_apart_is_refused(
+    folder: Folder,
+    #[case] options: &str,
+    #[case] error: &str,
+) {
+    let options: Vec<&str> = options.split('|').collect();
+    let answer = folder.call(&[&["run", "bar.yaml"], &options[..]].concat());
+    assert_eq!((answer.code, answer.out.as_str()), (BAD_INPUT, ""));
+    assert_eq!(answer.errors.lines().next(), Some(error), "{}", answer.errors);
+}
