@@ -2,8 +2,8 @@
 //!
 //! - [`text()`]: the aligned text that is kept as a snapshot. No time, host, date or path.
 //! - [`json()`]: one document, an interface.
-//! - [`latex()`]: tables for papers; with the feature `cli` also `csv()`, and `junit()` for continuous
-//!   integration services.
+//! - [`latex()`]: tables for papers; with the feature `cli` also `csv()`, and `junit()` for CI
+//!   services.
 //! - [`svg()`]: figures, drawn by the layer in [`figure`].
 //! - [`mod@page`]: one HTML page with all of it.
 //! - [`drift`]: comparison of two texts, number by number.

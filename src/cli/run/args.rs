@@ -1,10 +1,10 @@
 //! Arguments of `run` and `merge`.
 
-use super::solvers::SolverCommand;
-use crate::cli::arguments::{SolverLimitArgs, Targets, count};
+use crate::cli::arguments::{Expected, SolverLimitArgs, Targets, count};
 use clap::{Args, ValueEnum};
 use mpm_verify::study::Shard;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct RunArgs {
@@ -48,6 +48,12 @@ pub(in crate::cli) struct ReportArgs {
     /// folder
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Title of the suite in figures and LaTeX tables
+    #[arg(long, value_name = "TEXT")]
+    pub(super) title: Option<String>,
+    /// Text for a case in figures and LaTeX tables in place of its name; once for each case
+    #[arg(long, value_name = "CASE=TEXT")]
+    pub(super) label: Vec<CaseLabel>,
     /// Write the results as JUnit XML into this file, one test for each case
     #[arg(long, value_name = "FILE")]
     pub(super) junit: Option<PathBuf>,
@@ -60,7 +66,7 @@ pub(in crate::cli) struct ReportArgs {
     pub(super) jobs: Option<usize>,
 }
 
-/// What a run prints.
+/// Output of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum RunFormat {
     /// Text for a reader
@@ -100,7 +106,7 @@ pub(in crate::cli) struct MergeArgs {
 #[derive(Debug, Args)]
 pub(in crate::cli) struct JudgedSolverArgs {
     /// Run the suites with this program in place of their methods: a command with its arguments
-    /// that speaks the protocol of docs/protocol.md. With a name in front (`mine='python mpm.py'`)
+    /// that speaks the protocol of docs/protocol.md. With a name in front (`'mine=python mpm.py'`)
     /// it can be given repeatedly: the solvers are then in one report
     #[arg(long, value_name = "[NAME=]COMMAND")]
     pub(super) solver: Vec<SolverCommand>,
@@ -120,4 +126,55 @@ pub(in crate::cli) struct JudgedSolverArgs {
     /// not gated
     #[arg(long, requires = "gate")]
     pub(super) allow_not_applicable: bool,
+}
+
+/// A value of `--solver`.
+#[derive(Debug, Clone)]
+pub(super) struct SolverCommand {
+    /// Name in reports; the solver's own if there is none.
+    pub(super) name: Option<String>,
+    pub(super) command: String,
+}
+
+impl FromStr for SolverCommand {
+    type Err = Expected;
+
+    /// Reads `NAME=COMMAND` or `COMMAND`. A name has letters, digits, `-`, `_` and `.` only.
+    fn from_str(text: &str) -> Result<Self, Expected> {
+        let is_name = |name: &str| {
+            !name.is_empty()
+                && name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.'))
+        };
+        match text.split_once('=').filter(|(name, _)| is_name(name)) {
+            Some((_, command)) if command.trim().is_empty() => {
+                Err(Expected("a command after `=`".into()))
+            }
+            Some((name, command)) => {
+                Ok(Self { name: Some(name.to_owned()), command: command.to_owned() })
+            }
+            None => Ok(Self { name: None, command: text.to_owned() }),
+        }
+    }
+}
+
+/// A value of `--label`.
+#[derive(Debug, Clone)]
+pub(super) struct CaseLabel {
+    /// Name of the case.
+    pub(super) case: String,
+    /// Text in figures and tables.
+    pub(super) text: String,
+}
+
+impl FromStr for CaseLabel {
+    type Err = Expected;
+
+    /// Reads `CASE=TEXT`.
+    fn from_str(text: &str) -> Result<Self, Expected> {
+        let (case, text) = text
+            .split_once('=')
+            .filter(|(case, text)| !case.is_empty() && !text.is_empty())
+            .ok_or_else(|| Expected("the name of a case, `=` and a text".into()))?;
+        Ok(Self { case: case.to_owned(), text: text.to_owned() })
+    }
 }

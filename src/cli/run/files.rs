@@ -1,5 +1,7 @@
 //! Files of a run: `--out`, `--html` and `--vtu`.
 
+use super::args::ReportArgs;
+use super::labels::labelled;
 use super::progress::RunProgress;
 use crate::cli::output;
 use crate::cli::status::CommandError;
@@ -19,15 +21,21 @@ pub(super) fn prepare_out(folder: &Path) -> Result<(), CommandError> {
     fs::create_dir_all(folder).map_err(|error| unwritable("--out", folder, &error))
 }
 
-/// Writes `NAME.txt`, `NAME-table.tex` and the figures of each suite, and `report.json` and `report.csv` for
-/// all.
-pub(super) fn write_out(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), CommandError> {
+/// Writes `NAME.txt`, `NAME-table.tex` and the figures of each suite, and `report.json` and
+/// `report.csv` for all.
+pub(super) fn write_out(
+    folder: &Path,
+    args: &ReportArgs,
+    outcomes: &[SuiteOutcome],
+) -> Result<(), CommandError> {
     let save = |file: &str, text: &str| -> io::Result<()> { fs::write(folder.join(file), text) };
     let every_file = || -> io::Result<()> {
         save("report.json", &report::json(outcomes))?;
         save("report.csv", &report::csv(outcomes))?;
         for outcome in outcomes {
             save(&format!("{}.txt", outcome.suite), &report::text(outcome))?;
+        }
+        for outcome in &labelled(args, outcomes) {
             let tables = report::latex(std::slice::from_ref(outcome));
             save(&format!("{}-table.tex", outcome.suite), &tables)?;
             for figure in report::svg(outcome) {
@@ -40,7 +48,8 @@ pub(super) fn write_out(folder: &Path, outcomes: &[SuiteOutcome]) -> Result<(), 
     every_file().map_err(|error| unwritable("--out", folder, &error))
 }
 
-/// Makes the folder of a file that `option` names, before hours are spent on what cannot be written.
+/// Makes the folder of a file that `option` names, before hours are spent on what cannot be
+/// written.
 pub(super) fn prepare_file(option: &str, file: &Path) -> Result<(), CommandError> {
     if file.is_dir() {
         return Err(unwritable(option, file, &"this is a folder"));

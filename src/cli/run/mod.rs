@@ -3,6 +3,7 @@
 mod args;
 mod files;
 mod gate;
+mod labels;
 mod printing;
 mod progress;
 mod solvers;
@@ -47,7 +48,7 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
         SuiteRuns::of_methods(suites)
     } else {
         let named = select::named_singly(&args.report.targets.targets, &suites);
-        SuiteRuns::of_solvers(suites, &mut solvers, &args.judged, &named)?
+        SuiteRuns::of_solvers(&suites, &mut solvers, &args.judged, &named)?
     };
     if let Some((name, suite)) = runs.iter().find_map(|runs| Some((runs.twice()?, runs.suite()))) {
         let reason = format!("a case of the suite `{}` has this name", suite.name);
@@ -88,6 +89,7 @@ fn report(
         suites.into_iter().filter_map(Result::ok).unzip();
     let names: Vec<String> = suites.iter().map(|suite| suite.name.clone()).collect();
     let (runs, judging) = choose(suites)?;
+    labels::check(args, &runs)?;
     let suites: Vec<Suite> = runs.iter().map(|runs| runs.suite().clone()).collect();
     // Suites of which no case is chosen are left out, and the others stay in their order.
     let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);
@@ -132,7 +134,8 @@ fn report(
     }
     bar.clear();
     printing.of_all(args, &sources, &outcomes);
-    let written = args.out.as_deref().map_or(Ok(()), |folder| files::write_out(folder, &outcomes));
+    let written =
+        args.out.as_deref().map_or(Ok(()), |folder| files::write_out(folder, args, &outcomes));
     let page = |file| files::write_page(file, &sources, &suites, &outcomes, refused.len());
     let junit = |file| files::write_junit(file, &outcomes, &judging.required());
     let written = written.and(args.html.as_deref().map_or(Ok(()), page));

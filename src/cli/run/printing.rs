@@ -1,6 +1,7 @@
 //! Printed text of a run, and when it is printed.
 
 use super::args::{ReportArgs, RunFormat};
+use super::labels::labelled;
 use crate::cli::output;
 use mpm_verify::report;
 use mpm_verify::suite::yaml::Source;
@@ -56,7 +57,7 @@ impl Printing {
         match self {
             Self::Json => output::print(&report::json(outcomes)),
             Self::Csv => output::print(&report::csv(outcomes)),
-            Self::Latex => output::print(&report::latex(outcomes)),
+            Self::Latex => output::print(&report::latex(&labelled(args, outcomes))),
             _ if outcomes.is_empty() => {}
             Self::Reports | Self::Verdicts => output::print(&report::summary(outcomes)),
             Self::Overview => {

@@ -1,44 +1,13 @@
 //! The solvers of a run, and the suites as each of them runs them.
 
-use super::args::JudgedSolverArgs;
+use super::args::{JudgedSolverArgs, SolverCommand};
 use super::gate::{self, SolverGate};
-use crate::cli::arguments::Expected;
 use crate::cli::solver;
 use crate::cli::status::CommandError;
 use mpm_verify::external::SolverProgram;
 use mpm_verify::study::Shard;
 use mpm_verify::suite::{Extent, Suite};
 use std::collections::BTreeSet;
-use std::str::FromStr;
-
-/// A value of `--solver`.
-#[derive(Debug, Clone)]
-pub(super) struct SolverCommand {
-    /// Name in reports; the solver's own if there is none.
-    name: Option<String>,
-    command: String,
-}
-
-impl FromStr for SolverCommand {
-    type Err = Expected;
-
-    /// Reads `NAME=COMMAND` or `COMMAND`. A name has letters, digits, `-`, `_` and `.` only.
-    fn from_str(text: &str) -> Result<Self, Expected> {
-        let is_name = |name: &str| {
-            !name.is_empty()
-                && name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.'))
-        };
-        match text.split_once('=').filter(|(name, _)| is_name(name)) {
-            Some((_, command)) if command.trim().is_empty() => {
-                Err(Expected("a command after `=`".into()))
-            }
-            Some((name, command)) => {
-                Ok(Self { name: Some(name.to_owned()), command: command.to_owned() })
-            }
-            None => Ok(Self { name: None, command: text.to_owned() }),
-        }
-    }
-}
 
 /// A solver that has been greeted, and what is required of it.
 pub(super) struct JudgedSolver {
@@ -99,7 +68,7 @@ impl SuiteRuns {
     /// # Errors
     /// A mistake in the configuration of the gate.
     pub(super) fn of_solvers(
-        suites: Vec<Suite>,
+        suites: &[Suite],
         solvers: &mut [JudgedSolver],
         args: &JudgedSolverArgs,
         named: &BTreeSet<String>,
@@ -116,12 +85,16 @@ impl SuiteRuns {
             }
         };
         if args.with_methods {
-            suites.iter().for_each(|suite| put(suite.clone(), None));
+            for suite in suites {
+                put(suite.clone(), None);
+            }
         }
         for (number, solver) in solvers.iter_mut().enumerate() {
-            let (judged, gate) = gate::prepare(suites.clone(), &solver.program, args, named)?;
+            let (judged, gate) = gate::prepare(suites.to_vec(), &solver.program, args, named)?;
             solver.gate = gate;
-            judged.into_iter().for_each(|suite| put(suite, Some(number)));
+            for suite in judged {
+                put(suite, Some(number));
+            }
         }
         let has_parts = |(_, parts): &(String, Vec<SuitePart>)| !parts.is_empty();
         Ok(all.into_iter().filter(has_parts).map(|(_, parts)| Self { parts }).collect())
@@ -132,7 +105,7 @@ impl SuiteRuns {
         let part = |SuitePart { suite, solver }: SuitePart| {
             let names = suite.case_names();
             let any = names.iter().any(|name| is_chosen(name));
-            let suite = any.then(|| suite.only(&|case| is_chosen(&names[case])))?;
+            let suite = any.then(|| suite.only(&|case| is_chosen(names[case])))?;
             Some(SuitePart { suite, solver })
         };
         let parts: Vec<SuitePart> = self.parts.into_iter().filter_map(part).collect();

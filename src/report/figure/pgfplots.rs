@@ -1,7 +1,7 @@
 //! Figures as source for the LaTeX package PGFPlots, with their data.
 //!
-//! Each document compiles on its own (class `standalone`). In a paper its `tikzpicture` can be copied,
-//! or the file can be included with the package `standalone`.
+//! Each document compiles on its own (class `standalone`). In a paper its `tikzpicture` can be
+//! copied, or the file can be included with the package `standalone`.
 
 use super::plot::style::{CONTEXT, EXACT, MarkerShape, NEUTRAL, look};
 use super::{ErrorMap, HistoryPlot, LogLogPlot, Map, Mark, PlotPoint, PlotSeries};
@@ -58,8 +58,8 @@ impl PgfDocument {
         self.line("};");
     }
 
-    /// An entry of the legend, with a line or marker of this style; it does not depend on whether the
-    /// curve has points.
+    /// An entry of the legend, with a line or marker of this style; it does not depend on whether
+    /// the curve has points.
     fn legend(&mut self, style: &str, name: &str) {
         self.line(&format!("\\addlegendimage{{{style}}}"));
         self.line(&format!("\\addlegendentry{{{name}}}"));
@@ -129,7 +129,7 @@ fn mark(shape: MarkerShape, is_filled: bool) -> String {
 }
 
 /// Whether a level can be drawn on logarithmic axes.
-fn is_drawn(point: &&PlotPoint) -> bool {
+fn is_drawn(point: &PlotPoint) -> bool {
     let positive = |value: f64| value.is_finite() && value > 0.0;
     positive(point.x) && positive(point.error) && point.mark != Mark::Failed
 }
@@ -203,7 +203,8 @@ fn rounded(order: f64) -> String {
 
 /// The levels with a mark that `is_chosen`, by their spacing or work.
 fn sorted(series: &PlotSeries, is_chosen: impl Fn(Mark) -> bool) -> Vec<(f64, f64)> {
-    let drawn = series.points.iter().filter(is_drawn).filter(|point| is_chosen(point.mark));
+    let drawn =
+        series.points.iter().filter(|point| is_drawn(point)).filter(|point| is_chosen(point.mark));
     let mut points: Vec<(f64, f64)> = drawn.map(|point| (point.x, point.error)).collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     points
@@ -289,9 +290,9 @@ impl Map {
 }
 
 impl ErrorMap {
-    /// The figure as a LaTeX document. Bodies in the plane have a panel for each case, with a square
-    /// for each part, coloured by the decimal logarithm of its error; bars have one plot of the
-    /// errors over the position, with a curve for each case.
+    /// The figure as a LaTeX document. Bodies in the plane have a panel for each case, with a
+    /// square for each part, coloured by the decimal logarithm of its error; bars have one plot of
+    /// the errors over the position, with a curve for each case.
     pub fn to_pgfplots(&self) -> String {
         if self.panels.iter().any(|(_, field)| field.is_plane) {
             self.panels_to_pgfplots()

@@ -2,6 +2,7 @@
 //! spreadsheets and continuous integration.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious};
+use rstest::rstest;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -119,4 +120,39 @@ fn a_folder_of_results_has_tables_and_sources_of_figures() {
     }
     assert!(folder.read("out/report.csv").starts_with("suite,case,"));
     assert!(folder.read("out/short-bar-table.tex").contains("\\begin{tabular}"));
+}
+
+#[test]
+fn titles_and_labels_are_those_of_tables_and_figures_only() {
+    let folder = Folder::with("bar.yaml", BAR);
+    let labels = ["--title", "Bar of E = 1", "--label", "mpm-linear-flip-musl=MPM"];
+    let out = ["run", "bar.yaml", "--out", "out", "--format", "latex"];
+    let table = folder.accepted(&[&out[..], &labels].concat());
+    for text in [&table, &folder.read("out/short-bar.tex"), &folder.read("out/short-bar.svg")] {
+        assert!(text.contains("Bar of E = 1") && text.contains("MPM"), "{text}");
+        assert!(!text.contains("mpm-linear-flip-musl"), "{text}");
+    }
+    let report = folder.read("out/short-bar.txt");
+    assert!(report.contains("mpm-linear-flip-musl") && !report.contains("Bar of E"), "{report}");
+}
+
+#[rstest]
+#[case(
+    "--label|mpm-linear-flip-mus=a",
+    "error: --label mpm-linear-flip-mus: no case of this name; did you mean `mpm-linear-flip-musl`?"
+)]
+#[case(
+    "--label|fem-linear-lumped=a|--label|mpm-linear-flip-musl=a",
+    "error: --label a: another case has this label"
+)]
+#[case(
+    "--label|a",
+    "error: invalid value 'a' for '--label <CASE=TEXT>': expected the name of a case, `=` and a text"
+)]
+fn labels_that_cannot_be_used_are_refused(#[case] options: &str, #[case] error: &str) {
+    let folder = Folder::with("bar.yaml", BAR);
+    let options: Vec<&str> = options.split('|').collect();
+    let answer = folder.call(&[&["run", "bar.yaml"], &options[..]].concat());
+    assert_eq!((answer.code, answer.out.as_str()), (BAD_INPUT, ""));
+    assert_eq!(answer.errors.lines().next(), Some(error), "{}", answer.errors);
 }
