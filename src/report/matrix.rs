@@ -13,11 +13,92 @@ const BASES: [&str; 6] =
     ["linear", "ugimp", "cpgimp", "cpdi", "quadratic_bspline", "cubic_bspline"];
 
 /// Meaning of the findings.
-pub(crate) const LEGEND: &str = "The matrix has, for each suite, the orders that the methods of a \
-    basis come to, over all transfers and schemes. Instead of an order: `floor` the error stops \
-    falling, `grows` it grows with refinement, `breaks` a run fails, `unsettled` and `oscillates` no \
-    order can be told; `bounded` figures are held to bounds and not to an order; `stable`, `unstable` \
-    and `limit` are those of stability studies. A suite's report says why.";
+pub(crate) const LEGEND: &str = "The matrix has, for each suite, the orders of the methods with a \
+    basis, over all transfers and schemes. Instead of an order: `floor`: the error stops falling; \
+    `grows`: it grows with refinement; `breaks`: a run fails; `unsettled` and `oscillates`: levels \
+    have no common order; `bounded`: figures have bounds and no order; `stable`, `unstable` and \
+    `limit`: results of stability studies. The report of a suite states the reasons.";
+
+/// Class of a finding, from good to bad; a reader of the page sees it as a colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum FindingClass {
+    /// Bounds, stability studies, and cases that are not applicable.
+    Other,
+    /// The expected order, or a higher one.
+    Order,
+    /// An order below the expected one.
+    LowOrder,
+    /// No order: the error stops falling, or levels do not agree.
+    NoOrder,
+    /// The error grows with refinement, or runs break.
+    Fails,
+}
+
+impl FindingClass {
+    /// All classes with a meaning of their own.
+    pub(crate) const SHOWN: [Self; 4] = [Self::Order, Self::LowOrder, Self::NoOrder, Self::Fails];
+
+    /// Name of the class in style sheets.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Other => "other",
+            Self::Order => "order",
+            Self::LowOrder => "low-order",
+            Self::NoOrder => "no-order",
+            Self::Fails => "fails",
+        }
+    }
+
+    /// Meaning for a reader.
+    pub(crate) fn meaning(self) -> &'static str {
+        match self {
+            Self::Other => "bounds, stability, or not applicable",
+            Self::Order => "expected order",
+            Self::LowOrder => "lower order",
+            Self::NoOrder => "no order",
+            Self::Fails => "error grows, or runs break",
+        }
+    }
+
+    fn of(case: &CaseOutcome) -> Self {
+        let Some(study) = case.convergence().filter(|_| case.is_tested()) else {
+            return if case.fails() { Self::Fails } else { Self::Other };
+        };
+        if study.bounded {
+            return Self::Other;
+        }
+        match study.judgement.verdict {
+            _ if study.accepted.is_some() => Self::Order,
+            Verdict::Converging | Verdict::TooGood => Self::Order,
+            Verdict::TooLow => Self::LowOrder,
+            Verdict::Divergent | Verdict::Failed => Self::Fails,
+            _ => Self::NoOrder,
+        }
+    }
+}
+
+/// The worst class of the cases in each of [`COLUMNS`]; `None` where there is no case.
+pub(crate) fn classes(outcome: &SuiteOutcome) -> [Option<FindingClass>; COLUMNS.len()] {
+    std::array::from_fn(|column| {
+        let cases = outcome.cases.iter().filter(|case| column_of(case) == column);
+        cases.map(FindingClass::of).max()
+    })
+}
+
+/// Cases of suites in each of [`COLUMNS`] that have the expected order, and all that have an order
+/// or none.
+pub(crate) fn shares<'a>(
+    outcomes: impl Iterator<Item = &'a SuiteOutcome> + Clone,
+) -> [(usize, usize); COLUMNS.len()] {
+    std::array::from_fn(|column| {
+        let cases = outcomes.clone().flat_map(|outcome| &outcome.cases);
+        let classes = cases.filter(|case| column_of(case) == column).map(FindingClass::of);
+        let counted = classes.filter(|class| *class != FindingClass::Other);
+        counted.fold((0, 0), |(kept, all), class| {
+            (kept + usize::from(class == FindingClass::Order), all + 1)
+        })
+    })
+}
 
 /// Suites, or what has one, by the groups of their names.
 pub(crate) fn by_group<'a, T>(

@@ -24,6 +24,7 @@ mod tests;
 pub use source::SuiteSource;
 
 use crate::report::figure::plot::style::style_sheet;
+use crate::report::figure::study::thumbnail;
 use crate::report::matrix::by_group;
 use crate::report::suite::json::commit;
 use crate::verify::CaseOutcome;
@@ -39,7 +40,12 @@ const POLICY: &str =
 /// The page, which says too how many suites could not be run. Names of suites must differ: they
 /// become the ids of sections.
 pub fn page(sources: &[SuiteSource<'_>], refused: usize) -> String {
-    let mut body = vec![head(sources, refused), suites::matrix(sources), verdicts::table(sources)];
+    let mut body = vec![
+        head(sources, refused),
+        suites::topics(sources),
+        suites::matrix(sources),
+        verdicts::table(sources),
+    ];
     let groups = by_group(sources, |source| source.outcome);
     body.extend(groups.into_iter().flat_map(|(_, of_group)| of_group).map(section::section));
     body.push(foot());
@@ -94,7 +100,8 @@ fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
         let item = |(source, case): (&SuiteSource<'_>, &CaseOutcome)| {
             let link = links::case_link(source.outcome, case, true);
             let why = Html::text(&format!(": {}", case.unmet.join("; ")));
-            Html::tag("li", &[], vec![link, why])
+            let figure = thumbnail(source.outcome).map(Html::trusted);
+            Html::tag("li", &[], [link, why].into_iter().chain(figure).collect::<Vec<_>>())
         };
         let items: Vec<Html> = cases().filter(|(_, case)| !case.passed()).map(item).collect();
         parts.push(Html::block("ul", &[("class", "unmet")], &items));

@@ -37,31 +37,64 @@
     });
   });
 
-  const filter = (table, rows) => {
-    const label = document.createElement("label");
-    const input = document.createElement("input");
+  // Filters by text and by the data attributes `keys`. They are part of the address, behind the id of the
+  // table: `#verdicts&basis=linear&verdict=at+floor`.
+  const filter = (id, table, rows, keys) => {
+    const form = document.createElement("div");
     const count = document.createElement("output");
-    label.className = "filter";
-    input.type = "search";
-    label.append("Show only rows with ", input, count);
-    table.parentElement.before(label);
-    input.addEventListener("input", () => {
-      const words = input.value.toLowerCase().split(/\s+/).filter(Boolean);
+    form.className = "filter";
+    const fields = ["text", ...keys].map((key) => {
+      const label = document.createElement("label");
+      const field = document.createElement(key === "text" ? "input" : "select");
+      if (key === "text") {
+        field.type = "search";
+        label.append("Show only rows with ", field);
+      } else {
+        const values = [...new Set(rows.map((row) => row.dataset[key]))].sort();
+        field.append(new Option("any", ""), ...values.map((value) => new Option(value, value)));
+        label.append(`${key} `, field);
+      }
+      form.append(label);
+      return [key, field];
+    });
+    form.append(count);
+    table.parentElement.before(form);
+    const apply = () => {
+      const chosen = fields.map(([key, field]) => [key, field.value]).filter(([, value]) => value);
+      const fits = (row) => chosen.every(([key, value]) => {
+        if (key !== "text") return row.dataset[key] === value;
+        const text = row.textContent.toLowerCase();
+        return value.toLowerCase().split(/\s+/).filter(Boolean).every((word) => text.includes(word));
+      });
       let shown = 0;
       for (const row of rows) {
-        const text = row.textContent.toLowerCase();
-        row.hidden = !words.every((word) => text.includes(word));
+        row.hidden = !fits(row);
         shown += row.hidden ? 0 : 1;
       }
-      count.textContent = words.length ? `${shown} of ${rows.length}` : "";
-    });
+      count.textContent = chosen.length ? `${shown} of ${rows.length}` : "";
+      return chosen;
+    };
+    for (const [, field] of fields) {
+      field.addEventListener("input", () => {
+        const query = new URLSearchParams(apply()).toString();
+        history.replaceState(null, "", query ? `#${id}&${query}` : `#${id}`);
+      });
+    }
+    return (query) => {
+      for (const [key, field] of fields) field.value = query.get(key) ?? "";
+      apply();
+    };
   };
-  filter(table, rows);
   const suites = document.querySelector("#suites table");
-  filter(suites, Array.from(suites.querySelectorAll("tbody tr:not(.group)")));
+  const filters = {
+    verdicts: filter("verdicts", table, rows, ["basis", "transfer", "verdict"]),
+    suites: filter("suites", suites, Array.from(suites.querySelectorAll("tbody tr:not(.group)")), []),
+  };
 
   const unfold = () => {
-    const target = document.getElementById(location.hash.slice(1));
+    const [id, ...query] = location.hash.slice(1).split("&");
+    if (query.length && filters[id]) filters[id](new URLSearchParams(query.join("&")));
+    const target = document.getElementById(id);
     if (!target) return;
     for (let at = target; at; at = at.parentElement) {
       if (at.tagName === "DETAILS") at.open = true;

@@ -46,9 +46,11 @@ fn row(source: &SuiteSource<'_>, case: &CaseOutcome) -> Html {
     let suite = Html::tag("a", &[("href", &format!("#{}", id(outcome)))], outcome.suite.as_str());
     let name = |content: Html| Html::tag("td", &[("class", "name")], content);
     let [order, error, transfers] = figures(case);
+    let basis = case.setting("basis").unwrap_or(case.subject);
+    let transfer = case.setting("transfer").unwrap_or("-");
     Html::tag(
         "tr",
-        &[],
+        &[("data-basis", basis), ("data-transfer", transfer), ("data-verdict", &case.verdict)],
         vec![
             name(suite),
             name(case_link(outcome, case, false)),
