@@ -92,7 +92,7 @@ pub fn diagnose(
         return Ok(None);
     }
     let formal_order = formal_order(plan, case);
-    let session = Session::new((&suite.name, source), case, formal_order, solver, budget);
+    let session = Session::new(&suite.name, source, case, formal_order, solver, budget);
     let all = only(plan, case, plan.refine.levels(Extent::Usual));
     let found = session.first(&all).map_err(|reason| with_cause(&session, &all, reason))?;
     // Levels that do not count have another error than the one that is judged.

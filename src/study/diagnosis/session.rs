@@ -38,7 +38,8 @@ pub(super) struct Session<'a> {
 impl<'a> Session<'a> {
     /// A session with `budget` (s) for changed runs.
     pub(super) fn new(
-        (suite, source): (&'a str, &'a Source),
+        suite: &'a str,
+        source: &'a Source,
         case: &'a Case,
         formal_order: f64,
         solver: Option<&'a dyn SolverFactory>,

@@ -33,8 +33,8 @@ pub fn sketch_svg(suite: &Suite) -> Option<String> {
     let title = format!("Scene of {}", suite.name);
     let mut svg = canvas((WIDTH, height), &title);
     svg.add(&grid(&view));
-    for (body, colour) in view.scene.each().iter().enumerate().zip(&colours) {
-        svg.add(&shape::draw(&view, body, colour));
+    for (k, (body, colour)) in view.scene.each().iter().zip(&colours).enumerate() {
+        svg.add(&shape::draw(&view, body, k + 1, colour));
     }
     for body in view.scene.each() {
         svg.add(&symbols::initial_velocity(&view, body));

@@ -84,7 +84,7 @@ impl Edge {
 }
 
 /// The first two components of the traction (Pa) of a load at a share of the way along its face.
-fn traction(view: &View, load: &ListedLoad, (face, share): (&SceneFace, f64), t: f64) -> Pt {
+fn traction(view: &View, load: &ListedLoad, face: &SceneFace, share: f64, t: f64) -> Pt {
     let scene = &view.scene;
     let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
     let [low, high] = ends(view, face, x);
@@ -149,7 +149,7 @@ pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
     for load in view.scene.loads_on(LoadTarget::Face(number)) {
         for share in edge.shares(ARROW_STEP) {
             let (tail, tip) =
-                edge.loaded(share, direction(|t| traction(view, load, (face, share), t)));
+                edge.loaded(share, direction(|t| traction(view, load, face, share, t)));
             group.add(&arrow(tail, tip, look(1).colour));
         }
     }
