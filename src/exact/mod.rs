@@ -42,7 +42,7 @@ pub use motion::{Derivatives, Motion, Places, variables};
 pub use outline::{Cut, Outline, Piece, Polygon, Round, join_small};
 pub use problem::Problem;
 pub use random::Random;
-pub use sum::{BodySum, SumDensity, SumPoint, SumRegion};
+pub use sum::{BodySum, SumDensity, SumError, SumPoint, SumRegion};
 pub use term::{Region, Term};
 pub use truth::Truth;
 pub use violation::Violation;

@@ -90,13 +90,32 @@ struct SumSite {
     weight: f64,
 }
 
+/// Why a sum over a body has no exact value to compare with. Each message continues a sentence that
+/// starts with the name of the sum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum SumError {
+    /// The sum is zero at all times, so that errors have no size to be relative to.
+    #[error("is zero throughout")]
+    Zero,
+    /// The maximum number of quadrature points does not reach the tolerance.
+    #[error(
+        "cannot be computed to {TOLERANCE:e}: the motion is not smooth enough to be integrated \
+         with {MOST_POINTS} points"
+    )]
+    NotConverged,
+}
+
 impl BodySum {
     /// The sum of `density` over a `region` of the body of `problem`, with as many points as it
     /// takes throughout the run.
     ///
     /// # Errors
-    /// If it is zero throughout, or if points do not help; in words that follow its name.
-    pub fn new(problem: &Problem, region: &SumRegion, density: SumDensity) -> Result<Self, String> {
+    /// The sum is zero throughout the run, or quadrature does not converge.
+    pub fn new(
+        problem: &Problem,
+        region: &SumRegion,
+        density: SumDensity,
+    ) -> Result<Self, SumError> {
         let bodies =
             if problem.bodies.is_empty() { vec![problem.clone()] } else { problem.bodies.clone() };
         let times: Vec<f64> = if problem.at_rest {
@@ -115,7 +134,7 @@ impl BodySum {
             let fine: Vec<ValueAndSize> = times.iter().map(|t| sum.with_size(*t)).collect();
             sum.size = fine.iter().map(|(_, size)| *size).fold(0.0, f64::max);
             if sum.size == 0.0 {
-                return Err("is zero throughout".to_owned());
+                return Err(SumError::Zero);
             }
             let change = |((a, _), (b, _)): (&ValueAndSize, &ValueAndSize)| {
                 (0..3).all(|i| (a[i] - b[i]).abs() <= TOLERANCE * sum.size)
@@ -125,10 +144,7 @@ impl BodySum {
             }
             coarse = fine;
         }
-        Err(format!(
-            "cannot be computed to {TOLERANCE:e}: the motion is not smooth enough to be integrated \
-             with {MOST_POINTS} points"
-        ))
+        Err(SumError::NotConverged)
     }
 
     /// Largest size of the sum during the run.
@@ -297,7 +313,7 @@ mod tests {
     fn what_is_not_known_is_refused(#[case] displacement: &str, #[case] reason: &str) {
         let problem = bar(displacement, fixed());
         let density = |point: &SumPoint<'_>| of_vector(point.momentum());
-        let found = BodySum::new(&problem, &SumRegion::Body, density).unwrap_err();
+        let found = BodySum::new(&problem, &SumRegion::Body, density).unwrap_err().to_string();
         assert!(found.starts_with(reason), "{found}");
     }
 }

@@ -42,5 +42,5 @@ pub use preflight::{Estimate, estimate, estimates, preflight, unit_seconds};
 pub use runner::Runner;
 pub use setup::body::effects;
 pub use setup::dispatch::subject;
-pub use shard::Shard;
+pub use shard::{Shard, ShardError};
 pub use time_series::SeriesFile;

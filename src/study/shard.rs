@@ -18,16 +18,21 @@ pub struct Shard {
     count: usize,
 }
 
-impl FromStr for Shard {
-    type Err = String;
+/// The text is not a number of a part and a count of parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("expected a number and a count, such as `2/5`, up to {MOST}")]
+pub struct ShardError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+impl FromStr for Shard {
+    type Err = ShardError;
+
+    fn from_str(text: &str) -> Result<Self, ShardError> {
         let parts = text.split_once('/').map(|(number, count)| (number.parse(), count.parse()));
         match parts {
             Some((Ok(number), Ok(count))) if (1..=count).contains(&number) && count <= MOST => {
                 Ok(Self { number, count })
             }
-            _ => Err(format!("expected a number and a count, such as `2/5`, up to {MOST}")),
+            _ => Err(ShardError),
         }
     }
 }

@@ -1,13 +1,12 @@
-//! Everything that the judge is told about a case besides its levels.
+//! Inputs of the judge for a case: formal order, error scale and judge plan.
 
-use super::error_scale::{error_scale, largest_exact};
-use super::formal_order::formal_order;
-use crate::exact::Truth;
-use crate::subject::Precision;
+use crate::exact::{Problem, Truth};
+use crate::mpm::SchemeName;
+use crate::subject::{Precision, Start};
 use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case, ConvergencePlan};
-use crate::verify::{Conserved, Expectation, JudgePlan, Quantity, RoundingSizes};
+use crate::verify::{Axis, Conserved, ErrorScale, Expectation, JudgePlan, Quantity, RoundingSizes};
 
 /// The plan by which a case is judged, whose errors are taken against `truth`.
 pub(super) fn judge_plan<'a>(
@@ -68,4 +67,144 @@ pub(super) fn rounding_sizes(
         _ => value,
     };
     Some(RoundingSizes { value, number, unit })
+}
+
+/// Order of the midpoint rule. Particles are the quadrature points of the weak form, but theory
+/// gives no order for them in general: integrands jump where a basis does, and the midpoint rule
+/// holds only as long as particles stay in the middle of their parts of the body (Steffen, Kirby &
+/// Berzins 2008, Int. J. Numer. Meth. Engng 76, 922). The judge uses it to tell floors, and as the
+/// centre of the expected interval of a suite that gives no `order`.
+const MIDPOINT: f64 = 2.0;
+
+/// Share of the largest velocity (or acceleration) above which a motion starts with one.
+const AT_REST: f64 = 1e-9;
+
+/// The order of the displacement error.
+pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
+    match plan.refine.axis {
+        Axis::Space => case.method.formal_order(),
+        Axis::Time => in_time(case.method, plan.exact.as_ref()),
+        Axis::Particles => MIDPOINT,
+    }
+}
+
+/// Euler-Cromer is a leapfrog, of order 2, if it starts as one: with `v(-dt/2)`. `v(0)` in its
+/// place is a push of `dt/2 a(0)`, and order 1 unless a(0) = 0. USF adds `dt grad v` of the first
+/// velocity to F before anything has moved: order 1 unless v(0) = 0. (That USL and USF keep terms
+/// of first order, of h^2 and of the strain squared, is for suites to say: temporal-order.) Where
+/// no formula tells, neither is taken as zero.
+pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
+    let (start, updates_first) = match method {
+        Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),
+        Method::Fem { start, .. } => (start, false),
+        // Forward Euler.
+        Method::Heat { .. } => return 1.0,
+        // What is told of such a solver is its order in space: none in time is known.
+        Method::External { formal_order, .. } => return formal_order,
+    };
+    let [moves, accelerates] = exact.map_or([true, true], begins);
+    let pushed = start == Start::AtZero && accelerates;
+    if pushed || (updates_first && moves) { 1.0 } else { 2.0 }
+}
+
+/// Whether the motion begins with a velocity, and with an acceleration.
+fn begins(problem: &Problem) -> [bool; 2] {
+    const PER_AXIS: usize = 9;
+    let d = problem.dimension();
+    let label = |point: usize| -> Vec<f64> {
+        let along = |axis: usize| {
+            let index = point / PER_AXIS.pow(axis as u32) % PER_AXIS;
+            let share = (index as f64 + 0.5) / PER_AXIS as f64;
+            problem.from[axis] + (problem.to[axis] - problem.from[axis]) * share
+        };
+        (0..d).map(along).collect()
+    };
+    let largest = |t: f64| {
+        let mut largest = [0.0_f64; 2];
+        for point in 0..PER_AXIS.pow(d as u32) {
+            let now = problem.motion.derivatives(&label(point), t);
+            for (most, field) in largest.iter_mut().zip([now.velocity, now.acceleration]) {
+                *most = field.iter().fold(*most, |a, b| a.max(b.abs()));
+            }
+        }
+        largest
+    };
+    let first = largest(0.0);
+    let mut ever = first;
+    for k in 1..=PER_AXIS {
+        let later = largest(problem.until * k as f64 / PER_AXIS as f64);
+        ever = [ever[0].max(later[0]), ever[1].max(later[1])];
+    }
+    [first[0] > AT_REST * ever[0], first[1] > AT_REST * ever[1]]
+}
+
+/// Intervals of the sampling raster along each axis and in time, in 1-D and 2-D, and in 3-D, where
+/// it has many points. Even numbers, so that the middle is a point.
+const FINE: usize = 20;
+const COARSE: usize = 8;
+
+/// The error scale of `case`, whose errors are taken against `truth`.
+pub(crate) fn error_scale(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
+    ErrorScale {
+        problem: format!("until t = {} s, against {}", case.until, case.against.words()),
+        size: size(plan, case, truth),
+        growth: growth(plan),
+    }
+}
+
+fn size(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
+    if case.against == Against::Nothing {
+        return f64::NAN;
+    }
+    if plan.scale.is_some() {
+        return 1.0;
+    }
+    largest_exact(plan, case, truth)
+}
+
+/// Largest exact value of the judged quantity over the body and the run.
+pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
+    // Shorter steps know their own labels only; a formula of the same motion knows every place.
+    let formula = plan.exact.as_ref().map(|exact| exact as &dyn Truth);
+    let is_same = matches!(case.against, Against::SameMethod(_));
+    let truth = if is_same { formula.unwrap_or(truth) } else { truth };
+    let per_axis = if plan.scene.dimension() == 3 { COARSE } else { FINE };
+    let at_rest = plan.exact.as_ref().is_some_and(|exact| exact.at_rest);
+    let share = |k: usize| case.until * (k as f64 / per_axis as f64);
+    let times: Vec<f64> =
+        if at_rest { vec![case.until] } else { (0..=per_axis).map(share).collect() };
+    plan.of.largest_exact(truth, &places(plan, per_axis), &times)
+}
+
+/// A raster of the body, faces included.
+fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
+    let scene = &plan.scene;
+    let place = |index: usize| -> Vec<f64> {
+        let along = |axis: usize| {
+            let k = index / (per_axis + 1).pow(axis as u32) % (per_axis + 1);
+            scene.from[axis] + (scene.to[axis] - scene.from[axis]) * (k as f64 / per_axis as f64)
+        };
+        (0..scene.dimension()).map(along).collect()
+    };
+    let inside = |place: &Vec<f64>| plan.exact.as_ref().is_none_or(|exact| exact.holds(place));
+    (0..(per_axis + 1).pow(scene.dimension() as u32)).map(place).filter(inside).collect()
+}
+
+/// Powers of one over the spacing by which work grows in theory. The rule of the time step is read
+/// off the levels, so that it may be any formula.
+fn growth(plan: &ConvergencePlan) -> f64 {
+    let d = plan.scene.dimension() as f64;
+    let levels = &plan.refine.levels;
+    let steps = match (levels.first(), levels.last()) {
+        (Some(first), Some(last)) if last.h < first.h => {
+            libm::log(first.dt / last.dt) / libm::log(first.h / last.h)
+        }
+        _ => 0.0,
+    };
+    match plan.refine.axis {
+        Axis::Space => d + steps,
+        Axis::Time => 1.0,
+        // Particles fill the body, the more the closer they are.
+        Axis::Particles => d,
+    }
 }

@@ -1,11 +1,27 @@
-//! A truth that is computed: FEM on a mesh much finer than any level.
+//! Computed reference solutions, for suites without an exact solution.
+//!
+//! `Reference` is a FEM solution on a mesh much finer than any level. `FineGrid` serves studies in
+//! space, in any dimension: the method itself on a grid much finer than any level. The reference
+//! configuration of its particles is a lattice, on which the motion is interpolated wherever the
+//! particles have moved. `FineSteps` serves studies in time: the method itself on the same grid, with
+//! steps so short that the result is the limit dt -> 0 of the equations that are discrete in space.
+//!
+//! `FineSteps` separates the error of the time step from that of the grid. At the Courant limit of a
+//! body the error of the grid is larger and would hide that of the step. Methods that filter the
+//! velocity in every step (PIC, APIC) have no such limit. Neither `FineGrid` nor `FineSteps` checks
+//! that the limit of the method is right: suites with exact solutions do.
 
 use crate::exact::Truth;
 use crate::fem::Bar;
 use crate::study::setup::bar::{bar, reference_method};
-use crate::subject::Subject;
-use crate::suite::model::{Against, ConvergencePlan};
+use crate::study::setup::dispatch::subject;
+use crate::subject::{Samples, Start, Subject};
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::model::{Against, Case, ConvergencePlan};
 use crate::suite::scene::grid_size::cell_size;
+use crate::verify::error::lagrange;
+use std::cmp::Ordering;
 
 /// Displacement and velocity of a fine bar, kept at every instant of the study. Only asked at
 /// instants, so nothing is interpolated in time.
@@ -71,5 +87,253 @@ impl Truth for Reference {
 
     fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]) {
         into[0] = self.interpolate(|states| &states.1, label[0], t);
+    }
+}
+
+/// Points on each axis that take part in an interpolation: of order 6, above that of any method.
+const NEAR: usize = 6;
+
+/// Displacement and velocity of a lattice of particles at the start and at every instant.
+pub(crate) struct FineGrid {
+    until: f64,
+    lattice: Lattice,
+    states: Vec<(Vec<f64>, Vec<f64>)>,
+}
+
+impl FineGrid {
+    /// Runs the method of `case` on `level`, starting half a step back.
+    ///
+    /// # Errors
+    /// One line that says why that was not possible.
+    pub(crate) fn compute(
+        plan: &ConvergencePlan,
+        case: &Case,
+        level: LevelPlan,
+    ) -> Result<Self, String> {
+        let mut states = Vec::new();
+        let end = run(plan, case, level, |now| {
+            states.push((now.displacement.clone(), now.velocity.clone()));
+        })?;
+        let lattice = Lattice::of(&end.label, end.dimension);
+        let lattice = lattice.ok_or("reference: its particles are no lattice")?;
+        Ok(Self { until: case.until, lattice, states })
+    }
+
+    fn state(&self, t: f64) -> &(Vec<f64>, Vec<f64>) {
+        &self.states[nearest_instant(t, self.until, self.states.len())]
+    }
+}
+
+impl Truth for FineGrid {
+    fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
+        self.lattice.interpolate(&self.state(t).0, label, into);
+    }
+
+    fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]) {
+        self.lattice.interpolate(&self.state(t).1, label, into);
+    }
+}
+
+/// Points at all combinations of coordinates.
+struct Lattice {
+    /// Coordinates on each axis, ascending.
+    axes: Vec<Vec<f64>>,
+    /// Index of the particle at each point, the first axis fastest.
+    particles: Vec<usize>,
+}
+
+impl Lattice {
+    /// The lattice that `labels` are, `d` numbers each, in any order; `None` if they are none.
+    fn of(labels: &[f64], d: usize) -> Option<Self> {
+        let axis = |axis: usize| {
+            let mut all: Vec<f64> = labels.iter().skip(axis).step_by(d).copied().collect();
+            all.sort_by(f64::total_cmp);
+            all.dedup();
+            all
+        };
+        let axes: Vec<Vec<f64>> = (0..d).map(axis).collect();
+        let points = axes.iter().try_fold(1_usize, |points, all| points.checked_mul(all.len()))?;
+        if points == 0 || points * d != labels.len() {
+            return None;
+        }
+        let mut particles = vec![None; points];
+        for (p, label) in labels.chunks_exact(d).enumerate() {
+            let along = axes.iter().zip(label).rev();
+            let point = along.fold(0, |point, (all, x)| {
+                point * all.len() + all.partition_point(|known| known < x)
+            });
+            particles[point] = Some(p);
+        }
+        Some(Self { axes, particles: particles.into_iter().collect::<Option<_>>()? })
+    }
+
+    /// The value at `label` of a field that has one number for each axis at each particle.
+    fn interpolate(&self, field: &[f64], label: &[f64], into: &mut [f64]) {
+        let along = self.axes.iter().zip(label);
+        let near: Vec<_> = along.map(|(all, x)| lagrange::weights(all, *x, NEAR)).collect();
+        into.fill(0.0);
+        for k in 0..near.iter().map(|(_, weights)| weights.len()).product() {
+            let (mut rest, mut stride, mut point, mut weight) = (k, 1, 0, 1.0);
+            for ((first, weights), all) in near.iter().zip(&self.axes) {
+                let i = rest % weights.len();
+                rest /= weights.len();
+                point += (first + i) * stride;
+                stride *= all.len();
+                weight *= weights[i];
+            }
+            let start = self.particles[point] * into.len();
+            for (sum, value) in into.iter_mut().zip(&field[start..]) {
+                *sum += weight * value;
+            }
+        }
+    }
+}
+
+/// Displacement and velocity of every label of a method at every instant.
+pub(crate) struct FineSteps {
+    until: f64,
+    dimension: usize,
+    /// Indices of the labels, sorted by position.
+    order: Vec<usize>,
+    /// The start, and every instant.
+    states: Vec<Samples>,
+}
+
+impl FineSteps {
+    /// Runs the method of `case` with steps of `dt` (s), starting half a step back.
+    ///
+    /// # Errors
+    /// One line that says why that was not possible.
+    pub(crate) fn compute(plan: &ConvergencePlan, case: &Case, dt: f64) -> Result<Self, String> {
+        let level = plan.refine.levels.first().ok_or("no level")?;
+        let mut states = Vec::new();
+        let level = LevelPlan { dt, ..*level };
+        let now = run(plan, case, level, |now| states.push(now.clone()))?;
+        let mut order: Vec<usize> = (0..now.len()).collect();
+        order.sort_by(|a, b| compare(label(&now, *a), label(&now, *b)));
+        Ok(Self { until: case.until, dimension: now.dimension, order, states })
+    }
+
+    /// The numbers of `field` at `wanted` at the instant nearest to `t`; NaN where there is no such
+    /// label.
+    fn find(&self, field: fn(&Samples) -> &[f64], wanted: &[f64], t: f64, into: &mut [f64]) {
+        let samples = &self.states[nearest_instant(t, self.until, self.states.len())];
+        match self.order.binary_search_by(|p| compare(label(samples, *p), wanted)) {
+            Ok(found) => {
+                into.copy_from_slice(row(field(samples), self.dimension, self.order[found]));
+            }
+            Err(_) => into.fill(f64::NAN),
+        }
+    }
+}
+
+/// Runs the method of `case` on `level`, starting half a step back, and shows the start and every
+/// instant. Returns what is seen at the end.
+///
+/// # Errors
+/// One line that says why that was not possible.
+pub(crate) fn run(
+    plan: &ConvergencePlan,
+    case: &Case,
+    level: LevelPlan,
+    mut show: impl FnMut(&Samples),
+) -> Result<Samples, String> {
+    let mut subject = subject(plan, second_order(case.method), level)?;
+    let clock = case.clock(plan, level.dt).ok_or("dt makes no sense")?;
+    let mut now = Samples::default();
+    subject.sample(&mut now);
+    show(&now);
+    for step in 1..=clock.steps {
+        subject.step(clock.dt()).map_err(|failure| format!("reference: {failure}"))?;
+        if clock.is_instant(step) {
+            subject.sample(&mut now);
+            show(&now);
+        }
+    }
+    Ok(now)
+}
+
+fn row(field: &[f64], dimension: usize, p: usize) -> &[f64] {
+    &field[p * dimension..(p + 1) * dimension]
+}
+
+fn label(samples: &Samples, p: usize) -> &[f64] {
+    row(&samples.label, samples.dimension, p)
+}
+
+fn compare(a: &[f64], b: &[f64]) -> Ordering {
+    let unequal = a.iter().zip(b).map(|(a, b)| a.total_cmp(b)).find(|order| order.is_ne());
+    unequal.unwrap_or_else(|| a.len().cmp(&b.len()))
+}
+
+/// The method with the start that is of second order.
+fn second_order(mut method: Method) -> Method {
+    match &mut method {
+        Method::Mpm { start, .. } | Method::Fem { start, .. } => *start = Start::HalfStepBack,
+        Method::Heat { .. } | Method::External { .. } => {}
+    }
+    method
+}
+
+impl Truth for FineSteps {
+    fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
+        self.find(|samples| &samples.displacement, label, t, into);
+    }
+
+    fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]) {
+        self.find(|samples| &samples.velocity, label, t, into);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// A lattice of seven, three and two points (as far as `d` goes), in no order.
+    fn labels(d: usize) -> Vec<f64> {
+        let counts = &[7, 3, 2][..d];
+        let points: usize = counts.iter().product();
+        let point = |k: usize| {
+            let mut rest = k * 5 % points;
+            counts.iter().map(move |count| {
+                let i = rest % count;
+                rest /= count;
+                (i as f64 + 0.5) / *count as f64
+            })
+        };
+        (0..points).flat_map(point).collect()
+    }
+
+    /// Of degree 5, 2 and 1 along the axes: what their points determine.
+    fn field(label: &[f64]) -> Vec<f64> {
+        let degrees = [5.0, 2.0, 1.0];
+        let product: f64 = label.iter().zip(degrees).map(|(x, n)| 1.0 - libm::pow(*x, n)).product();
+        label.iter().map(|x| product - 2.0 * x).collect()
+    }
+
+    #[rstest]
+    fn a_motion_is_interpolated_axis_by_axis(
+        #[values(1, 2, 3)] d: usize,
+        #[values([0.3, 0.6, 0.4], [0.02, 0.1, 0.9], [0.5, 0.5, 0.25], [1.0, 0.0, 1.0])] at: [f64;
+            3],
+    ) {
+        let labels = labels(d);
+        let values: Vec<f64> = labels.chunks(d).flat_map(field).collect();
+        let mut found = vec![f64::NAN; d];
+        Lattice::of(&labels, d).unwrap().interpolate(&values, &at[..d], &mut found);
+        for (found, expected) in found.iter().zip(field(&at[..d])) {
+            assert_relative_eq!(*found, expected, max_relative = 1e-12, epsilon = 1e-12);
+        }
+    }
+
+    #[rstest]
+    #[case::nothing(&[], 2)]
+    #[case::one_is_missing(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0], 2)]
+    #[case::one_is_there_twice(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0], 2)]
+    #[case::one_is_off(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.1], 2)]
+    fn what_is_no_lattice(#[case] labels: &[f64], #[case] d: usize) {
+        assert!(Lattice::of(labels, d).is_none());
     }
 }

@@ -1,12 +1,12 @@
 //! Running a convergence study: every level of every case, judged.
 
-use super::described::{described, not_applicable, refused};
-use super::fine_grid_reference::FineGrid;
 use super::judge_plan::{judge_plan, rounding_sizes};
+use super::reference::FineGrid;
+use super::reference::FineSteps;
 use super::reference::Reference;
-use super::small_step_reference::FineSteps;
-use super::stable_step::StableSteps;
 use super::statement;
+use super::statement::{described, not_applicable, refused};
+use super::time_steps::StableSteps;
 use crate::exact::{Problem, Truth};
 use crate::external::ProblemNeeds;
 use crate::study::describe::profiles;

@@ -1,21 +1,21 @@
-//! A convergence study in rows of name and value.
+//! The rows that state a convergence study, and outcomes of cases that have not run.
 
-use crate::study::describe::heat;
+use crate::exact::heat::Conduction;
+use crate::study::describe::profiles;
 use crate::study::describe::statement::{Rows, push, scene, stated};
-use crate::study::exact_motion;
-use crate::study::exact_motion::amplitude;
+use crate::study::exact_motion::{self, amplitude};
 use crate::suite::compile::truth::conservation_only;
 use crate::suite::evaluator::shown;
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
 use crate::suite::model::{Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
-use crate::verify::Axis;
+use crate::verify::{self, Axis, CaseOutcome, Expectation, Gating};
 
 /// Rows of the whole study.
 pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     let mut rows = Rows::new();
     scene(&plan.scene, &mut rows);
-    rows.extend(heat::truth(plan));
+    rows.extend(exact_temperature(plan));
     if let Some(problem) = &plan.exact {
         if problem.manufactured {
             push(&mut rows, "motion", &problem.motion.source());
@@ -47,6 +47,19 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     }
     push(&mut rows, "crossing levels", plan.crossing_levels.name());
     rows
+}
+
+/// Rows that state the exact temperature; none without a heat problem.
+fn exact_temperature(plan: &ConvergencePlan) -> Vec<(String, String)> {
+    let Some(problem) = plan.heat_problem() else { return Vec::new() };
+    let Conduction { temperature, manufactured, motion, .. } = problem;
+    let flow = if motion.is_some() { "J C^-1 Grad T" } else { "Grad T" };
+    let mut rows = vec![("temperature", temperature.source().to_owned())];
+    if *manufactured {
+        rows.push(("heat source", format!("manufactured, s = c T_t - Div(k {flow})/rho0")));
+    }
+    rows.push(("heat equation", format!("rho0 c T_t = Div(k {flow}) + rho0 s")));
+    rows.into_iter().map(|(key, text)| (key.to_owned(), text)).collect()
 }
 
 fn same_method(same: SameMethod, refine: &RefinePlan) -> String {
@@ -141,4 +154,60 @@ pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
     push(&mut rows, "until", &format!("t = {} s", stated(case.until)));
     push(&mut rows, "against", case.against.words());
     rows
+}
+
+/// The part of an outcome that is known before the case runs.
+pub(crate) fn described(
+    plan: &ConvergencePlan,
+    case: &Case,
+    expectation: Option<&Expectation>,
+) -> CaseOutcome {
+    let expected = expectation
+        .map(|expectation| (expectation.summary(), expectation.because.clone()))
+        .or_else(|| match &case.gating {
+            Some(Gating::Required(required)) => {
+                Some((required.summary(), required.because.clone()))
+            }
+            _ => None,
+        });
+    let (expected, because) = expected.unzip();
+    CaseOutcome {
+        case: case.name.clone(),
+        subject: case.method.subject(),
+        settings: settings(plan, case),
+        profile: profiles::of(plan, case),
+        expected,
+        because: because.unwrap_or_default(),
+        verdict: String::new(),
+        reason: String::new(),
+        unmet: Vec::new(),
+        lacks: Vec::new(),
+        exemption: None,
+        study: None,
+    }
+}
+
+/// The outcome of a case that its solver cannot be put to.
+pub(crate) fn not_applicable(
+    plan: &ConvergencePlan,
+    case: &Case,
+    lacks: Vec<String>,
+    verb: &str,
+) -> CaseOutcome {
+    described(plan, case, None).not_applicable(lacks, verb)
+}
+
+/// The outcome of a case that could not be set up.
+pub(crate) fn refused(
+    plan: &ConvergencePlan,
+    case: &Case,
+    expectation: Option<&Expectation>,
+    reason: String,
+) -> CaseOutcome {
+    CaseOutcome {
+        verdict: verify::Verdict::Failed.to_string(),
+        unmet: vec![format!("the case could not be run: {reason}")],
+        reason,
+        ..described(plan, case, expectation)
+    }
 }

@@ -59,7 +59,7 @@ pub fn best_candidate(suite: &Suite, budget: f64) -> Result<BestCandidate, Strin
         let best = (0..open.len()).min_by(|a, b| most(&open[*a]).total_cmp(&most(&open[*b])));
         let best = open.swap_remove(best.ok_or_else(none)?);
         if let (model, Some(fitted)) = best.model {
-            return best.run(suite, (model, fitted), budget, ranking.size);
+            return best.run(suite, model, fitted, budget, ranking.size);
         }
         let (candidate, runs) = best.candidate.judged_within(suite, budget)?;
         let fitted = &runs[runs.len().saturating_sub(FITTED)..];
@@ -88,7 +88,8 @@ impl Setting {
     fn run(
         self,
         suite: &Suite,
-        (model, fitted): (Model, usize),
+        model: Model,
+        fitted: usize,
         budget: f64,
         size: f64,
     ) -> Result<BestCandidate, String> {

@@ -1,6 +1,5 @@
 //! The rows of name and value that state a problem.
 
-pub(crate) mod heat;
 pub mod profiles;
 pub mod sketch;
 pub(crate) mod statement;

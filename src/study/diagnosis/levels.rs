@@ -1,9 +1,9 @@
 //! Levels that are too coarse for the exact solution, a body that nothing brings to rest, and
 //! errors of the size of the solution.
 
-use super::jumps::sizes;
+use super::regularity::sizes;
 use super::session::Known;
-use crate::study::convergence::error_scale::largest_exact;
+use crate::study::convergence::judge_plan::largest_exact;
 use crate::study::exact_motion::Extremes;
 use crate::study::preflight::undamped;
 use crate::suite::model::method::Method;

@@ -1,14 +1,12 @@
 //! Why a case does not have the order of theory.
 //!
 //! ```text
-//! session        runs of one case, and their budget
+//! session        runs of one case within a budget, and whether `check` accepts a remedy
 //! steps          steps longer than the stable step
 //! walls          particles outside the grid, and walls that move
 //! levels         levels that are too coarse; an equilibrium without damping
-//! jumps          jumps of the exact solution, and its length scale
-//! regularity     the order that an exact solution with kinks allows
+//! regularity     jumps of the exact solution, its length scale, and the order that it allows
 //! probes         changes of the problem, the levels or the method, one at a time
-//! remedy         the suite with a remedy in it, as `check` accepts or refuses it
 //! ```
 //!
 //! The finest levels run again with one thing changed at a time. A change is the cause if it
@@ -16,24 +14,20 @@
 //! The `because` texts of the suite are not read. (One factor at a time, as the isolating runs of
 //! Roy 2005, J. Comput. Phys. 205, 131.)
 
-mod jumps;
 mod levels;
-mod method_probes;
 mod probes;
 mod regularity;
-mod remedy;
 mod session;
 mod steps;
 mod walls;
 
-use self::method_probes::{DOMAINS, FRAME, GRADIENTS, MASS, SCHEME, SMOOTH_BASIS, START};
 use self::probes::{
-    ALIGNMENT, AMPLITUDE, CELLS, Crossings, DURATION, FORMULA, PARTICLES, ProbeKind, REFERENCE,
-    STEP,
+    ALIGNMENT, AMPLITUDE, CELLS, Crossings, DOMAINS, DURATION, FORMULA, FRAME, GRADIENTS, MASS,
+    PARTICLES, ProbeKind, REFERENCE, SCHEME, SMOOTH_BASIS, START, STEP,
 };
-use self::session::{Known, Session, only};
+use self::session::{Known, Session, only, refusal};
 use crate::external::SolverFactory;
-use crate::study::convergence::formal_order::formal_order;
+use crate::study::convergence::judge_plan::formal_order;
 use crate::suite::compile::suite::with_amplitude;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::Extent;
@@ -98,9 +92,9 @@ pub fn diagnose(
         return Ok(None);
     }
     let formal_order = formal_order(plan, case);
-    let session = Session::new((&suite.name, source), case, formal_order, solver, budget);
+    let session = Session::new(&suite.name, source, case, formal_order, solver, budget);
     let all = only(plan, case, plan.refine.levels(Extent::Usual));
-    let found = session.first(&all).map_err(|reason| refusal(&session, &all, reason))?;
+    let found = session.first(&all).map_err(|reason| with_cause(&session, &all, reason))?;
     // Levels that do not count have another error than the one that is judged.
     let end = found.levels.iter().rposition(|level| level.usable).map_or(0, |last| last + 1);
     let range = end.saturating_sub(LEVELS)..end;
@@ -139,7 +133,7 @@ pub fn diagnose(
 }
 
 /// Why a case cannot be run, with the cause where that is known.
-fn refusal(session: &Session<'_>, plan: &ConvergencePlan, reason: String) -> String {
+fn with_cause(session: &Session<'_>, plan: &ConvergencePlan, reason: String) -> String {
     let lost = |level| walls::particle_on_wall(session, plan, level);
     let Some(finding) = plan.refine.levels.iter().copied().find_map(lost) else { return reason };
     let remedy = finding.remedy.map_or(String::new(), |remedy| format!("; remedy: {remedy}"));
@@ -218,7 +212,7 @@ fn check_remedy(session: &Session<'_>, finest: &ConvergencePlan, diagnosis: &mut
     let Some(change) = diagnosis.found().map(|(run, _)| run.change.clone()) else { return };
     let kind = PROBES.into_iter().find(|kind| kind.change == change);
     let Some(plan) = kind.and_then(|kind| (kind.apply)(finest)) else { return };
-    let refusal = remedy::refusal(session.source, finest, &plan);
+    let refusal = refusal(session.source, finest, &plan);
     if let Some(run) = diagnosis.runs.iter_mut().find(|run| run.change == change) {
         run.refusal = refusal;
     }

@@ -1,7 +1,6 @@
 //! Time steps longer than the stable step, on all levels or on some.
 
-use super::remedy;
-use super::session::{Known, only};
+use super::session::{Known, accepts_step, only};
 use crate::study::exact_motion::Extremes;
 use crate::suite::grammar::StepSpec;
 use crate::suite::model::ConvergencePlan;
@@ -136,12 +135,12 @@ fn remedy(known: &Known<'_>) -> String {
     if known.plan.refine.axis == Axis::Time {
         return "leave out the levels with these steps".to_owned();
     }
-    if remedy::accepts_step(source, StepSpec::Courant(NumberText::Number(OF_PREDICTED))) {
+    if accepts_step(source, StepSpec::Courant(NumberText::Number(OF_PREDICTED))) {
         return "`dt: {courant: 0.5}`, half of the stable step on every level".to_owned();
     }
     let formula = format!("{CAUTIOUS}*h/{:e}", known.plan.scene.fastest_wave());
     let step = StepSpec::Length(NumberText::Formula(formula.clone()));
-    if remedy::accepts_step(source, step) {
+    if accepts_step(source, step) {
         return format!("`dt: \"{formula}\"`, which follows the cells");
     }
     "shorter steps on these levels".to_owned()

@@ -1,7 +1,6 @@
 //! Particles that leave the grid, and walls that leave their place.
 
-use super::remedy;
-use super::session::{Known, Session, only};
+use super::session::{Known, Session, accepts_grid, only, refusal};
 use crate::exact::Problem;
 use crate::mpm::FrameName;
 use crate::study::exact_motion::Extremes;
@@ -97,7 +96,7 @@ fn follows_in_total_frame(known: &Known<'_>) -> bool {
     *frame = FrameName::Total;
     let finest = plan.refine.levels.len().saturating_sub(1)..;
     let changed = only(plan, &case, &plan.refine.levels[finest]);
-    let accepted = remedy::refusal(session.source, plan, &only(plan, &case, &plan.refine.levels));
+    let accepted = refusal(session.source, plan, &only(plan, &case, &plan.refine.levels));
     let run = accepted.is_none().then(|| session.changed("`frame: total_lagrangian`", &changed));
     let after = run.flatten().and_then(|found| found.levels.last().map(|level| level.error));
     let before = known.levels.last().map_or(f64::NAN, |level| level.error);
@@ -133,7 +132,7 @@ fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<KnownCause> {
         })
         .collect();
     let (from, to): (Vec<f64>, Vec<f64>) = larger.into_iter().unzip();
-    let is_accepted = remedy::accepts_grid(known.session.source, &from, &to);
+    let is_accepted = accepts_grid(known.session.source, &from, &to);
     let grid = if is_accepted { "a larger `grid` in `scene`, or " } else { "" };
     Some(KnownCause {
         kind: KnownCauseKind::OutsideGrid,

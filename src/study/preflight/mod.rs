@@ -2,15 +2,11 @@
 //!
 //! ```text
 //! subject      the study, and places in its file
-//! levels       levels that can count for an order
+//! grid         levels that can count for an order, a motion that leaves the grid, and a box whose
+//!              last particles start on nodes, with linear functions
 //! time_step    steps beyond the stable one, and steps that do not follow the cells
-//! reach        a motion that leaves the grid
-//! strain       a solution of small strain or of a linearised law, and where its error shows
-//! precision    a solver that computes in single precision
-//! floor        an error that no refinement lowers, and where it shows
-//! linearised   a tolerance for a linearised solution that is larger than it needs
+//! error_floor  errors that no refinement lowers: small strain, single precision, linearised laws
 //! alignment    interfaces and loaded faces inside a cell
-//! end_on_node  a box whose last particles start on nodes, with linear functions
 //! undamped     an equilibrium in which nothing removes energy
 //! cost         seconds and memory
 //! ```
@@ -21,13 +17,8 @@
 
 pub(crate) mod alignment;
 pub(crate) mod cost;
-pub(crate) mod end_on_node;
-pub(crate) mod floor;
-pub(crate) mod levels;
-pub(crate) mod linearised;
-pub(crate) mod precision;
-pub(crate) mod reach;
-pub(crate) mod strain;
+pub(crate) mod error_floor;
+pub(crate) mod grid;
 pub(crate) mod subject;
 pub(crate) mod time_step;
 pub(crate) mod undamped;
@@ -45,18 +36,18 @@ type PreflightRule = fn(&Preflight<'_>) -> Vec<Diagnostic>;
 
 /// Rules of suites that claim an order, with the names under which suites acknowledge them.
 const RULES_OF_ORDER: [(WarningName, PreflightRule); 6] = [
-    (WarningName::FewLevels, levels::check),
+    (WarningName::FewLevels, grid::few_levels),
     (WarningName::TimeStep, time_step::check),
-    (WarningName::LeavesGrid, reach::check),
-    (WarningName::SmallStrain, strain::check),
-    (WarningName::SinglePrecision, precision::check),
+    (WarningName::LeavesGrid, grid::leaves_grid),
+    (WarningName::SmallStrain, error_floor::small_strain),
+    (WarningName::SinglePrecision, error_floor::single_precision),
     (WarningName::InsideCell, alignment::check),
 ];
 
 /// Rules of all suites, with their names.
 const RULES: [(WarningName, PreflightRule); 3] = [
-    (WarningName::LooseTolerance, linearised::check),
-    (WarningName::EndOnNode, end_on_node::check),
+    (WarningName::LooseTolerance, error_floor::loose_tolerance),
+    (WarningName::EndOnNode, grid::end_on_node),
     (WarningName::Undamped, undamped::check),
 ];
 

@@ -1,7 +1,7 @@
 //! Time steps beyond the stable one, and steps that do not follow the cells.
 
 use super::subject::Preflight;
-use crate::study::convergence::formal_order::in_time;
+use crate::study::convergence::judge_plan::in_time;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::yaml::locate::Path;

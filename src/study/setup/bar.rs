@@ -57,13 +57,13 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
                 forcing.at(t, values, |force| force[0]);
             }
         }
-        add_stated(&stated, t, (places, u), values);
+        add_stated(&stated, t, places, u, values);
     }))
 }
 
 /// Adds the stated forces (m/s2) at each place with its displacement `u` (m); those that are
 /// uniform are computed once.
-fn add_stated(loads: &[ListedLoad], t: f64, (places, u): (&[f64], &[f64]), values: &mut [f64]) {
+fn add_stated(loads: &[ListedLoad], t: f64, places: &[f64], u: &[f64], values: &mut [f64]) {
     for load in loads.iter().filter(|load| load.is_uniform()) {
         let everywhere = load.stated(0, &[], t, &[0.0; 3]);
         for value in &mut *values {

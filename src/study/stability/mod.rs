@@ -3,5 +3,3 @@
 mod handed;
 pub(crate) mod run;
 pub(crate) mod runner;
-mod start;
-pub(crate) mod statement;

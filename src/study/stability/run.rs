@@ -1,8 +1,8 @@
 //! One case of a stability study: runs, predictions and limits, row by row.
 
 use super::handed;
-use super::start::{bodies, perturb};
-use crate::study::convergence::stable_step::ROUNDS;
+use super::handed::{bodies, perturb};
+use crate::study::convergence::time_steps::ROUNDS;
 use crate::study::kind::{RunContext, ShownRun};
 use crate::study::setup::body::Body;
 use crate::study::setup::dispatch::{perturbable, stable_time_step_of};

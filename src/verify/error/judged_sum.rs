@@ -27,11 +27,12 @@ impl JudgedSum {
             ComputedSum::OfTotals(_) => SumRegion::Body,
             ComputedSum::Reaction => SumRegion::Faces(walls.to_vec()),
         };
+        let exact = BodySum::new(problem, &region, density).map_err(|error| error.to_string())?;
         let face = match walls {
             [one] => problem.faces.get(*one).map(|face| (face.axis, face.high)),
             _ => None,
         };
-        Ok(Self { of, exact: BodySum::new(problem, &region, density)?, face })
+        Ok(Self { of, exact, face })
     }
 
     /// Largest size of the exact sum during the run, which errors are relative to.

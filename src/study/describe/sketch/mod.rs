@@ -3,10 +3,9 @@
 //! Symbols are the customary ones (hatching for a fixed face, rollers, arrows for loads). What a
 //! picture cannot say stands below it in the words of reports.
 
-mod arrows;
-mod face;
 mod shape;
 mod svg;
+mod symbols;
 mod text;
 mod view;
 

@@ -49,8 +49,8 @@ pub(super) fn colours(scene: &Scene) -> Vec<&'static str> {
     scene.each().iter().map(&mut colour).collect()
 }
 
-/// A body with its holes; its number where there are several.
-pub(super) fn draw(view: &View, (index, body): (usize, &Scene), colour: &str) -> SvgElement {
+/// A body with its holes. In a scene of several bodies it is labelled `number_of_body`.
+pub(super) fn draw(view: &View, body: &Scene, number_of_body: usize, colour: &str) -> SvgElement {
     let mut path = String::new();
     let rims = rims(view, body);
     for rim in &rims {
@@ -67,7 +67,7 @@ pub(super) fn draw(view: &View, (index, body): (usize, &Scene), colour: &str) ->
     if view.scene.bodies.len() > 1 {
         let (low, high) = view.rise(body);
         let (x, y) = view.place((0.5 * (body.from[0] + body.to[0]), 0.5 * (low + high)));
-        let name = SvgElement::text((x, y + 4.0), "middle", &(index + 1).to_string());
+        let name = SvgElement::text((x, y + 4.0), "middle", &number_of_body.to_string());
         group.add(&name.set("font-weight", "bold"));
     }
     group

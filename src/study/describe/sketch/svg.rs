@@ -1,7 +1,7 @@
 //! The sketch as an SVG document.
 
 use super::view::View;
-use super::{arrows, face, shape};
+use super::{shape, symbols};
 use crate::report::figure::plot::canvas::canvas;
 use crate::report::figure::plot::style::{GRID, INK, NEUTRAL, TEXT, WIDTH};
 use crate::report::figure::plot::svg::{Pt, SvgElement};
@@ -33,19 +33,19 @@ pub fn sketch_svg(suite: &Suite) -> Option<String> {
     let title = format!("Scene of {}", suite.name);
     let mut svg = canvas((WIDTH, height), &title);
     svg.add(&grid(&view));
-    for (body, colour) in view.scene.each().iter().enumerate().zip(&colours) {
-        svg.add(&shape::draw(&view, body, colour));
+    for (k, (body, colour)) in view.scene.each().iter().zip(&colours).enumerate() {
+        svg.add(&shape::draw(&view, body, k + 1, colour));
     }
     for body in view.scene.each() {
-        svg.add(&arrows::initial_velocity(&view, body));
+        svg.add(&symbols::initial_velocity(&view, body));
     }
     for (k, one) in view.scene.faces.iter().enumerate().filter(|(_, face)| face.axis < 2) {
-        svg.add(&face::draw(&view, k, one));
+        svg.add(&symbols::draw(&view, k, one));
     }
     for set in &view.scene.sets {
-        svg.add(&face::set(&view, set));
+        svg.add(&symbols::set(&view, set));
     }
-    svg.add(&arrows::accelerations(&view));
+    svg.add(&symbols::accelerations(&view));
     if view.scene.plane == PlaneState::Axisymmetric {
         let ends = [view.place((0.0, view.from[1])), view.place((0.0, view.to[1]))];
         let axis = SvgElement::line((ends[0].0, ends[0].1 + 14.0), (ends[1].0, ends[1].1 - 14.0));

@@ -1,0 +1,150 @@
+//! Errors that no refinement lowers, and the level from which they show.
+//!
+//! `small_strain` concerns a solution of small strain or of a linearised law, run by a solver without
+//! that simplification. `single_precision` concerns an external solver that computes in single
+//! precision. `loose_tolerance` concerns a linearised solution with a tolerance larger than it needs.
+
+use super::subject::Preflight;
+use crate::study::exact_motion::Linearisation;
+use crate::suite::compile::truth::tolerance::TOLERANCE;
+use crate::suite::model::method::Method;
+use crate::suite::model::{Against, Case};
+use crate::suite::yaml::{Diagnostic, Severity};
+use crate::verify::Axis;
+
+/// Share of the error of the cells from which on another one bends its order.
+const SEEN: f64 = 0.3;
+
+/// Share from which on a few refinements more will show it.
+const SOON: f64 = 0.003;
+
+/// The finding about an error of `size` (m) that comes from `origin`: a warning with `help`, if one
+/// of the suite's levels shows it, a note, if one soon to come will, and none otherwise.
+fn floor_finding(
+    preflight: &Preflight<'_>,
+    size: f64,
+    origin: &str,
+    help: &str,
+) -> Option<Diagnostic> {
+    let curvature = preflight.extremes.as_ref().map_or(0.0, |motion| motion.curvature);
+    // Interpolation by linear functions: h^2/8 times the second derivative.
+    let of_cells = |h: f64| 0.125 * h * h * curvature;
+    let shows = preflight.levels().iter().find(|level| size > SEEN * of_cells(level.h));
+    let (severity, level) = match (shows, preflight.levels().last()) {
+        (Some(level), _) => {
+            (Severity::Warning, format!("shows from about {} cells on", level.cells))
+        }
+        (None, Some(finest)) if size > SOON * of_cells(finest.h) => {
+            let times = (SEEN * of_cells(finest.h) / size).sqrt();
+            let cells = format!("{:.0e}", times * finest.cells as f64);
+            let cells: f64 = cells.parse().unwrap_or(f64::NAN);
+            (Severity::Note, format!("will show from about {cells} cells on"))
+        }
+        _ => return None,
+    };
+    let message = format!("{origin} this leaves an error of about {size:.1e} m, which {level}");
+    let found = preflight.finding(severity, &preflight.motion(), &message);
+    Some(if severity == Severity::Warning { found.with_help(help) } else { found })
+}
+
+/// The error of a solution that is not one of the solver's problem.
+struct ModelError {
+    /// Its size (m).
+    size: f64,
+    /// Where it comes from.
+    origin: String,
+    /// Another solution, without it.
+    remedy: &'static str,
+}
+
+/// That of `case`, if it has one: measured of a linearised solution, and estimated of one of small
+/// strain, for the law in rate form that MPM has there is none of the truth's.
+fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
+    let problem = preflight.plan.exact.as_ref()?;
+    let motion = preflight.extremes.as_ref()?;
+    let norm = preflight.plan.norm;
+    if let Some(Linearisation { residual, error }) =
+        Linearisation::of(problem, motion, case.until, norm)
+    {
+        let origin = format!(
+            "the truth is linearised: of the terms of its equations {residual:.1e} is left"
+        );
+        let remedy = "or state a solution of the law itself";
+        return Some(ModelError { size: error, origin: origin + ", and", remedy });
+    }
+    let strain = motion.gradient;
+    let is_small = !problem.equation.is_finite() && strain > 0.0;
+    if !is_small || !matches!(case.method, Method::Mpm { .. }) {
+        return None;
+    }
+    // The neglected forces are of the order of the strain e: they accelerate by e u_tt, which in a
+    // time t comes to e u_tt t^2/2, and over a long run to no more than about e u.
+    // In more than one dimension a body turns, and its initial stress with it.
+    let turning = if problem.dimension() > 1 { motion.initial_stress } else { 0.0 };
+    let neglected = strain + turning / problem.equation.modulus();
+    let early = 0.5 * motion.acceleration * case.until * case.until;
+    let early = if problem.at_rest { f64::INFINITY } else { early };
+    let origin = format!(
+        "the truth is one of small strain, and MPM has finite strains: at a strain of {strain:.1e}"
+    );
+    let remedy = "or state a finite-strain truth";
+    Some(ModelError { size: neglected * motion.largest_displacement().min(early), origin, remedy })
+}
+
+/// Says how large the error is, and from which level on it shows: a warning, if that is one of the
+/// suite's, and a note, if it is soon to come.
+pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
+    let plan = preflight.plan;
+    if plan.refine.axis != Axis::Space || plan.manufactured().is_some() {
+        return Vec::new();
+    }
+    let mut exact = preflight.of_an_order().filter(|case| case.against == Against::Exact);
+    let Some(error) = exact.find_map(|case| model_error(preflight, case)) else {
+        return Vec::new();
+    };
+    let ModelError { size, origin, remedy } = error;
+    let help = format!("a tenth of the amplitude leaves a hundredth of it; {remedy}");
+    floor_finding(preflight, size, &origin, &help).into_iter().collect()
+}
+
+/// Half a unit in the last place of a number of 24 bits next to one.
+const ROUND_OFF: f64 = 1.0 / (1 << 24) as f64;
+
+/// Says how large the error is that a position of single precision has, before any step adds to it,
+/// and from which level on it shows.
+pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
+    let single = Method::is_single_precision;
+    let is_single = preflight.of_an_order().any(|case| single(&case.method));
+    let (Some(motion), true) = (&preflight.extremes, is_single) else { return Vec::new() };
+    if preflight.plan.refine.axis != Axis::Space {
+        return Vec::new();
+    }
+    let farthest = motion.reach.iter().flat_map(|(low, high)| [low.abs(), high.abs()]);
+    let error = ROUND_OFF * farthest.filter(|x| x.is_finite()).fold(0.0, f64::max);
+    let origin = "the solver computes in single precision, and positions are rounded:";
+    let help = "a larger amplitude raises the errors of the cells above it";
+    floor_finding(preflight, error, origin, help).into_iter().collect()
+}
+
+/// Residuals that the tolerance may be worth, before another solution would pass.
+const MOST: f64 = 100.0;
+
+/// Notes a tolerance that is larger than what the solution leaves by orders of magnitude.
+pub(crate) fn loose_tolerance(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
+    let Some(problem) = &preflight.plan.exact else { return Vec::new() };
+    let Some(stated) = &problem.linearised else { return Vec::new() };
+    let (left, allowed) = (problem.residual(), stated.tolerance);
+    let help = if left <= TOLERANCE {
+        "nothing is left of the law but rounding: remove `linearised`".to_owned()
+    } else if allowed > MOST * left {
+        let enough: f64 = format!("{:.0e}", 2.0 * left).parse().unwrap_or(left);
+        format!("{enough:e} is enough, and lets fewer wrong solutions pass")
+    } else {
+        return Vec::new();
+    };
+    let message = format!(
+        "{allowed:.1e} of the terms of the equations may be left, and the solution leaves {left:.1e}"
+    );
+    let path = preflight.truth().then("linearised").then("tolerance");
+    vec![preflight.finding(Severity::Note, &path, &message).with_help(&help)]
+}

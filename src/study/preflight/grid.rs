@@ -1,0 +1,133 @@
+//! Levels that can count for an order, and the place of the particles in their grids.
+//!
+//! `few_levels` concerns levels that can count for an order, `leaves_grid` a motion that leaves the
+//! grid. `end_on_node` concerns boxes whose last particles start exactly on nodes, with linear
+//! functions: a particle on a node belongs to the cell above, and the node at the far end of that cell
+//! has no mass, so it keeps neither velocity nor force.
+
+use super::subject::{Preflight, moves_on_grid};
+use crate::mpm::BasisName;
+use crate::study::exact_motion::Extremes;
+use crate::suite::grammar::CrossingLevels;
+use crate::suite::model::ConvergencePlan;
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::scene::grid_size::{grid_axis, per_axis};
+use crate::suite::yaml::locate::Path;
+use crate::suite::yaml::{Diagnostic, Severity};
+use crate::verify::FEWEST_LEVELS;
+
+/// Warns of a claimed order that too few levels can support.
+pub(crate) fn few_levels(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
+    let levels = preflight.levels();
+    let excluded = preflight.plan.crossing_levels == CrossingLevels::Excluded;
+    let Some(case) = preflight.of_an_order().next() else { return Vec::new() };
+    if levels.len() < FEWEST_LEVELS {
+        let message = format!("{} levels support no order", levels.len());
+        let label = format!("expected at least {FEWEST_LEVELS}");
+        let found = preflight.finding(Severity::Warning, &preflight.sizes(), &message);
+        return vec![found.with_label(&label)];
+    }
+    let counting = levels.iter().filter(|level| !crosses(preflight, level)).count();
+    let moves = preflight.of_an_order().any(moves_on_grid);
+    if !excluded || !moves || counting >= FEWEST_LEVELS {
+        return Vec::new();
+    }
+    let message = format!(
+        "particles change their cell on {} of {} levels, which then do not count",
+        levels.len() - counting,
+        levels.len()
+    );
+    let label = format!("expected at least {FEWEST_LEVELS} levels that count");
+    let help = format!("a smaller motion or coarser levels: case `{}` claims an order", case.name);
+    let found = preflight.finding(Severity::Warning, &preflight.sizes(), &message);
+    vec![found.with_label(&label).with_help(&help)]
+}
+
+/// Whether the exact motion carries a particle into another cell. Particles of an aligned body are
+/// half of their spacing away from the faces of a cell.
+fn crosses(preflight: &Preflight<'_>, level: &LevelPlan) -> bool {
+    let dimension = preflight.plan.scene.dimension();
+    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, dimension)).unwrap_or(1);
+    let room = 0.5 * level.h / per_axis as f64;
+    let largest = preflight.extremes.as_ref().map_or(0.0, Extremes::largest_displacement);
+    largest > room
+}
+
+/// Distance beyond the grid that is rounding, in cells.
+const ROUNDING: f64 = 1e-6;
+
+/// Warns of an exact motion that carries the body beyond the grid of some level.
+pub(crate) fn leaves_grid(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
+    let plan = preflight.plan;
+    let (Some(motion), true) = (&preflight.extremes, plan.cases.iter().any(moves_on_grid)) else {
+        return Vec::new();
+    };
+    let scene = &plan.scene;
+    let is_periodic =
+        |axis: usize| scene.faces.iter().any(|face| face.axis == axis && face.hold.is_periodic());
+    for level in preflight.levels() {
+        for axis in (0..scene.dimension()).filter(|axis| !is_periodic(*axis)) {
+            let (start, cells) = grid_axis(scene, axis, level.h);
+            let end = start + cells * level.h;
+            let (low, high) = motion.reach[axis];
+            let room = ROUNDING * level.h;
+            if low >= start - room && high <= end + room {
+                continue;
+            }
+            let name = ["x", "y", "z"][axis];
+            let message = format!(
+                "the motion takes {name} from {low:.4} to {high:.4} m, and with {} cells the grid \
+                 goes from {start:.4} to {end:.4} m",
+                level.cells
+            );
+            let found = preflight.finding(Severity::Warning, &preflight.motion(), &message);
+            let help = "state a larger `grid` in `scene`, or a smaller motion";
+            return vec![found.with_help(help)];
+        }
+    }
+    Vec::new()
+}
+
+/// Warns of a box that ends with a row of particles on nodes before the last ones of the grid.
+pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
+    let plan = preflight.plan;
+    let is_linear = |method| matches!(method, Method::Mpm { basis: BasisName::Linear, .. });
+    let is_box = plan.scene.outline.is_none() && plan.scene.bodies.is_empty();
+    let stays = plan.scene.initial_displacement.is_empty() && plan.scatter.perturb == 0.0;
+    if !is_box || !stays || !plan.cases.iter().any(|case| is_linear(case.method)) {
+        return Vec::new();
+    }
+    let axes = 0..plan.scene.dimension();
+    let mut all = axes.flat_map(|axis| preflight.levels().iter().map(move |level| (axis, level)));
+    let found = all.find_map(|(axis, level)| {
+        let x = last_on_node(plan, axis, level)?;
+        let (cells, name) = (level.cells, plan.scene.faces.get(2 * axis + 1)?.name);
+        let message = format!(
+            "with {cells} cells the {name} row of particles starts on nodes, at {x} m: the nodes ahead \
+             have no mass, where linear functions lose the velocity and the force"
+        );
+        let found = preflight.finding(Severity::Warning, &Path::top("refine"), &message);
+        Some(found.with_help(
+            "take another number of particles in a cell, or `particles: {shift: [...]}`",
+        ))
+    });
+    found.into_iter().collect()
+}
+
+/// The place (m) of the last particles along `axis`, as the solver has it, if they lie on nodes
+/// with another node ahead.
+fn last_on_node(plan: &ConvergencePlan, axis: usize, level: &LevelPlan) -> Option<f64> {
+    let scene = &plan.scene;
+    if !scene.faces.get(2 * axis + 1)?.hold.is_free() {
+        return None;
+    }
+    let per_axis = per_axis(level.ppc?, scene.dimension())? as f64;
+    let length = scene.to[axis] - scene.from[axis];
+    let count = libm::round(length * per_axis / level.h).max(1.0);
+    let shift = plan.scatter.shift.get(axis).copied().unwrap_or(0.0);
+    let x = scene.from[axis] + length * (count - 0.5) / count + shift * (length / count);
+    let (origin, cells) = grid_axis(scene, axis, level.h);
+    let place = (x - origin) * (1.0 / level.h);
+    (place == libm::floor(place) && place < cells).then_some(x)
+}
