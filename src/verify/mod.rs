@@ -18,6 +18,7 @@
 //! | [`cost`](Ranking) | cost of accuracy, in transfers or seconds |
 //! | [`stability`](StabilityStudy) | growth in runs, the step as a matrix, limits by bisection |
 //! | [`expectation`](Expectation), [`limits`](Limits) | expectations of suites |
+//! | [`figure`](CaseFigure) | registry of the figures that suites bound |
 //!
 //! Two principles hold throughout. Comparisons are written so that NaN fails: what must hold is
 //! asked (`error <= tolerance`), never its opposite. And shapes are told by ratios, never by
@@ -30,6 +31,7 @@ mod cost;
 mod energy_rate;
 pub(crate) mod error;
 mod expectation;
+mod figure;
 mod internal_force;
 mod judge_plan;
 pub(crate) mod order;
@@ -63,6 +65,8 @@ pub use expectation::gate::{Acceptance, GateResult, Gating, Requirement};
 pub use expectation::limits::{Limits, Measured};
 pub use expectation::proposal::{Ground, Proposal, ProposedKey, propose};
 pub use expectation::{Bounds, CaseFindings, Expectation};
+pub(crate) use figure::each_case_figure;
+pub use figure::{BoundKind, CaseFigure, FigureNeed, RunFigure};
 pub use internal_force::{ForceRow, InternalForce};
 pub use judge_plan::{JudgePlan, LevelSizes};
 pub use order::axis::Axis;
@@ -78,7 +82,7 @@ pub use outcome::{CaseOutcome, Exemption, SuiteOutcome};
 pub use rerun::{Reruns, RoundingSizes};
 pub(crate) use stability::is_looked_at;
 pub use stability::{
-    Critical, FigureBounds, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
+    Critical, FigureBounds, Prediction, Radius, Scales, Stability, StabilityExpectation,
     StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, spectral_radius,
     stability_limit, trial,
 };

@@ -13,7 +13,6 @@
 mod amplification;
 mod checkerboard;
 mod expectation;
-mod figure;
 mod limit;
 mod outcome;
 mod radius;
@@ -23,7 +22,6 @@ mod verdict;
 
 pub use amplification::amplification;
 pub use expectation::{FigureBounds, StabilityExpectation};
-pub use figure::RunFigure;
 pub use limit::{StabilityLimit, stability_limit};
 pub use outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
 pub use radius::{Radius, spectral_radius};

@@ -193,8 +193,8 @@ mod tests {
     use super::*;
     use crate::subject::{RunCounters, Totals};
     use crate::verify::StudyResults;
+    use crate::verify::figure::RunFigure;
     use crate::verify::stability::expectation::StabilityExpectation;
-    use crate::verify::stability::figure::RunFigure;
     use crate::verify::stability::limit::StabilityLimit;
     use crate::verify::stability::outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
     use approx::assert_relative_eq;
