@@ -26,16 +26,16 @@ use crate::named::named;
 macro_rules! each_case_figure {
     ($declare:ident) => {
         $declare! {
-            /// Bounds on the judged error of every level that counts.
-            ErrorBelow = error_below, "largest error", Maximum, Nothing, largest_error;
-            /// Lower bound on the judged error of every level that counts.
-            ErrorAbove = error_above, "smallest error", Minimum, Nothing, smallest_error;
-            /// Distance (m) of the observed place from the exact one, at the end, on the finest level.
-            ObservedWithin = observed_within, "error at the observed point (m)", Maximum,
-                ObservedPlace, observed_error;
-            /// Largest speed towards the end of every level that counts, over the wave speed.
-            RestBelow = rest_below, "residual speed over the wave speed", Maximum, StateOfRest,
-                residual_speed;
+        /// Bounds on the judged error of every level that counts.
+        ErrorBelow = error_below, "largest error", Maximum, Nothing, largest_error;
+        /// Lower bound on the judged error of every level that counts.
+        ErrorAbove = error_above, "smallest error", Minimum, Nothing, smallest_error;
+        /// Distance (m) of the observed place from the exact one, at the end, on the finest level.
+        ObservedWithin = observed_within, "error at the observed point (m)", Maximum,
+            ObservedPlace, observed_error;
+        /// Largest speed towards the end of every level that counts, over the wave speed.
+        RestBelow = rest_below, "residual speed over the wave speed", Maximum, StateOfRest,
+            residual_speed;
         }
     };
 }
