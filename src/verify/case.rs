@@ -43,7 +43,7 @@ pub fn judge_case<R: Reruns>(
     let exemption = plan.exemption(&levels);
     let gate = match (&exemption, plan.gating) {
         (None, Some(Gating::Required(required))) => {
-            Some(rerun::gate(plan, required, (&levels, &judgement), reruns))
+            Some(rerun::gate(plan, required, &levels, &judgement, reruns))
         }
         _ => None,
     };

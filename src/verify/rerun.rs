@@ -100,7 +100,8 @@ pub(super) fn floor<R: Reruns>(
 pub(super) fn gate<R: Reruns>(
     plan: &JudgePlan<'_>,
     required: &Requirement,
-    (levels, judgement): (&[LevelOutcome], &Judgement),
+    levels: &[LevelOutcome],
+    judgement: &Judgement,
     reruns: &R,
 ) -> GateResult {
     let rounding = rounding(plan, levels, reruns);

@@ -139,7 +139,7 @@ impl CaseRun<'_> {
         let stable = |sought: f64| -> Result<bool, String> {
             Ok(self.run(&with(sought))?.verdict == Stability::Stable)
         };
-        let observed = stability_limit((*low, *high), SCAN_OF_RUNS, SHARP_OF_RUNS, stable)?;
+        let observed = stability_limit(*low, *high, SCAN_OF_RUNS, SHARP_OF_RUNS, stable)?;
         Ok(Critical { predicted: None, confirmed: Vec::new(), observed: Some(observed) })
     }
 
@@ -161,7 +161,7 @@ impl CaseRun<'_> {
             }
             Ok(!grows)
         };
-        let limit = stability_limit(range, SCAN, SHARP, stable)?;
+        let limit = stability_limit(range.0, range.1, SCAN, SHARP, stable)?;
         let shares: Vec<(f64, f64)> = match limit {
             StabilityLimit::At(limit) => {
                 let least = usize::from(self.context.extent != Extent::Full);

@@ -109,8 +109,8 @@ fn floor(levels: &[Level], axis: Axis) -> String {
     }
 }
 
-fn against(verdict: Verdict, (low, high): (f64, f64), overlaps: bool) -> String {
-    let (low, high) = (format_number(low), format_number(high));
+fn against(verdict: Verdict, range: (f64, f64), overlaps: bool) -> String {
+    let (low, high) = (format_number(range.0), format_number(range.1));
     let undecided = if overlaps { ", but the interval overlaps it: not decided" } else { "" };
     match verdict {
         Verdict::Converging => format!("within [{low}, {high}]"),

@@ -26,7 +26,8 @@ pub(crate) fn named(
 
 /// Expectation of every row by entry number `i` of `expect`; `rows` are the values of each row.
 pub(crate) fn rows(
-    (evaluator, template): (&Evaluator<'_>, &SetupTemplate),
+    evaluator: &Evaluator<'_>,
+    template: &SetupTemplate,
     spec: &StabilityExpectSpec,
     i: usize,
     rows: &[Vec<(&str, f64)>],
