@@ -4,9 +4,7 @@
 //! |---|---|
 //! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
 //! | [`conservation`](ConservationError) | conserved sums of a free motion over a run |
-//! | [`level`](Level), [`hypothesis`](OrderHypothesis) | the errors, and the order to test |
-//! | [`axis`](Axis) | which spacing is refined |
-//! | [`pairwise`](observed_order) | the order between two levels |
+//! | [`level`](Level), [`hypothesis`](OrderHypothesis) | errors, pairwise orders, the order to test |
 //! | [`fit`](Interval), [`t_quantile`](two_sided_95) | the order by regression, its interval |
 //! | `window` | which levels are asymptotic |
 //! | `error_trend` | floor, divergence, oscillation |
@@ -32,7 +30,6 @@ mod energy_rate;
 pub(crate) mod error;
 mod expectation;
 mod figure;
-mod internal_force;
 mod judge_plan;
 pub(crate) mod order;
 mod outcome;
@@ -59,22 +56,18 @@ pub(crate) use error::norm::larger;
 pub use error::norm::{NormName, Norms, RunErrors};
 pub use error::observer::{History, displacement_at};
 pub use error::quantity::Quantity;
-pub use error::run::{Comparison, errors, run};
-pub use error::run_result::RunResult;
+pub use error::run::{Comparison, RunResult, errors, run};
 pub use expectation::gate::{Acceptance, GateResult, Gating, Requirement};
 pub use expectation::limits::{Limits, Measured};
 pub use expectation::proposal::{Ground, Proposal, ProposedKey, propose};
 pub use expectation::{Bounds, CaseFindings, Expectation};
 pub(crate) use figure::each_case_figure;
 pub use figure::{BoundKind, CaseFigure, FigureNeed, RunFigure};
-pub use internal_force::{ForceRow, InternalForce};
 pub use judge_plan::{JudgePlan, LevelSizes};
-pub use order::axis::Axis;
 pub use order::fit::Interval;
 pub(crate) use order::format_number::{format_number, rounded};
 pub use order::hypothesis::OrderHypothesis;
-pub use order::level::Level;
-pub use order::pairwise::observed_order;
+pub use order::level::{Axis, Level, observed_order};
 pub use order::richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
 pub use order::t_quantile::two_sided_95;
 pub(crate) use order::window::FEWEST_LEVELS;
@@ -86,7 +79,7 @@ pub use stability::{
     StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, spectral_radius,
     stability_limit, trial,
 };
-pub use study_results::StudyResults;
+pub use study_results::{ForceRow, InternalForce, StudyResults};
 pub use verdict::diagnosis::{Cause, ChangedRun, Diagnosis, Evidence, KnownCause, KnownCauseKind};
 pub use verdict::floor::{Floor, FloorCause, Probe};
 pub use verdict::judge::{Judgement, judge};

@@ -10,7 +10,7 @@
 use super::convergence::LevelOutcome;
 use super::expectation::gate::{Acceptance, GateResult, Requirement};
 use super::judge_plan::{JudgePlan, series};
-use super::order::axis::Axis;
+use super::order::level::Axis;
 use super::verdict::floor::{Floor, Probe};
 use super::verdict::judge::Judgement;
 use super::verdict::name::Verdict;

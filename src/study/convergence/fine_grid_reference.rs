@@ -10,7 +10,7 @@ use super::small_step_reference;
 use crate::exact::Truth;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan};
-use crate::verify::error::lagrange;
+use crate::verify::error::observer::lagrange_weights;
 
 /// Points on each axis that take part in an interpolation: of order 6, above that of any method.
 const NEAR: usize = 6;
@@ -92,7 +92,7 @@ impl Lattice {
     /// The value at `label` of a field that has one number for each axis at each particle.
     fn interpolate(&self, field: &[f64], label: &[f64], into: &mut [f64]) {
         let along = self.axes.iter().zip(label);
-        let near: Vec<_> = along.map(|(all, x)| lagrange::weights(all, *x, NEAR)).collect();
+        let near: Vec<_> = along.map(|(all, x)| lagrange_weights(all, *x, NEAR)).collect();
         into.fill(0.0);
         for k in 0..near.iter().map(|(_, weights)| weights.len()).product() {
             let (mut rest, mut stride, mut point, mut weight) = (k, 1, 0, 1.0);

@@ -7,11 +7,10 @@
 //! interval need not be above the bound as a whole: a few levels leave a sound solver an interval
 //! of 0.1 and more to each side.
 
-use crate::verify::order::axis::Axis;
 use crate::verify::order::fit::Interval;
 use crate::verify::order::format_number::{format_number, rounded};
 use crate::verify::order::hypothesis::OrderHypothesis;
-use crate::verify::order::level::Level;
+use crate::verify::order::level::{Axis, Level};
 use crate::verify::order::window::FEWEST_LEVELS;
 use crate::verify::verdict::judge::{Judgement, judge};
 use crate::verify::verdict::name::Verdict;

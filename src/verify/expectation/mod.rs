@@ -3,7 +3,6 @@
 pub(crate) mod advice;
 pub(crate) mod gate;
 pub(crate) mod limits;
-pub(crate) mod observed;
 pub(crate) mod proposal;
 
 use super::expectation::limits::{Limits, Measured, UnmetFigure};

@@ -6,8 +6,7 @@
 //! compared with its start, or, in a body that starts at rest, with the energy of a strain of one.
 
 use super::checkerboard::{checkerboard, stress_spread};
-use super::trial_result::{Scales, Trial};
-use super::verdict::Stability;
+use super::trial_result::{Scales, Stability, Trial};
 use crate::subject::{Failure, Samples, Subject};
 use crate::verify::conservation::{Balance, ConservationError, Conserved};
 use crate::verify::error::norm::larger;

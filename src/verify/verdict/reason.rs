@@ -1,10 +1,9 @@
 //! The one line that says why, for a reader who has only the figures.
 
 use super::name::Verdict;
-use crate::verify::order::axis::Axis;
 use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::format_number::{format_number, order};
-use crate::verify::order::level::Level;
+use crate::verify::order::level::{Axis, Level};
 use crate::verify::order::window::FEWEST_LEVELS;
 
 /// Reason of a verdict; levels by index.
