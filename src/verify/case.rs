@@ -63,7 +63,9 @@ pub fn judge_case<R: Reruns>(
                 floor: floor.as_ref().and_then(Floor::cause),
             })
         }
-        (None, Some(gate)) => gate.result.as_ref().err().cloned().into_iter().collect(),
+        (None, Some(gate)) => {
+            gate.result.as_ref().err().map(ToString::to_string).into_iter().collect()
+        }
         (None, None) => Vec::new(),
     };
     let (verdict, reason) = match plan.expectation {

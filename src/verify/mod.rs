@@ -57,7 +57,7 @@ pub use error::norm::{NormName, Norms, RunErrors};
 pub use error::observer::{History, displacement_at};
 pub use error::quantity::Quantity;
 pub use error::run::{Comparison, RunResult, errors, run};
-pub use expectation::gate::{Acceptance, GateResult, Gating, Requirement};
+pub use expectation::gate::{Acceptance, GateResult, Gating, Requirement, UnmetRequirement};
 pub use expectation::limits::{Limits, Measured};
 pub use expectation::proposal::{Ground, Proposal, ProposedKey, propose};
 pub use expectation::{Bounds, CaseFindings, Expectation};
@@ -75,9 +75,9 @@ pub use outcome::{CaseOutcome, Exemption, SuiteOutcome};
 pub use rerun::{Reruns, RoundingSizes};
 pub(crate) use stability::is_looked_at;
 pub use stability::{
-    Critical, FigureBounds, Prediction, Radius, Scales, Stability, StabilityExpectation,
-    StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, spectral_radius,
-    stability_limit, trial,
+    AmplificationError, Critical, FigureBounds, Prediction, Radius, Scales, Stability,
+    StabilityExpectation, StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification,
+    spectral_radius, stability_limit, trial,
 };
 pub use study_results::{ForceRow, InternalForce, StudyResults};
 pub use verdict::diagnosis::{Cause, ChangedRun, Diagnosis, Evidence, KnownCause, KnownCauseKind};

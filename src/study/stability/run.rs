@@ -153,7 +153,8 @@ impl CaseRun<'_> {
             let setup = self.setup(&with(sought))?;
             let mut subject = self.subject(&setup)?;
             let Scales { speed, modulus, .. } = setup.scales;
-            let matrix = amplification(subject.as_mut(), &setup.dt, speed, modulus)?;
+            let matrix = amplification(subject.as_mut(), &setup.dt, speed, modulus)
+                .map_err(|error| error.to_string())?;
             let found = spectral_radius(&matrix);
             let grows = !(found.radius <= 1.0 + DEFECT);
             if grows {

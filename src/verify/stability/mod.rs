@@ -19,7 +19,7 @@ mod radius;
 mod trial;
 mod trial_result;
 
-pub use amplification::amplification;
+pub use amplification::{AmplificationError, amplification};
 pub use expectation::{FigureBounds, StabilityExpectation};
 pub use limit::{StabilityLimit, stability_limit};
 pub use outcome::{Critical, Prediction, StabilityRow, StabilityStudy};

@@ -157,7 +157,7 @@ fn drafts(
                 let across = |()| combine_across(plane, basis, transfer);
                 combine(basis, transfer, mass, frame).and_then(across).map_err(|reason| {
                     let help = "give what goes together an entry of `methods` of its own";
-                    evaluator.diagnostic(&path, &reason).with_help(help)
+                    evaluator.diagnostic(&path, &reason.to_string()).with_help(help)
                 })?;
             }
             drafts.push(draft);
