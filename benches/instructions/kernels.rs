@@ -64,7 +64,7 @@ impl<const D: usize> Scene<D> {
                 transfer.p2g(&**kernel, particles, grid, &all);
             } else {
                 let all = [Stage::ParticleVelocity, Stage::Stress, Stage::Position];
-                g2p(&mut **transfer, &**kernel, (grid, 1e-9), particles, &all, advected);
+                g2p(&mut **transfer, &**kernel, grid, 1e-9, particles, &all, advected);
             }
         }
     }

@@ -97,7 +97,7 @@ impl<const D: usize> Method<D> {
         self.advected.resize(particles.len(), Vector::zeros());
         let all = [Stage::ParticleVelocity, Stage::Stress, Stage::Position];
         let (transfer, advected) = (&mut *self.transfer, &mut *self.advected);
-        g2p(transfer, &*self.kernel, (grid, dt), particles, &all, advected);
+        g2p(transfer, &*self.kernel, grid, dt, particles, &all, advected);
         std::mem::swap(&mut particles.x, &mut self.advected);
     }
 }

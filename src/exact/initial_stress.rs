@@ -72,7 +72,8 @@ impl InitialStress {
     pub(super) fn divergence(
         &self,
         label: &[f64],
-        (grad, second): (&Tensor<f64>, &[Tensor<f64>; 3]),
+        grad: &Tensor<f64>,
+        second: &[Tensor<f64>; 3],
         is_finite: bool,
     ) -> [f64; 3] {
         let along = |axis: usize| std::array::from_fn(|other| unit(axis, other));
@@ -127,10 +128,10 @@ mod tests {
         assert_eq!(s0.piola(&[2.0, 5.0], &GRAD, false)[1], [10.0, 8.0, 0.0]);
         // u_x,xx = 7 and u_x,xy = u_x,yx = 11.
         (second[0][0][0], second[0][0][1], second[0][1][0]) = (7.0, 11.0, 11.0);
-        let force = s0.divergence(&[2.0, 5.0], (&GRAD, &second), true);
+        let force = s0.divergence(&[2.0, 5.0], &GRAD, &second, true);
         assert_relative_eq!(force[0], 1.1 * 4.0 + 0.2 * 6.0 + 7.0 * 4.0 + 2.0 * 11.0 * 10.0);
         assert_relative_eq!(force[1], -0.3 * 4.0 + 1.05 * 6.0);
-        assert_eq!(s0.divergence(&[2.0, 5.0], (&GRAD, &second), false), [4.0, 6.0, 0.0]);
+        assert_eq!(s0.divergence(&[2.0, 5.0], &GRAD, &second, false), [4.0, 6.0, 0.0]);
     }
 
     #[test]

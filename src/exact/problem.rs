@@ -267,7 +267,8 @@ impl Problem {
         if self.initial_stress.is_none() {
             return force;
         }
-        let initial = self.initial_stress.divergence(label, slopes, self.equation.is_finite());
+        let (is_finite, initial) = (self.equation.is_finite(), &self.initial_stress);
+        let initial = initial.divergence(label, slopes.0, slopes.1, is_finite);
         std::array::from_fn(|i| force[i] + initial[i])
     }
 

@@ -75,7 +75,7 @@ impl Region {
     }
 
     /// The corners of the part that lies in a body from `from` to `to`.
-    pub fn within(&self, (from, to): (&[f64], &[f64])) -> (Vec<f64>, Vec<f64>) {
+    pub fn within(&self, from: &[f64], to: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let low = self.from.iter().zip(from).map(|(a, b)| a.max(*b));
         let high = self.to.iter().zip(to).map(|(a, b)| a.min(*b));
         (low.collect(), high.collect())

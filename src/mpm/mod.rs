@@ -59,7 +59,7 @@ pub use multibody::Bodies;
 pub use scheme::{SchemeName, Stage};
 pub use seeding::Fragment;
 pub use seeding::quadrilateral::Quadrilateral;
-pub use step::combination::{combine, combine_across, combine_bodies};
+pub use step::combination::{CombinationError, combine, combine_across, combine_bodies};
 pub use step::heat_solver::HeatSolver;
 pub use step::initial::complete_start;
 pub use step::setup::Setup;

@@ -50,7 +50,7 @@ pub(super) fn time_series(
         let failed = subject.step(dt).is_err();
         // Of equal steps without accumulated rounding.
         t = if equal { dt * step as f64 } else { t + dt };
-        if failed || is_instant((step, steps), INSTANTS) {
+        if failed || is_instant(step, steps, INSTANTS) {
             number += 1;
             frame(subject.as_ref(), number, t)?;
         }

@@ -3,13 +3,13 @@
 
 use super::conservation::ConservationError;
 use super::convergence::{Convergence, LevelOutcome};
-use super::error::norm::larger;
 use super::expectation::gate::{Acceptance, GateResult, Gating};
 use super::expectation::limits::{Limits, Measured};
 use super::expectation::{CaseFindings, Expectation};
+use super::figure::{CaseFigure, counted};
 use super::judge_plan::JudgePlan;
-use super::order::axis::Axis;
 use super::order::fit::Interval;
+use super::order::level::Axis;
 use super::order::richardson::Richardson;
 use super::rerun;
 use super::rerun::Reruns;
@@ -43,7 +43,7 @@ pub fn judge_case<R: Reruns>(
     let exemption = plan.exemption(&levels);
     let gate = match (&exemption, plan.gating) {
         (None, Some(Gating::Required(required))) => {
-            Some(rerun::gate(plan, required, (&levels, &judgement), reruns))
+            Some(rerun::gate(plan, required, &levels, &judgement, reruns))
         }
         _ => None,
     };
@@ -63,7 +63,9 @@ pub fn judge_case<R: Reruns>(
                 floor: floor.as_ref().and_then(Floor::cause),
             })
         }
-        (None, Some(gate)) => gate.result.as_ref().err().cloned().into_iter().collect(),
+        (None, Some(gate)) => {
+            gate.result.as_ref().err().map(ToString::to_string).into_iter().collect()
+        }
         (None, None) => Vec::new(),
     };
     let (verdict, reason) = match plan.expectation {
@@ -126,24 +128,13 @@ impl JudgePlan<'_> {
     }
 }
 
-/// Figures that limits apply to: the worst of the levels that count, and the error at the observed
-/// place on the finest level.
+/// Values that limits apply to.
 fn measure(levels: &[LevelOutcome]) -> Measured {
-    let counted = || levels.iter().filter(|level| level.usable);
-    let errors = counted().map(|level| (level.error, level.error));
-    let residual_speed: Option<Vec<f64>> =
-        counted().map(|level| level.run.residual_speed).collect();
-    let drifts: Option<Vec<ConservationError>> = counted().map(|level| level.run.drift).collect();
-    let rates: Option<Vec<Interval>> = counted().map(|level| level.run.energy_rate).collect();
+    let drifts: Option<Vec<ConservationError>> =
+        counted(levels).map(|level| level.run.drift).collect();
+    let rates: Option<Vec<Interval>> = counted(levels).map(|level| level.run.energy_rate).collect();
     Measured {
-        errors: errors.reduce(|(least, most), (error, _)| {
-            if (least + most + error).is_nan() {
-                return (f64::NAN, f64::NAN);
-            }
-            (least.min(error), most.max(error))
-        }),
-        observed: levels.last().and_then(|level| level.run.observed_error),
-        residual_speed: residual_speed.and_then(|all| all.into_iter().reduce(larger)),
+        figures: CaseFigure::ALL.map(|figure| figure.value(levels)),
         drift: drifts.and_then(|drifts| drifts.into_iter().reduce(ConservationError::larger)),
         energy_rate: rates.and_then(|rates| {
             let ends = rates.into_iter().map(|rate| (rate.low, rate.high));
@@ -221,39 +212,34 @@ mod tests {
         let levels = [3.0, 1.0, 2.0].map(|error| level(true, error, None));
         let [a, b, c] = levels;
         let found = measure(&[a, b, c, level(false, 9.0, None)]);
-        assert_eq!(
-            (found.errors, found.observed, found.drift),
-            (Some((1.0, 3.0)), Some(9.0), None)
-        );
-        assert_eq!(measure(&[level(false, 1.0, None)]).errors, None);
+        assert_eq!(found.figures, [Some(3.0), Some(1.0), Some(9.0), None]);
+        assert_eq!(found.drift, None);
+        let found = measure(&[level(false, 1.0, None)]);
+        assert_eq!(found.figure(CaseFigure::ErrorBelow), None);
     }
 
     #[test]
     fn one_nan_is_the_largest_and_the_smallest() {
         for errors in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
-            let (least, most) = measure(&errors.map(|e| level(true, e, None))).errors.unwrap();
-            assert!(least.is_nan() && most.is_nan());
+            let [most, least, ..] = measure(&errors.map(|e| level(true, e, None))).figures;
+            assert!(least.unwrap().is_nan() && most.unwrap().is_nan());
         }
         let alone = measure(&[level(true, f64::NAN, Some(ConservationError::NONE))]);
-        assert!(alone.errors.unwrap().0.is_nan());
+        assert!(alone.figure(CaseFigure::ErrorAbove).unwrap().is_nan());
         assert!(alone.drift.unwrap().of(Conserved::Mass).is_nan());
     }
 
     /// One level with a bound on its error, for which no verdict is expected.
     #[test]
     fn bounds_alone_make_the_headline() {
-        let limits = Limits { error_below: Some(1e-9), ..Limits::default() };
+        let bounds = vec![(CaseFigure::ErrorBelow, 1e-9)];
+        let limits = Limits { bounds, ..Limits::default() };
         let bound =
             Expectation { verdict: None, order: None, limits, ..Expectation::of_order(2.0, "") };
         let said = |level: Level, unmet: &[String]| {
             let judgement = judge(&[level], &OrderHypothesis::formal(2.0));
-            let measured = Measured {
-                errors: Some((1e-12, 1e-12)),
-                observed: None,
-                residual_speed: None,
-                drift: None,
-                energy_rate: None,
-            };
+            let figures = [Some(1e-12), Some(1e-12), None, None];
+            let measured = Measured { figures, ..Measured::NONE };
             headline(&bound, &judgement, &measured, unmet)
         };
         let one = Level::new(1.0, 1e-12);

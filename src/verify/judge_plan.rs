@@ -5,12 +5,11 @@ use super::convergence::LevelOutcome;
 use super::error::error_scale::ErrorScale;
 use super::error::norm::NormName;
 use super::error::quantity::Quantity;
-use super::error::run_result::RunResult;
+use super::error::run::RunResult;
 use super::expectation::gate::Gating;
 use super::expectation::{Bounds, Expectation};
-use super::order::axis::Axis;
 use super::order::hypothesis::OrderHypothesis;
-use super::order::level::Level;
+use super::order::level::{Axis, Level};
 use super::verdict::judge::{Judgement, judge};
 
 /// Everything that the judgement of a case depends on, besides its levels.

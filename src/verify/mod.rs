@@ -4,9 +4,7 @@
 //! |---|---|
 //! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
 //! | [`conservation`](ConservationError) | conserved sums of a free motion over a run |
-//! | [`level`](Level), [`hypothesis`](OrderHypothesis) | the errors, and the order to test |
-//! | [`axis`](Axis) | which spacing is refined |
-//! | [`pairwise`](observed_order) | the order between two levels |
+//! | [`level`](Level), [`hypothesis`](OrderHypothesis) | errors, pairwise orders, the order to test |
 //! | [`fit`](Interval), [`t_quantile`](two_sided_95) | the order by regression, its interval |
 //! | `window` | which levels are asymptotic |
 //! | `error_trend` | floor, divergence, oscillation |
@@ -18,6 +16,7 @@
 //! | [`cost`](Ranking) | cost of accuracy, in transfers or seconds |
 //! | [`stability`](StabilityStudy) | growth in runs, the step as a matrix, limits by bisection |
 //! | [`expectation`](Expectation), [`limits`](Limits) | expectations of suites |
+//! | [`figure`](CaseFigure) | registry of the figures that suites bound |
 //!
 //! Two principles hold throughout. Comparisons are written so that NaN fails: what must hold is
 //! asked (`error <= tolerance`), never its opposite. And shapes are told by ratios, never by
@@ -30,7 +29,7 @@ mod cost;
 mod energy_rate;
 pub(crate) mod error;
 mod expectation;
-mod internal_force;
+mod figure;
 mod judge_plan;
 pub(crate) mod order;
 mod outcome;
@@ -57,20 +56,18 @@ pub(crate) use error::norm::larger;
 pub use error::norm::{NormName, Norms, RunErrors};
 pub use error::observer::{History, displacement_at};
 pub use error::quantity::Quantity;
-pub use error::run::{Comparison, errors, run};
-pub use error::run_result::RunResult;
-pub use expectation::gate::{Acceptance, GateResult, Gating, Requirement};
+pub use error::run::{Comparison, RunResult, errors, run};
+pub use expectation::gate::{Acceptance, GateResult, Gating, Requirement, UnmetRequirement};
 pub use expectation::limits::{Limits, Measured};
 pub use expectation::proposal::{Ground, Proposal, ProposedKey, propose};
 pub use expectation::{Bounds, CaseFindings, Expectation};
-pub use internal_force::{ForceRow, InternalForce};
+pub(crate) use figure::each_case_figure;
+pub use figure::{BoundKind, CaseFigure, FigureNeed, RunFigure};
 pub use judge_plan::{JudgePlan, LevelSizes};
-pub use order::axis::Axis;
 pub use order::fit::Interval;
 pub(crate) use order::format_number::{format_number, rounded};
 pub use order::hypothesis::OrderHypothesis;
-pub use order::level::Level;
-pub use order::pairwise::observed_order;
+pub use order::level::{Axis, Level, observed_order};
 pub use order::richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
 pub use order::t_quantile::two_sided_95;
 pub(crate) use order::window::FEWEST_LEVELS;
@@ -78,11 +75,11 @@ pub use outcome::{CaseOutcome, Exemption, SuiteOutcome};
 pub use rerun::{Reruns, RoundingSizes};
 pub(crate) use stability::is_looked_at;
 pub use stability::{
-    Critical, FigureBounds, Prediction, Radius, RunFigure, Scales, Stability, StabilityExpectation,
-    StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification, spectral_radius,
-    stability_limit, trial,
+    AmplificationError, Critical, FigureBounds, Prediction, Radius, Scales, Stability,
+    StabilityExpectation, StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification,
+    spectral_radius, stability_limit, trial,
 };
-pub use study_results::StudyResults;
+pub use study_results::{ForceRow, InternalForce, StudyResults};
 pub use verdict::diagnosis::{Cause, ChangedRun, Diagnosis, Evidence, KnownCause, KnownCauseKind};
 pub use verdict::floor::{Floor, FloorCause, Probe};
 pub use verdict::judge::{Judgement, judge};

@@ -10,7 +10,7 @@
 use super::convergence::LevelOutcome;
 use super::expectation::gate::{Acceptance, GateResult, Requirement};
 use super::judge_plan::{JudgePlan, series};
-use super::order::axis::Axis;
+use super::order::level::Axis;
 use super::verdict::floor::{Floor, Probe};
 use super::verdict::judge::Judgement;
 use super::verdict::name::Verdict;
@@ -100,7 +100,8 @@ pub(super) fn floor<R: Reruns>(
 pub(super) fn gate<R: Reruns>(
     plan: &JudgePlan<'_>,
     required: &Requirement,
-    (levels, judgement): (&[LevelOutcome], &Judgement),
+    levels: &[LevelOutcome],
+    judgement: &Judgement,
     reruns: &R,
 ) -> GateResult {
     let rounding = rounding(plan, levels, reruns);

@@ -1,8 +1,6 @@
 //! The mean stress, tr(sigma)/D.
 
-use super::declaration::Declaration;
-use super::fields::STRESS;
-use super::tensor_shape::TensorShape;
+use super::declaration::{Declaration, STRESS, TensorShape};
 use std::borrow::Cow;
 
 /// tr(sigma)/D of each label in D dimensions.

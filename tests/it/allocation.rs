@@ -88,14 +88,16 @@ fn heat<const D: usize>(
     };
     let mut forcing = HeatForcing::new(&problem, particles.x0.iter().map(Vector::as_slice));
     let number = || -> ScalarField<D> { Box::new(|x, t| x[0] * t) };
-    let heat = Heat::new((0.01, 1.0), particles, |x| (x[0], Vector::zeros()));
+    let heat = Heat::new(0.01, 1.0, particles, |x| (x[0], Vector::zeros()));
     let convection = Thermal::Inflow(Box::new(|x, t, value| 0.1 * (x[0] * t - value)));
     let conditions = [
         ((0, Side::Low), Thermal::Temperature(number())),
         ((0, Side::High), convection),
         ((D - 1, Side::Low), Thermal::Inflow(Box::new(|x, t, _| x[0] * t))),
     ];
-    let face = |(at, condition)| ThermalBoundary::new((grid, basis), particles, at, condition);
+    let face = |((axis, side), condition)| {
+        ThermalBoundary::new(grid, basis, particles, axis, side, condition)
+    };
     heat.with_faces(conditions.map(face).into())
         .with_source(Box::new(move |t, _, into| forcing.at(t, into)))
 }
@@ -122,7 +124,7 @@ fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
         let heat = heat(&mut setup.particles, (&setup.grid, method.0));
         setup.effects = vec![
             Box::new(heat),
-            Box::new(ThermalExpansion::in_rate_form(1e-4, 0.0, (1.0, 0.3))),
+            Box::new(ThermalExpansion::in_rate_form(1e-4, 0.0, 1.0, 0.3)),
             Box::new(gravity),
             Box::new(Damping(Box::new(|t| 0.1 * t))),
             Box::new(LocalDamping(0.5)),
@@ -226,14 +228,14 @@ fn kept<const D: usize>(
             let force = BodyForce::pointwise(|x, t| x * t);
             let damping = Damping(Box::new(|t| 0.1 * t));
             let start = |x: &Vector<D>| (x[0], Vector::zeros());
-            let heat = Heat::new((0.1, 1.0), &mut setup.particles, start);
+            let heat = Heat::new(0.1, 1.0, &mut setup.particles, start);
             let source = Box::new(|_: f64, _: &Particles<D>, into: &mut [f64]| into.fill(0.1));
             setup.effects = vec![
                 Box::new(gravity),
                 Box::new(force),
                 Box::new(damping),
                 Box::new(heat.with_source(source)),
-                Box::new(ThermalExpansion::in_rate_form(1e-4, 0.0, (1.0, 0.3))),
+                Box::new(ThermalExpansion::in_rate_form(1e-4, 0.0, 1.0, 0.3)),
             ];
         }
         let mut made = Solver::new(setup).unwrap();

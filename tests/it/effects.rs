@@ -327,7 +327,7 @@ fn an_interrupted_run_of_heat_gives_the_bits_of_a_whole_one() {
         let Setup { kernel, grid, mut particles, .. } =
             free_body::<2>((BasisName::Cpdi, TransferName::Flip), SchemeName::Musl);
         let heat =
-            Heat::new((0.1, 1.0), &mut particles, |x| (libm::sin(9.0 * x[0]), Vector::zeros()));
+            Heat::new(0.1, 1.0, &mut particles, |x| (libm::sin(9.0 * x[0]), Vector::zeros()));
         let source: HeatSource<2> = Box::new(|t, _, into| into.fill(t));
         HeatSolver::new(kernel, grid, particles, vec![Box::new(heat.with_source(source))]).unwrap()
     };

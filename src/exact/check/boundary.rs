@@ -129,7 +129,7 @@ pub(crate) fn driven(problem: &Problem, survey: &Survey) -> Result<(), Violation
     let speed = survey.largest.velocity;
     let mut random = Random::new(7);
     for (region, velocity) in problem.terms.iter().filter_map(|term| term.driven()) {
-        let (from, to) = region.within((&problem.from, &problem.to));
+        let (from, to) = region.within(&problem.from, &problem.to);
         let part = SpaceTimeBox { from: &from, to: &to, ..survey::extent(problem) };
         let mut found = LargestViolation::default();
         for event in part.spread(survey.face_events, |_| true, &mut random) {

@@ -30,15 +30,13 @@ impl MohrCoulombLaw {
         let strength = 2.0 * cohesion * libm::cos(phi);
         // Weights of the axial and of the lateral stress in the yield function, and what the two
         // planes take from these stresses.
-        let compression = (
-            [-(1.0 - s), 1.0 + s],
-            [4.0 * lambda * t - 4.0 * mu * (1.0 - t), 4.0 * lambda * t + 2.0 * mu * (1.0 + t)],
-        );
-        let extension = (
-            [1.0 + s, -(1.0 - s)],
-            [4.0 * lambda * t + 4.0 * mu * (1.0 + t), 4.0 * lambda * t - 2.0 * mu * (1.0 - t)],
-        );
-        let flow = |sign: f64, (weights, relief): ([f64; 2], [f64; 2])| {
+        let in_compression = [-(1.0 - s), 1.0 + s];
+        let relief_in_compression =
+            [4.0 * lambda * t - 4.0 * mu * (1.0 - t), 4.0 * lambda * t + 2.0 * mu * (1.0 + t)];
+        let in_extension = [1.0 + s, -(1.0 - s)];
+        let relief_in_extension =
+            [4.0 * lambda * t + 4.0 * mu * (1.0 + t), 4.0 * lambda * t - 2.0 * mu * (1.0 - t)];
+        let flow = |sign: f64, weights: [f64; 2], relief: [f64; 2]| {
             let dot = |[axial, lateral]: [f64; 2]| weights[0] * axial + weights[1] * lateral;
             let rates = [sign * elastic, sign * lambda];
             let towards = dot(rates);
@@ -57,8 +55,8 @@ impl MohrCoulombLaw {
         };
         Self(UniaxialLaw {
             lame,
-            compression: flow(-1.0, compression),
-            extension: flow(1.0, extension),
+            compression: flow(-1.0, in_compression, relief_in_compression),
+            extension: flow(1.0, in_extension, relief_in_extension),
         })
     }
 }

@@ -7,7 +7,7 @@
 //! algorithm A2.2).
 
 use super::cell_locator::{CellLocator, CellPositions};
-use super::contract::{Basis, Domain};
+use super::contract::{Basis, Domain, FourLanes};
 use super::product::{Product, ProductBatch};
 use super::weights_1d::{Weights1d, Weights1dBatch, WeightsSimd};
 use crate::mpm::foundation::algebra::array;
@@ -210,11 +210,13 @@ macro_rules! bspline {
             #[inline(always)]
             fn patches_x4<S: Simd, const D: usize>(
                 simd: S,
-                (grid, locator): (&Grid<D>, &CellLocator<D>),
+                grid: &Grid<D>,
+                locator: &CellLocator<D>,
                 particles: &Particles<D>,
-                (first, lane): (usize, usize),
+                lanes: FourLanes,
                 patches: &mut ProductBatch<D, $functions>,
             ) -> u32 {
+                let FourLanes { particle: first, lane } = lanes;
                 let CellPositions { cell, xi, inside } =
                     locator.locate(simd, grid, &particles.x, first);
                 patches.put_starts(lane, locator.starts(&cell));

@@ -24,6 +24,15 @@ pub enum Domain {
     Follows,
 }
 
+/// Four neighbouring particles and the lanes of a batch that take their patches.
+#[derive(Debug, Clone, Copy)]
+pub struct FourLanes {
+    /// Index of the first particle.
+    pub particle: usize,
+    /// Lane of the first particle.
+    pub lane: usize,
+}
+
 /// Basis functions N_i on the grid. Adding one: `docs/exercises/basis.md`.
 pub trait Basis: Sized + Sync + Send + 'static {
     /// Degree p of the polynomials that the basis reproduces.
@@ -60,18 +69,20 @@ pub trait Basis: Sized + Sync + Send + 'static {
         visit: impl FnMut(&Self::Patch<D>),
     );
 
-    /// Stores the patches of the four particles from `first` on in the lanes from `lane` on.
-    /// Returns a mask, bit k for particle `first + k`, of those whose only patch is stored; the
-    /// others are left to [`Basis::patches`], which has the same bits. A basis overrides this to
-    /// compute the weights of four particles at once.
+    /// Stores the patches of the four particles of `lanes`. Returns a mask, bit k for particle
+    /// `lanes.particle + k`, of those whose only patch is stored; the others are left to
+    /// [`Basis::patches`], which has the same bits. A basis overrides this to compute the weights of
+    /// four particles at once.
     #[inline(always)]
     fn patches_x4<S: Simd, const D: usize>(
         _width: S,
-        (grid, locator): (&Grid<D>, &CellLocator<D>),
+        grid: &Grid<D>,
+        locator: &CellLocator<D>,
         particles: &Particles<D>,
-        (first, lane): (usize, usize),
+        lanes: FourLanes,
         patches: &mut <Self::Patch<D> as Patch<D>>::Batch,
     ) -> u32 {
+        let FourLanes { particle: first, lane } = lanes;
         let mut stored = 0;
         if !Self::ONE_PATCH {
             return stored;

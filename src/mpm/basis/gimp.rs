@@ -13,7 +13,7 @@
 //! a time, in groups of three nodes.
 
 use super::cell_locator::{CellLocator, CellPositions};
-use super::contract::{Basis, Domain};
+use super::contract::{Basis, Domain, FourLanes};
 use super::product::{Product, ProductBatch};
 use super::weights_1d::{Weights1d, WeightsSimd};
 use crate::mpm::foundation::algebra::{Matrix, array};
@@ -67,12 +67,14 @@ fn patches<const D: usize>(
 #[inline(always)]
 fn patches_x4<S: Simd, const D: usize>(
     simd: S,
-    (grid, locator): (&Grid<D>, &CellLocator<D>),
+    grid: &Grid<D>,
+    locator: &CellLocator<D>,
     particles: &Particles<D>,
-    (first, lane): (usize, usize),
+    lanes: FourLanes,
     follows: bool,
     patches: &mut ProductBatch<D, AT_ONCE>,
 ) -> u32 {
+    let FourLanes { particle: first, lane } = lanes;
     let CellPositions { cell, xi, inside } = locator.locate(simd, grid, &particles.x, first);
     let (mut start, mut one) = (cell, inside);
     let domains = particles.domain.get(first..).and_then(<[Matrix<D>]>::first_chunk::<LANES>);
@@ -152,12 +154,14 @@ macro_rules! gimp {
             #[inline(always)]
             fn patches_x4<S: Simd, const D: usize>(
                 simd: S,
-                grid: (&Grid<D>, &CellLocator<D>),
+                grid: &Grid<D>,
+                locator: &CellLocator<D>,
                 particles: &Particles<D>,
-                at: (usize, usize),
+                lanes: FourLanes,
                 patches: &mut ProductBatch<D, AT_ONCE>,
             ) -> u32 {
-                patches_x4(simd, grid, particles, at, Self::DOMAIN == Domain::Follows, patches)
+                let follows = Self::DOMAIN == Domain::Follows;
+                patches_x4(simd, grid, locator, particles, lanes, follows, patches)
             }
 
             /// Three nodes along an axis while the domain is not longer than a cell.

@@ -1,8 +1,8 @@
 //! Laws of every registered basis, in 1-D, 2-D and 3-D: inside, at walls, and on periodic axes.
 
 use super::{
-    Basis, BasisName, CellLocator, Domain, Patch, PatchBatch, WeightNeeds, contract, product,
-    weights_1d, with_basis,
+    Basis, BasisName, CellLocator, Domain, FourLanes, Patch, PatchBatch, WeightNeeds, contract,
+    product, weights_1d, with_basis,
 };
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
 use crate::mpm::foundation::grid::Grid;
@@ -152,7 +152,8 @@ fn fill<B: Basis, const D: usize>(periodic: bool) {
         let (mut together, mut alone) = (none(), none());
         let needs = WeightNeeds { slopes: true, offsets: true };
         let locator = CellLocator::new(&grid, layout, needs);
-        let one = B::patches_x4(Plain, (&grid, &locator), &particles, (0, LANES), &mut together);
+        let lanes = FourLanes { particle: 0, lane: LANES };
+        let one = B::patches_x4(Plain, &grid, &locator, &particles, lanes, &mut together);
         for k in 0..LANES {
             let mut patches = 0;
             B::patches(&grid, &particles, k, |patch| {

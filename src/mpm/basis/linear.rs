@@ -5,7 +5,7 @@
 //! (grid crossing).
 
 use super::cell_locator::{CellLocator, CellPositions};
-use super::contract::{Basis, Domain};
+use super::contract::{Basis, Domain, FourLanes};
 use super::product::{Product, ProductBatch};
 use super::weights_1d::{Weights1d, WeightsSimd};
 use crate::mpm::foundation::algebra::array;
@@ -59,11 +59,13 @@ impl Basis for Linear {
     #[inline(always)]
     fn patches_x4<S: Simd, const D: usize>(
         simd: S,
-        (grid, locator): (&Grid<D>, &CellLocator<D>),
+        grid: &Grid<D>,
+        locator: &CellLocator<D>,
         particles: &Particles<D>,
-        (first, lane): (usize, usize),
+        lanes: FourLanes,
         patches: &mut ProductBatch<D, 2>,
     ) -> u32 {
+        let FourLanes { particle: first, lane } = lanes;
         let CellPositions { cell, xi, inside } = locator.locate(simd, grid, &particles.x, first);
         patches.put_starts(lane, locator.starts(&cell));
         for axis in 0..D {

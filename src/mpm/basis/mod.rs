@@ -13,7 +13,7 @@ mod product;
 mod weights_1d;
 
 pub use cell_locator::{CellLocator, WeightNeeds};
-pub use contract::{Basis, Domain, NodeTerm, NodeWeight, Patch, PatchBatch};
+pub use contract::{Basis, Domain, FourLanes, NodeTerm, NodeWeight, Patch, PatchBatch};
 pub use product::{Product, ProductBatch};
 pub use weights_1d::{Weights1d, Weights1dBatch};
 

@@ -33,7 +33,8 @@ impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {
     pub(in crate::mpm) fn add<const D: usize>(
         &mut self,
         start: usize,
-        (j, k): (usize, usize),
+        j: usize,
+        k: usize,
         with_term: impl Fn(usize, N::Lanes<S>) -> N::Lanes<S>,
     ) {
         if D == 1 {

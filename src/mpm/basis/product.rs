@@ -228,7 +228,8 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
                 }
                 accumulator.add::<D>(
                     start,
-                    (j, k),
+                    j,
+                    k,
                     #[inline(always)]
                     |i, node| {
                         let Some(first) = first[i] else {

@@ -98,7 +98,8 @@ pub trait Effect<const D: usize>: Send {
     /// The failure of the first particle that cannot go on.
     fn integrate_state(
         &mut self,
-        _t_and_dt: (f64, f64),
+        _t: f64,
+        _dt: f64,
         _particles: &mut Particles<D>,
         _kernel: &dyn Kernel<D>,
         _grid: &Grid<D>,

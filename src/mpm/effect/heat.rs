@@ -56,7 +56,8 @@ impl<const D: usize> Heat<D> {
     /// `particles`, which get their temperature (K) here: `initial` gives it and its gradient with
     /// respect to X for each reference position.
     pub fn new(
-        (conductivity, capacity): (f64, f64),
+        conductivity: f64,
+        capacity: f64,
         particles: &mut Particles<D>,
         initial: impl Fn(&Vector<D>) -> (f64, Vector<D>),
     ) -> Self {
@@ -95,8 +96,8 @@ impl<const D: usize> Heat<D> {
     fn show(&mut self, t: f64, particles: &Particles<D>, kernel: &dyn Kernel<D>, grid: &Grid<D>) {
         self.temperature.resize(grid.nodes(), 0.0);
         self.flow.resize(grid.nodes(), 0.0);
-        let shown = (&particles.temperature[..], &self.slope[..]);
-        kernel.p2g_scalar(particles, shown, grid, &mut self.temperature);
+        let (value, column) = (&particles.temperature, &mut self.temperature);
+        kernel.p2g_scalar(particles, value, &self.slope, grid, column);
         for (value, m) in self.temperature.iter_mut().zip(&grid.mass) {
             *value = if *m > 0.0 { *value / *m } else { 0.0 };
         }
@@ -115,8 +116,8 @@ impl<const D: usize> Heat<D> {
         grid: &Grid<D>,
     ) -> u64 {
         let mut visits = particles.len() as u64 * kernel.support();
-        let (down, flow) = ((&self.slope[..], -self.conductivity), &mut self.flow);
-        kernel.p2g_flow(particles, down, grid, flow);
+        let flow = &mut self.flow;
+        kernel.p2g_flow(particles, &self.slope, -self.conductivity, grid, flow);
         if let Some((source, amount)) = &mut self.source {
             source(t, particles, amount);
             for (p, (s, m)) in amount.iter().zip(&particles.mass).enumerate() {
@@ -163,7 +164,8 @@ impl<const D: usize> Effect<D> for Heat<D> {
 
     fn integrate_state(
         &mut self,
-        (t, dt): (f64, f64),
+        t: f64,
+        dt: f64,
         particles: &mut Particles<D>,
         kernel: &dyn Kernel<D>,
         grid: &Grid<D>,
@@ -203,7 +205,7 @@ mod tests {
         let f = Matrix::<2>::new(2.0, 0.5, 0.0, 4.0);
         body.def_grad.fill(f);
         let along = Vector::<2>::new(3.0, -1.0);
-        let heat = Heat::new((1.0, 1.0), &mut body, |x| (along.dot(x), along));
+        let heat = Heat::new(1.0, 1.0, &mut body, |x| (along.dot(x), along));
         for slope in heat.fields().1 {
             assert_relative_eq!(f.transpose() * slope, along, max_relative = 1e-15);
         }

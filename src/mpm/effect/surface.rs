@@ -199,16 +199,17 @@ impl MappedFace {
         outwards: f64,
     ) -> Option<Self> {
         let Particles { x0, domain0, spacing, .. } = particles;
-        let end = |p: usize, (column, sign): (usize, f64)| {
+        let end = |p: usize, column: usize, sign: f64| {
             outwards * (x0[p][axis] + sign * domain0[p][(axis, column)])
         };
-        let furthest = |column: (usize, f64)| {
-            (0..domain0.len()).map(|p| end(p, column)).fold(f64::NEG_INFINITY, f64::max)
+        let furthest = |(column, sign)| {
+            (0..domain0.len()).map(|p| end(p, column, sign)).fold(f64::NEG_INFINITY, f64::max)
         };
         let columns = (0..D).flat_map(|a| [(a, 1.0), (a, -1.0)]);
         let column = columns.max_by(|a, b| furthest(*a).total_cmp(&furthest(*b)))?;
         let reach = furthest(column) - ROUNDING * spacing[axis];
-        let layer: Vec<usize> = (0..domain0.len()).filter(|&p| end(p, column) > reach).collect();
+        let layer: Vec<usize> =
+            (0..domain0.len()).filter(|&p| end(p, column.0, column.1) > reach).collect();
         let (&first, &last) = (layer.first()?, layer.last()?);
         let middle = |p: usize| x0[p] + domain0[p].column(column.0) * column.1;
         let area = if D == 2 && first != last {

@@ -40,7 +40,7 @@ impl<const D: usize> ThermalExpansion<D> {
     }
 
     /// With a law in rate form, of Young's modulus (Pa) and Poisson's ratio.
-    pub fn in_rate_form(coefficient: f64, reference: f64, (young, poisson): (f64, f64)) -> Self {
+    pub fn in_rate_form(coefficient: f64, reference: f64, young: f64, poisson: f64) -> Self {
         let modulus = young / (1.0 - 2.0 * poisson);
         Self {
             coefficient,
@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn a_law_in_rate_form_takes_the_change_off_the_strain() {
         let (mut plate, mut law) = (warm::<2>(), LinearElastic::new(50.0, 0.3));
-        let mut expansion = ThermalExpansion::in_rate_form(1e-3, 20.0, (50.0, 0.3));
+        let mut expansion = ThermalExpansion::in_rate_form(1e-3, 20.0, 50.0, 0.3);
         expansion.start(&mut law, &mut plate);
         let expected = |t: f64| Matrix::<2>::identity() * (-50.0 * 1e-3 * (t - 20.0) / 0.4);
         assert_relative_eq!(plate.sigma[0], expected(30.0), max_relative = 1e-14);

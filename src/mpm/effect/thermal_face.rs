@@ -50,9 +50,11 @@ pub struct ThermalBoundary<const D: usize> {
 impl<const D: usize> ThermalBoundary<D> {
     /// `condition` on the face `side` of `axis` of `grid`, which has the functions of `basis`.
     pub fn new(
-        (grid, basis): (&Grid<D>, BasisName),
+        grid: &Grid<D>,
+        basis: BasisName,
         particles: &Particles<D>,
-        (axis, side): (usize, Side),
+        axis: usize,
+        side: Side,
         condition: Thermal<D>,
     ) -> Self {
         let place = |i| (i, basis.place(grid, i));

@@ -52,7 +52,7 @@ impl<const D: usize> InertiaTensor<D> {
     /// Of products of one-dimensional functions, from mean and variance along each axis: D_p is
     /// diagonal.
     #[inline(always)]
-    pub(in crate::mpm) fn diagonal((mean, variance): ([f64; D], [f64; D])) -> Self {
+    pub(in crate::mpm) fn diagonal(mean: [f64; D], variance: [f64; D]) -> Self {
         let mut inertia = Self { mean: Vector::zeros(), second: Matrix::zeros() };
         for axis in 0..D {
             inertia.mean[axis] = mean[axis];

@@ -1,7 +1,7 @@
 //! Batches of particles: their patches of nodes, moments of their weights, and their matrices as
 //! columns in registers.
 
-use crate::mpm::basis::{Basis, CellLocator, Patch, PatchBatch, WeightNeeds};
+use crate::mpm::basis::{Basis, CellLocator, FourLanes, Patch, PatchBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::{Matrix, Vector, array};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::{InertiaTensor, WeightMoments};
@@ -30,7 +30,8 @@ pub(in crate::mpm) struct ParticleBatches<'a, B: Basis, const D: usize> {
 impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
     #[inline(always)]
     pub(in crate::mpm) fn new(
-        (grid, layout): (&'a Grid<D>, Layout),
+        grid: &'a Grid<D>,
+        layout: Layout,
         particles: &'a Particles<D>,
         needs: WeightNeeds,
     ) -> Self {
@@ -54,8 +55,8 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
         let count = BATCH.min(particles.len() - first);
         let (mut one, mut lane) = (0, 0);
         while lane < count {
-            let at = (first + lane, lane);
-            one |= B::patches_x4(simd, (grid, locator), particles, at, patches) << lane;
+            let lanes = FourLanes { particle: first + lane, lane };
+            one |= B::patches_x4(simd, grid, locator, particles, lanes, patches) << lane;
             lane += LANES;
         }
         if B::ONE_PATCH {
@@ -104,7 +105,8 @@ pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
     let mut one = InertiaTensor { mean: Vector::zeros(), second: Matrix::zeros() };
     let mut patches = 0;
     B::patches(grid, particles, p, |patch| {
-        one = InertiaTensor::diagonal(patch.variance());
+        let (mean, variance) = patch.variance();
+        one = InertiaTensor::diagonal(mean, variance);
         patches += 1;
         if !B::ONE_PATCH {
             let weight_moments = patch.weight_moments();
@@ -152,9 +154,12 @@ pub(super) fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(
 /// all patches of the particle, or without it that of its only patch.
 #[inline(always)]
 pub(super) fn divide<B: Basis, S: Simd, const D: usize>(
-    (simd, patches, lane): (S, &Batch<B, D>, usize),
+    simd: S,
+    patches: &Batch<B, D>,
+    lane: usize,
     of_all: Option<&InertiaTensor<D>>,
-    (matrix, from): (&[S::F64x4; D], usize),
+    matrix: &[S::F64x4; D],
+    from: usize,
     h: f64,
 ) -> [S::F64x4; D] {
     let Some(of_all) = of_all else { return patches.divide::<S>(lane, matrix) };

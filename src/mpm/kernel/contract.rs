@@ -128,11 +128,12 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
 
 /// Passes of P2G and G2P for scalars, of one basis.
 pub trait Scalars<const D: usize> {
-    /// `column_i = sum_p m_p (s_p + slope_p . (x_i - x_p)) N_i(x_p)`: a scalar s with its slope.
+    /// `column_i = sum_p m_p (value_p + slope_p . (x_i - x_p)) N_i(x_p)`: a scalar with its slope.
     fn p2g_scalar(
         &self,
         particles: &Particles<D>,
-        shown: (&[f64], &[Vector<D>]),
+        value: &[f64],
+        slope: &[Vector<D>],
         grid: &Grid<D>,
         column: &mut [f64],
     );
@@ -141,7 +142,8 @@ pub trait Scalars<const D: usize> {
     fn p2g_flow(
         &self,
         particles: &Particles<D>,
-        slope_and_factor: (&[Vector<D>], f64),
+        slope: &[Vector<D>],
+        factor: f64,
         grid: &Grid<D>,
         column: &mut [f64],
     );

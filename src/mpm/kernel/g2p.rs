@@ -111,7 +111,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
                     put::<B, _>(&mut sums.moment[lane][axis], moment[axis]);
                 }
                 if request.fit.is_some() {
-                    let fit = divide::<B, S, D>((simd, patches, lane), of_all, (&moment, 0), h);
+                    let fit = divide::<B, S, D>(simd, patches, lane, of_all, &moment, 0, h);
                     for axis in 0..D {
                         put::<B, _>(&mut sums.fit[lane][axis], fit[axis]);
                     }
@@ -195,7 +195,7 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
         let layout = self.fields[0].layout;
         let mut patches = Batch::<B, D>::none();
         let needs = WeightNeeds { slopes, offsets };
-        let batches = ParticleBatches::<B, D>::new((self.grid, layout), self.particles, needs);
+        let batches = ParticleBatches::<B, D>::new(self.grid, layout, self.particles, needs);
         let mut sums = G2pSums::zero(simd);
         for first in self.range.clone().step_by(BATCH) {
             if !B::ONE_PATCH {

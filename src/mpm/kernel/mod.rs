@@ -250,7 +250,8 @@ impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {
     fn p2g_scalar(
         &self,
         particles: &Particles<D>,
-        (value, slope): (&[f64], &[Vector<D>]),
+        value: &[f64],
+        slope: &[Vector<D>],
         grid: &Grid<D>,
         column: &mut [f64],
     ) {
@@ -267,7 +268,8 @@ impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {
     fn p2g_flow(
         &self,
         particles: &Particles<D>,
-        (slope, factor): (&[Vector<D>], f64),
+        slope: &[Vector<D>],
+        factor: f64,
         grid: &Grid<D>,
         column: &mut [f64],
     ) {

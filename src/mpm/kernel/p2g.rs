@@ -86,7 +86,7 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
             lanes.zip(particles.mass[here.clone()].iter().zip(&v[here])),
             #[inline(always)]
             |lane, (m, v)| {
-                let (p, at) = (first + lane, (simd, patches, lane));
+                let p = first + lane;
                 let value = if has_inertia { inertial(simd, *m, v) } else { zero };
                 let mut term = NodeTerm::NONE;
                 if Self::HOLDS_ALL || !FLUX {
@@ -98,13 +98,13 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
                         Some(Affine::Slope(c)) => columns(simd, &c[p], 0),
                         Some(Affine::Moment(b)) => {
                             let b = columns(simd, &b[p], 0);
-                            divide::<B, S, D>(at, of_all, (&b, 0), h)
+                            divide::<B, S, D>(simd, patches, lane, of_all, &b, 0, h)
                         }
                     };
                     let (mut slope, mut fit) = ([N::zero(simd); D], None);
                     if is_fit {
-                        let force = (&flux(simd, particles, p), force_lane(D));
-                        fit = Some(divide::<B, S, D>(at, of_all, force, h));
+                        let (force, from) = (flux(simd, particles, p), force_lane(D));
+                        fit = Some(divide::<B, S, D>(simd, patches, lane, of_all, &force, from, h));
                     }
                     for axis in 0..D {
                         let growth = growth[axis] * *m;
@@ -140,7 +140,7 @@ impl<const D: usize, B: Basis, N: PackedNode> SimdPass for Scatter<'_, D, B, N> 
         let has_flux = request.force == Some(Divergence::Gradient);
         let mut patches = Batch::<B, D>::none();
         let needs = WeightNeeds { slopes: has_flux, offsets: has_slope };
-        let batches = ParticleBatches::<B, D>::new((grid, self.field.layout), particles, needs);
+        let batches = ParticleBatches::<B, D>::new(grid, self.field.layout, particles, needs);
         for first in range.step_by(BATCH) {
             batches.visit(
                 simd,

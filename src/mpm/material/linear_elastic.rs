@@ -115,7 +115,7 @@ impl<const D: usize> Material<D> for LinearElastic {
 
     fn in_plane_stress(&self) -> Option<Box<dyn Material<D>>> {
         let plate = |lambda| Self { lambda, ..*self };
-        Some(Box::new(RatePlaneStress::new((self.lambda, self.mu), plate)))
+        Some(Box::new(RatePlaneStress::new(self.lambda, self.mu, plate)))
     }
 
     /// Along a line the rate integrates to `sigma = M eps`, `eps = ln J`, and its work per

@@ -75,7 +75,7 @@ pub(super) struct RatePlaneStress<L> {
 
 impl<L> RatePlaneStress<L> {
     /// Of the law that `with_lambda` makes of another first Lame parameter (Pa).
-    pub(super) fn new((lambda, mu): (f64, f64), with_lambda: impl Fn(f64) -> L) -> Self {
+    pub(super) fn new(lambda: f64, mu: f64, with_lambda: impl Fn(f64) -> L) -> Self {
         Self { plane: with_lambda(lambda_of_plate(lambda, mu)), thinning: thinning(lambda, mu) }
     }
 }

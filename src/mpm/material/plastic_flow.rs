@@ -147,17 +147,18 @@ impl<S: YieldSurface> ElastoPlastic<S> {
         &self,
         f: &Matrix<3>,
         before: Flowed,
-        (strain, axes): (Vector<3>, Matrix<3>),
+        strain: &Vector<3>,
+        axes: &Matrix<3>,
     ) -> (Matrix<3>, Flowed) {
-        let trial = PrincipalStrain::new(&strain);
-        let stress = |strain| assembled(&self.surface.elasticity().stress(strain), &axes);
+        let trial = PrincipalStrain::new(strain);
+        let stress = |strain| assembled(&self.surface.elasticity().stress(strain), axes);
         let Some((elastic, flow)) = self.surface.return_from(&trial, before.strain) else {
             return (stress(&trial), before);
         };
         let squares = elastic.deviator.map(|eps| libm::exp(2.0 * (elastic.mean + eps)));
         // An F without inverse ends the run for its volume.
         let back = f.try_inverse().unwrap_or(*f);
-        let inverse_metric = back * assembled(&squares, &axes) * back.transpose();
+        let inverse_metric = back * assembled(&squares, axes) * back.transpose();
         (stress(&elastic), Flowed { inverse_metric, strain: before.strain + flow })
     }
 }
@@ -218,9 +219,9 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
                 let results = vol.iter_mut().zip(vol0).zip(sigma);
                 let particles = def_grad.iter().zip(flowed).zip(results).enumerate();
                 for (lane, ((f, flowed), ((vol, vol0), sigma))) in particles {
-                    let trial = (strains.get(lane), axes.get(lane));
+                    let (strain, axes) = (strains.get(lane), axes.get(lane));
                     let (j, (stress, after)) =
-                        (det(f), self.kirchhoff(&in_space(f), *flowed, trial));
+                        (det(f), self.kirchhoff(&in_space(f), *flowed, &strain, &axes));
                     *flowed = after;
                     *vol = j * vol0;
                     *sigma = Matrix::from_fn(|i, k| stress[(i, k)] / j);

@@ -5,6 +5,19 @@ use crate::mpm::foundation::particles::FrameName;
 use crate::mpm::mass::MassName;
 use crate::mpm::transfer::{TransferChoice, TransferKind};
 use crate::subject::{PlaneState, Start};
+use thiserror::Error;
+
+/// A combination of parts that means nothing: one line that names the parts and gives the reason.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct CombinationError(String);
+
+/// A [`CombinationError`] with a formatted text.
+macro_rules! refusal {
+    ($($text:tt)+) => {
+        CombinationError(format!($($text)+))
+    };
+}
 
 /// Refuses a combination that means nothing.
 ///
@@ -15,18 +28,18 @@ pub fn combine(
     transfer: impl Into<TransferChoice>,
     mass: MassName,
     frame: FrameName,
-) -> Result<(), String> {
+) -> Result<(), CombinationError> {
     let transfer = transfer.into();
     let (b, t, m, f) = (basis.name(), transfer.name(), mass.name(), frame.name());
     let kind = transfer.kind();
     if kind == TransferKind::Fit && basis == BasisName::Linear {
-        return Err(format!(
+        return Err(refusal!(
             "the transfer `{t}` needs the inertia tensor of the weights, which the basis `{b}` does \
              not have on its nodes"
         ));
     }
     if mass == MassName::Consistent && kind == TransferKind::Series {
-        return Err(format!(
+        return Err(refusal!(
             "the transfer `{t}` stands in for a consistent mass matrix by powers of the lumped one, \
              and the mass matrix is `{m}`"
         ));
@@ -34,30 +47,30 @@ pub fn combine(
     // A linear field reaches node i as m_i v(x_i): the lumped matrix times nodal velocities, which
     // a consistent one would amplify.
     if mass == MassName::Consistent && matches!(kind, TransferKind::Field | TransferKind::Fit) {
-        return Err(format!(
+        return Err(refusal!(
             "the transfer `{t}` gives each node the momentum of its row sum of mass, and the mass \
              matrix is `{m}`"
         ));
     }
     if kind == TransferKind::Cells && domain(basis) != Domain::Point {
-        return Err(format!(
+        return Err(refusal!(
             "the transfer `{t}` integrates over cells, and the basis `{b}` over the domains of \
              particles"
         ));
     }
     if kind == TransferKind::Cells && frame == FrameName::Total {
-        return Err(format!(
+        return Err(refusal!(
             "the transfer `{t}` fits Cauchy stresses, and the frame `{f}` has none"
         ));
     }
     if kind == TransferKind::Cells && mass == MassName::Consistent {
-        return Err(format!(
+        return Err(refusal!(
             "the transfer `{t}` integrates mass over cells, and the mass matrix `{m}` sums it over \
              particles"
         ));
     }
     if frame == FrameName::Total && domain(basis) == Domain::Follows {
-        return Err(format!(
+        return Err(refusal!(
             "the domains of the basis `{b}` follow the deformation, and the frame `{f}` sees none"
         ));
     }
@@ -75,24 +88,24 @@ pub fn combine_bodies(
     frame: FrameName,
     start: Start,
     contact: bool,
-) -> Result<(), String> {
+) -> Result<(), CombinationError> {
     let (t, m, f, s) = (transfer.name(), mass.name(), frame.name(), start.name());
     match (transfer.kind(), mass, frame, start) {
-        (TransferKind::Series, ..) => Err(format!(
+        (TransferKind::Series, ..) => Err(refusal!(
             "the transfer `{t}` improves the field of one body, and several meet at nodes"
         )),
-        (TransferKind::Cells, ..) => Err(format!(
+        (TransferKind::Cells, ..) => Err(refusal!(
             "the transfer `{t}` fits the field of one body in cells, and several meet there"
         )),
-        (_, MassName::Consistent, ..) => Err(format!(
+        (_, MassName::Consistent, ..) => Err(refusal!(
             "the mass matrix `{m}` is that of one body, and several have mass at the same nodes"
         )),
-        (_, _, FrameName::Total, _) => Err(format!(
+        (_, _, FrameName::Total, _) => Err(refusal!(
             "in the frame `{f}` bodies stay in their reference places, and do not meet elsewhere"
         )),
-        (_, _, _, Start::HalfStepBack) if contact => {
-            Err(format!("the start `{s}` takes half a step back, and contact cannot be taken back"))
-        }
+        (_, _, _, Start::HalfStepBack) if contact => Err(refusal!(
+            "the start `{s}` takes half a step back, and contact cannot be taken back"
+        )),
         _ => Ok(()),
     }
 }
@@ -105,10 +118,10 @@ pub fn combine_across(
     plane: PlaneState,
     basis: BasisName,
     transfer: TransferChoice,
-) -> Result<(), String> {
+) -> Result<(), CombinationError> {
     let (b, t, p) = (basis.name(), transfer.name(), plane.name());
     if plane == PlaneState::Axisymmetric && domain(basis) != Domain::Point {
-        return Err(format!(
+        return Err(refusal!(
             "the functions of the basis `{b}` are means over domains in the plane, and in \
              `plane: {p}` they would have to be means around the axis (Nairn & Guilkey 2015)"
         ));
@@ -116,7 +129,7 @@ pub fn combine_across(
     if plane == PlaneState::Strain || transfer.kind() != TransferKind::Cells {
         return Ok(());
     }
-    Err(format!(
+    Err(refusal!(
         "the transfer `{t}` integrates over cells in the plane, and in `plane: {p}` volumes are not \
          those of the plane"
     ))

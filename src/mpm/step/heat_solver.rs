@@ -67,8 +67,8 @@ impl<const D: usize> Subject for HeatSolver<D> {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         let Self { grid, particles, kernel, effects, .. } = self;
         for effect in effects {
-            let now = (self.time, dt);
-            self.transfers += effect.integrate_state(now, particles, kernel.as_ref(), grid)?;
+            let kernel = kernel.as_ref();
+            self.transfers += effect.integrate_state(self.time, dt, particles, kernel, grid)?;
         }
         self.time += dt;
         Ok(())

@@ -119,8 +119,7 @@ impl<const D: usize> Solver<D> {
             }
             Pass::G2p(stages) => {
                 let (transfer, advected) = (transfer.as_mut(), &mut *self.advected);
-                let passes =
-                    g2p(transfer, kernel.as_ref(), (grid, dt), particles, stages, advected);
+                let passes = g2p(transfer, kernel.as_ref(), grid, dt, particles, stages, advected);
                 self.count(passes);
             }
             Pass::Update(stage) => self.update(stage, dt)?,
@@ -205,8 +204,8 @@ impl<const D: usize> Solver<D> {
     fn integrate_state(&mut self, dt: f64) -> Result<(), Failure> {
         let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
         for effect in effects {
-            let now = (self.time, dt);
-            self.transfers += effect.integrate_state(now, particles, kernel.as_ref(), grid)?;
+            let kernel = kernel.as_ref();
+            self.transfers += effect.integrate_state(self.time, dt, particles, kernel, grid)?;
         }
         Ok(())
     }

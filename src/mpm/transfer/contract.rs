@@ -126,7 +126,8 @@ pub(super) fn p2g<const D: usize>(
 pub fn g2p<const D: usize>(
     transfer: &mut dyn Transfer<D>,
     kernel: &dyn Kernel<D>,
-    (grid, dt): (&Grid<D>, f64),
+    grid: &Grid<D>,
+    dt: f64,
     particles: &mut Particles<D>,
     stages: &[Stage],
     advected: &mut [Vector<D>],

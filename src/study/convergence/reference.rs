@@ -20,7 +20,7 @@ use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan};
 use crate::suite::scene::grid_size::cell_size;
-use crate::verify::error::lagrange;
+use crate::verify::error::observer::lagrange_weights;
 use std::cmp::Ordering;
 
 /// Displacement and velocity of a fine bar, kept at every instant of the study. Only asked at
@@ -170,7 +170,7 @@ impl Lattice {
     /// The value at `label` of a field that has one number for each axis at each particle.
     fn interpolate(&self, field: &[f64], label: &[f64], into: &mut [f64]) {
         let along = self.axes.iter().zip(label);
-        let near: Vec<_> = along.map(|(all, x)| lagrange::weights(all, *x, NEAR)).collect();
+        let near: Vec<_> = along.map(|(all, x)| lagrange_weights(all, *x, NEAR)).collect();
         into.fill(0.0);
         for k in 0..near.iter().map(|(_, weights)| weights.len()).product() {
             let (mut rest, mut stride, mut point, mut weight) = (k, 1, 0, 1.0);

@@ -139,7 +139,7 @@ impl CaseRun<'_> {
         let stable = |sought: f64| -> Result<bool, String> {
             Ok(self.run(&with(sought))?.verdict == Stability::Stable)
         };
-        let observed = stability_limit((*low, *high), SCAN_OF_RUNS, SHARP_OF_RUNS, stable)?;
+        let observed = stability_limit(*low, *high, SCAN_OF_RUNS, SHARP_OF_RUNS, stable)?;
         Ok(Critical { predicted: None, confirmed: Vec::new(), observed: Some(observed) })
     }
 
@@ -153,7 +153,8 @@ impl CaseRun<'_> {
             let setup = self.setup(&with(sought))?;
             let mut subject = self.subject(&setup)?;
             let Scales { speed, modulus, .. } = setup.scales;
-            let matrix = amplification(subject.as_mut(), &setup.dt, speed, modulus)?;
+            let matrix = amplification(subject.as_mut(), &setup.dt, speed, modulus)
+                .map_err(|error| error.to_string())?;
             let found = spectral_radius(&matrix);
             let grows = !(found.radius <= 1.0 + DEFECT);
             if grows {
@@ -161,7 +162,7 @@ impl CaseRun<'_> {
             }
             Ok(!grows)
         };
-        let limit = stability_limit(range, SCAN, SHARP, stable)?;
+        let limit = stability_limit(range.0, range.1, SCAN, SHARP, stable)?;
         let shares: Vec<(f64, f64)> = match limit {
             StabilityLimit::At(limit) => {
                 let least = usize::from(self.context.extent != Extent::Full);

@@ -11,7 +11,9 @@ use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::{AnyMethod, Method};
 use crate::suite::pattern;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
-use crate::verify::{Conserved, Expectation, Limits, OrderHypothesis, Verdict};
+use crate::verify::{
+    CaseFigure, Conserved, Expectation, FigureNeed, Limits, OrderHypothesis, Verdict,
+};
 use std::str::FromStr;
 
 /// Expectation of a case, and of a full run if that differs.
@@ -161,14 +163,11 @@ fn limits(
     spec: &ExpectSpec,
     plan: &ConvergencePlan,
 ) -> Result<Limits, Diagnostic> {
-    let bound = |key: &str, text: &Option<NumberText>| {
-        text.as_ref().map(|text| evaluator.positive(&path.then(key), text, "a bound")).transpose()
+    let bound = |(figure, text): (CaseFigure, &NumberText)| {
+        Ok((figure, evaluator.positive(&path.then(figure.name()), text, "a bound")?))
     };
     let limits = Limits {
-        error_below: bound("error_below", &spec.error_below)?,
-        error_above: bound("error_above", &spec.error_above)?,
-        observed_within: bound("observed_within", &spec.observed_within)?,
-        rest_below: bound("rest_below", &spec.rest_below)?,
+        bounds: spec.bounds().into_iter().map(bound).collect::<Result<_, Diagnostic>>()?,
         drift: match &spec.drift {
             Some(spec) => drifts(evaluator, &path.then("drift"), spec, plan)?,
             None => Vec::new(),
@@ -182,23 +181,42 @@ fn limits(
             None => None,
         },
     };
-    if let (Some(most), Some(least)) = (limits.error_below, limits.error_above)
+    let bounds = [CaseFigure::ErrorBelow, CaseFigure::ErrorAbove].map(|side| limits.bound(side));
+    if let [Some(most), Some(least)] = bounds
         && most < least
     {
         let message = format!("no error is below {most:e} and above {least:e}");
         return Err(evaluator.diagnostic(&path.then("error_above"), &message));
     }
-    if limits.observed_within.is_some() && plan.observe.is_none() {
-        let diagnostic =
-            evaluator.diagnostic_at_key(&path.then("observed_within"), "nothing is observed");
-        return Err(diagnostic.with_help("add `observe: {at: [...]}` to the suite"));
-    }
-    if limits.rest_below.is_some() && !plan.exact.as_ref().is_some_and(|truth| truth.at_rest) {
-        let message = "the truth is no state of rest";
-        let diagnostic = evaluator.diagnostic_at_key(&path.then("rest_below"), message);
-        return Err(diagnostic.with_help("state it under `equilibrium`"));
+    for (figure, _) in &limits.bounds {
+        refuse_missing_figure(evaluator, &path.then(figure.name()), *figure, plan)?;
     }
     Ok(limits)
+}
+
+/// Refuses the bound at `path` if no case of the suite has the `figure`.
+fn refuse_missing_figure(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    figure: CaseFigure,
+    plan: &ConvergencePlan,
+) -> Result<(), Diagnostic> {
+    let is_at_rest = || plan.exact.as_ref().is_some_and(|truth| truth.at_rest);
+    let (has_figure, message, help) = match figure.need() {
+        FigureNeed::Nothing => return Ok(()),
+        FigureNeed::ObservedPlace => (
+            plan.observe.is_some(),
+            "nothing is observed",
+            "add `observe: {at: [...]}` to the suite",
+        ),
+        FigureNeed::StateOfRest => {
+            (is_at_rest(), "the truth is no state of rest", "state it under `equilibrium`")
+        }
+    };
+    if has_figure {
+        return Ok(());
+    }
+    Err(evaluator.diagnostic_at_key(path, message).with_help(help))
 }
 
 fn drifts(

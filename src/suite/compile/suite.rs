@@ -132,8 +132,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     let reference =
         spec.reference.as_ref().map(|spec| reference::reference(&evaluator, spec, dimension));
     let reference = reference.transpose()?.flatten();
-    let same_method =
-        reference::same_method(&evaluator, &spec, (&scene, &refine), &until, instants)?;
+    let same_method = reference::same_method(&evaluator, &spec, &scene, &refine, &until, instants)?;
     let observe = spec.observe.as_ref().map(|spec| places::observed(&evaluator, spec, &scene));
     let scale = spec.judge.scale.as_ref().map(|text| {
         evaluator.positive(&Path::top("judge").then("scale"), text, "the scale of the error")

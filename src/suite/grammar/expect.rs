@@ -2,11 +2,15 @@
 
 use crate::named::named;
 use crate::suite::yaml::{NumberText, OneOrMany};
-use crate::verify::FloorCause;
 #[cfg(feature = "schemas")]
 use crate::verify::Verdict;
+use crate::verify::{CaseFigure, FloorCause, each_case_figure};
 use serde::Deserialize;
 
+/// Declares [`ExpectSpec`], with one key for each bounded figure.
+macro_rules! expect_spec {
+    ($($(#[$doc:meta])* $member:ident = $key:ident, $text:literal, $bound:ident, $need:ident,
+        $value:ident;)+) => {
 /// An expectation: a verdict or an order, bounds, and the reason.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
@@ -25,14 +29,7 @@ pub(crate) struct ExpectSpec {
     pub(crate) crossings: Option<CrossingsName>,
     /// The axis whose error the floor is.
     pub(crate) floor: Option<FloorCause>,
-    /// Bounds on the judged error of every level that counts.
-    pub(crate) error_below: Option<NumberText>,
-    /// Lower bound on the judged error of every level that counts.
-    pub(crate) error_above: Option<NumberText>,
-    /// Distance (m) of the observed place from the exact one, at the end, on the finest level.
-    pub(crate) observed_within: Option<NumberText>,
-    /// Largest speed towards the end of every level that counts, over the wave speed.
-    pub(crate) rest_below: Option<NumberText>,
+            $($(#[$doc])* pub(crate) $key: Option<NumberText>,)+
     /// Bounds on the relative change of sums over the body.
     pub(crate) drift: Option<DriftSpec>,
     /// Bounds on the rate of the energy (1/s).
@@ -42,6 +39,17 @@ pub(crate) struct ExpectSpec {
     /// Expectation of a full run, where that differs.
     pub(crate) full: Option<Box<ExpectSpec>>,
 }
+
+        impl ExpectSpec {
+            /// Bounds on figures that are stated, in the order of [`CaseFigure::ALL`].
+            pub(crate) fn bounds(&self) -> Vec<(CaseFigure, &NumberText)> {
+                let bounds = [$((CaseFigure::$member, &self.$key)),+];
+                bounds.into_iter().filter_map(|(figure, text)| Some((figure, text.as_ref()?))).collect()
+            }
+        }
+    };
+}
+each_case_figure!(expect_spec);
 
 /// Accuracy that any method can reach on the problem.
 #[derive(Debug, Clone, Deserialize)]

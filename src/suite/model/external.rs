@@ -2,7 +2,7 @@
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::{Against, Case, ConvergencePlan, Suite};
-use crate::verify::{Axis, Expectation, Gating, Quantity, Requirement, format_number};
+use crate::verify::{Axis, CaseFigure, Expectation, Gating, Quantity, Requirement, format_number};
 use std::sync::Arc;
 
 impl Suite {
@@ -140,7 +140,8 @@ impl ConvergencePlan {
         let expectations = || self.cases.iter().filter_map(|case| case.expectation.as_ref());
         let bound = |expectation: &Expectation| {
             let limits = &expectation.limits;
-            limits.error_below.filter(|_| limits.error_above.is_none())
+            let above = limits.bound(CaseFigure::ErrorAbove);
+            limits.bound(CaseFigure::ErrorBelow).filter(|_| above.is_none())
         };
         let is_bound_only = |expectation: &Expectation| expectation.verdict.is_none();
         if !expectations().all(is_bound_only) {

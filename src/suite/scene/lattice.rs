@@ -49,24 +49,27 @@ pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -
 pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     scene.each().iter().filter(|body| body.outline.is_some() && body.mapped.is_none()).any(|body| {
         let mut shares = 0.0;
-        !any_particle(body, (scene, h), per_axis, |_, share| {
+        !any_particle(body, scene, h, per_axis, |_, share| {
             shares += share;
             shares >= 1.0 - 1e-9
         })
     })
 }
 
-/// Whether some particle of a `body` with a free rim is such that `holds` of its place (m) and of
-/// its part of a share of the lattice, on the grid of `scene` with cells of size `h`.
+/// Whether `holds` returns true for some particle of a `body` with a free rim, given the place (m)
+/// of the particle and its part of a share of the lattice, on the grid of `scene` with cells of size
+/// `h`.
 pub(crate) fn any_particle(
     body: &Scene,
-    (scene, h): (&Scene, f64),
+    scene: &Scene,
+    h: f64,
     per_axis: usize,
     mut holds: impl FnMut(&[f64], f64) -> bool,
 ) -> bool {
     fn any<const D: usize>(
         body: &Scene,
-        (scene, h): (&Scene, f64),
+        scene: &Scene,
+        h: f64,
         per_axis: usize,
         holds: &mut dyn FnMut(&[f64], f64) -> bool,
     ) -> bool {
@@ -83,5 +86,5 @@ pub(crate) fn any_particle(
             }
         })
     }
-    with_dimension!(body.dimension(), D => any::<D>(body, (scene, h), per_axis, &mut holds))
+    with_dimension!(body.dimension(), D => any::<D>(body, scene, h, per_axis, &mut holds))
 }

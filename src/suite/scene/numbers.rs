@@ -115,7 +115,8 @@ pub(crate) fn scalar<const D: usize>(formula: &Formula) -> ScalarField<D> {
 /// place `label` (m) with the displacement `u` (m).
 pub(crate) fn of_displacement<T: Number>(
     formula: &Formula,
-    (label, t): (&[f64], f64),
+    label: &[f64],
+    t: f64,
     u: &[T; 3],
 ) -> T {
     let (d, place) = (label.len(), variables(label, t));

@@ -8,8 +8,7 @@
 //! fiducial limits of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed.,
 //! section 3.2).
 
-use super::part::ConvergingPart;
-use super::sample::Sample;
+use super::sample::{ConvergingPart, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
 
 /// Fewest points with an interval.

@@ -14,8 +14,7 @@
 //! No error is predicted beyond levels that are not judged to converge, that end in a floor, or
 //! whose order falls at their end, the first that is seen of a floor.
 
-use super::part::{ConvergingPart, End};
-use super::sample::Sample;
+use super::sample::{ConvergingPart, End, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
 use crate::verify::order::hypothesis::OrderHypothesis;
 use crate::verify::verdict::judge::SETTLED;

@@ -2,10 +2,7 @@
 
 use super::TARGETS;
 use super::exponent::Exponent;
-use super::front::pareto_front;
-use super::part::{ConvergingPart, End};
-use super::reach::Reach;
-use super::sample::Sample;
+use super::sample::{ConvergingPart, End, Reach, Sample, pareto_front};
 use crate::verify::convergence::{Convergence, LevelOutcome};
 use crate::verify::outcome::CaseOutcome;
 use std::cmp::Ordering;

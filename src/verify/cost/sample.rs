@@ -1,4 +1,11 @@
-//! One level: what it gave and what it took.
+//! Levels of one method: error and work of each, the levels over which the method converges, the
+//! Pareto front, and the work at which an error is reached.
+//!
+//! Between two levels of the converging part an error may be interpolated. Anywhere else a small
+//! error may be an accident (an error that passes through zero, a floor that sways), which the next
+//! finer grid does not confirm.
+
+use std::ops::Range;
 
 /// A setting that was run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,5 +34,192 @@ impl Sample {
     /// Whether it has a place on logarithmic axes.
     pub(crate) fn has_logarithm(&self) -> bool {
         self.counts() && self.error > 0.0 && self.spacing > 0.0 && self.spacing.is_finite()
+    }
+}
+
+/// Least order between neighbours that is a fall.
+const LEAST_ORDER: f64 = 0.2;
+
+/// Two levels fall by chance: as many as the judge needs for an order before a floor.
+const FEWEST: usize = 3;
+
+/// An error that is this much larger than the level before grows; below, it sways on a floor.
+const GROWS: f64 = 1.25;
+
+/// Neighbouring levels over which the error falls.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConvergingPart {
+    /// The levels, as indices from coarse to fine.
+    pub levels: Range<usize>,
+    /// Reason of its end.
+    pub end: End,
+}
+
+/// Why a method goes no further.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// No finer level was run.
+    Levels,
+    /// The error falls no more.
+    Floor,
+    /// The error grows.
+    Grows,
+    /// The run broke.
+    Failed,
+    /// A level that does not count.
+    Crossings,
+    /// There are not three levels in a row over which the error falls.
+    NoTrend,
+}
+
+impl End {
+    /// In the words of tables.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Levels => "no finer level",
+            Self::Floor => "floor",
+            Self::Grows => "error grows",
+            Self::Failed => "failed",
+            Self::Crossings => "crossings",
+            Self::NoTrend => "no trend",
+        }
+    }
+}
+
+impl ConvergingPart {
+    /// The converging part of levels from coarse to fine: of several the one with the largest fall.
+    /// Empty if there is none; its end then says why.
+    pub fn of(samples: &[Sample]) -> Self {
+        let mut best: Option<(f64, Range<usize>)> = None;
+        let mut start = 0;
+        for end in 1..=samples.len() {
+            if end < samples.len() && falls(&samples[end - 1], &samples[end]) {
+                continue;
+            }
+            if end - start >= FEWEST {
+                let fall = samples[start].error / samples[end - 1].error;
+                if best.as_ref().is_none_or(|(most, _)| fall > *most) {
+                    best = Some((fall, start..end));
+                }
+            }
+            start = end;
+        }
+        if let Some((_, levels)) = best {
+            return Self { end: end(samples, levels.end), levels };
+        }
+        let broke = samples.iter().any(|one| one.failed);
+        Self { levels: 0..0, end: if broke { End::Failed } else { End::NoTrend } }
+    }
+}
+
+fn falls(coarse: &Sample, fine: &Sample) -> bool {
+    if !(coarse.has_logarithm() && fine.has_logarithm()) {
+        return false;
+    }
+    let refinement = libm::log(coarse.spacing / fine.spacing);
+    libm::log(coarse.error / fine.error) >= LEAST_ORDER * refinement && refinement > 0.0
+}
+
+/// Reason why the level `next` belongs to the part no more.
+fn end(samples: &[Sample], next: usize) -> End {
+    let Some(finer) = samples.get(next) else { return End::Levels };
+    if finer.failed || !finer.error.is_finite() {
+        End::Failed
+    } else if !finer.usable {
+        End::Crossings
+    } else if finer.error > GROWS * samples[next - 1].error {
+        End::Grows
+    } else {
+        End::Floor
+    }
+}
+
+/// Share by which an error must be smaller to be worth more work: methods whose errors agree to
+/// more digits than anybody reads are not traded for each other.
+pub(super) const WORTH: f64 = 0.01;
+
+/// Indices of what is on the front, from the least work to the least error. Of equals the first
+/// counts.
+pub fn pareto_front(samples: &[Sample]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..samples.len()).filter(|k| samples[*k].counts()).collect();
+    let key = |k: usize| (samples[k].work, samples[k].error);
+    order.sort_by(|a, b| {
+        let ((work_a, error_a), (work_b, error_b)) = (key(*a), key(*b));
+        work_a.total_cmp(&work_b).then(error_a.total_cmp(&error_b)).then(a.cmp(b))
+    });
+    let mut least = f64::INFINITY;
+    order.retain(|k| {
+        let better = samples[*k].error < least * (1.0 - WORTH);
+        if better {
+            least = samples[*k].error;
+        }
+        better
+    });
+    order
+}
+
+/// Where an error is reached.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reach {
+    /// Between two levels of the converging part, straight on logarithmic axes.
+    At {
+        /// The work.
+        work: f64,
+        /// The spacing.
+        spacing: f64,
+    },
+    /// On the coarsest level that counts already, and perhaps for less.
+    Already {
+        /// Its work.
+        work: f64,
+        /// Its spacing.
+        spacing: f64,
+    },
+    /// On no level of the converging part.
+    Never,
+}
+
+impl Reach {
+    /// Where levels from coarse to fine, converging over `part`, reach the error `target`.
+    pub fn of(samples: &[Sample], part: &ConvergingPart, target: f64) -> Self {
+        let mut counted = samples.iter().filter(|one| one.counts());
+        let unbroken = samples.iter().all(|one| !one.failed);
+        if let Some(first) = counted.next()
+            && unbroken
+            && first.error <= target
+            && counted.all(|one| one.error <= target)
+        {
+            return Self::Already { work: first.work, spacing: first.spacing };
+        }
+        let levels = &samples[part.levels.clone()];
+        let Some(k) = levels.iter().position(|one| one.error <= target) else {
+            return Self::Never;
+        };
+        if k == 0 {
+            return Self::Already { work: levels[0].work, spacing: levels[0].spacing };
+        }
+        let (coarse, fine) = (&levels[k - 1], &levels[k]);
+        let share = libm::log(coarse.error / target) / libm::log(coarse.error / fine.error);
+        let between = |a: f64, b: f64| a * libm::pow(b / a, share);
+        Self::At {
+            work: between(coarse.work, fine.work),
+            spacing: between(coarse.spacing, fine.spacing),
+        }
+    }
+
+    /// The work, if the error is reached.
+    pub fn work(&self) -> Option<f64> {
+        match self {
+            Self::At { work, .. } | Self::Already { work, .. } => Some(*work),
+            Self::Never => None,
+        }
+    }
+
+    /// The spacing, if the error is reached.
+    pub fn spacing(&self) -> Option<f64> {
+        match self {
+            Self::At { spacing, .. } | Self::Already { spacing, .. } => Some(*spacing),
+            Self::Never => None,
+        }
     }
 }

@@ -284,7 +284,7 @@ proptest! {
             prop_assert!(!counted().any(|one| beats(one, &samples[*k])));
         }
         for one in counted() {
-            let worth = one.error / (1.0 - super::front::WORTH) * (1.0 + 1e-12);
+            let worth = one.error / (1.0 - super::sample::WORTH) * (1.0 + 1e-12);
             let covered = |k: &usize| samples[*k].work <= one.work && samples[*k].error <= worth;
             prop_assert!(front.iter().any(covered));
         }

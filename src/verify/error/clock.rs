@@ -59,13 +59,13 @@ impl Clock {
 
     /// Whether the error is taken after `step` steps.
     pub fn is_instant(&self, step: u64) -> bool {
-        is_instant((step, self.steps), self.instants)
+        is_instant(step, self.steps, self.instants)
     }
 }
 
-/// Whether a step of so many ends at one of `instants`, which are as equally spaced as the steps
-/// allow; the last one ends the run.
-pub(crate) fn is_instant((step, steps): (u64, u64), instants: u64) -> bool {
+/// Whether step number `step` of `steps` ends at one of `instants`, which are as equally spaced as
+/// the steps allow; the last one ends the run.
+pub(crate) fn is_instant(step: u64, steps: u64, instants: u64) -> bool {
     // Instants up to the end of a step: one more than up to the end of the step before.
     let passed = |step: u64| u128::from(step) * u128::from(instants) / u128::from(steps);
     step > 0 && passed(step) > passed(step - 1)

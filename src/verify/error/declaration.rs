@@ -1,7 +1,9 @@
-//! All that is known of a judged quantity besides its name.
+//! Declarations of the judged quantities: values at labels, and sums over the body and its walls.
+//!
+//! Errors of sums are relative to a size that is zero only for a body at rest: an energy to itself, a
+//! vector to the sum of the lengths of its terms. An energy is the first of three components.
 
-use super::tensor_shape::TensorShape;
-use crate::exact::{SumDensity, Truth};
+use crate::exact::{SumDensity, SumPoint, Truth};
 use crate::subject::{Samples, Totals};
 use std::borrow::Cow;
 
@@ -77,4 +79,171 @@ pub(super) enum SolutionSize {
     FromIdentity,
     /// Largest less smallest value.
     Range,
+}
+
+/// Components of a field at a label in D dimensions.
+pub(super) enum TensorShape {
+    /// 1.
+    Scalar,
+    /// D.
+    Vector,
+    /// D * D, row after row.
+    Tensor,
+}
+
+impl TensorShape {
+    /// Numbers at each label in `d` dimensions.
+    pub(super) fn components(&self, d: usize) -> usize {
+        match self {
+            // Without a dimension there is nothing to compare, be it a number.
+            Self::Scalar => d.min(1),
+            Self::Vector => d,
+            Self::Tensor => d * d,
+        }
+    }
+}
+
+pub(super) const DISPLACEMENT: Declaration = Declaration {
+    unit: "m",
+    shape: TensorShape::Vector,
+    computed: |samples| Cow::from(&samples.displacement),
+    exact: |truth, label, t, into| {
+        truth.displacement(label, t, into);
+        true
+    },
+    exact_at_all: Some(|truth, d, labels, t, into| truth.displacements(d, labels, t, into)),
+    size: SolutionSize::Magnitude,
+    // The difference of two positions, each rounded.
+    rounding_size: |length| length,
+    is_primary: true,
+    is_optional: false,
+    is_of_motion: true,
+    needs_deformation_gradient: false,
+    sum: None,
+};
+
+pub(super) const VELOCITY: Declaration = Declaration {
+    unit: "m/s",
+    computed: |samples| Cow::from(&samples.velocity),
+    exact: |truth, label, t, into| {
+        truth.velocity(label, t, into);
+        true
+    },
+    exact_at_all: None,
+    rounding_size: |_| f64::NAN,
+    is_primary: false,
+    ..DISPLACEMENT
+};
+
+pub(super) const STRESS: Declaration = Declaration {
+    unit: "Pa",
+    shape: TensorShape::Tensor,
+    computed: |samples| Cow::from(&samples.stress),
+    exact: |truth, label, t, into| truth.stress(label, t, into),
+    is_optional: true,
+    ..VELOCITY
+};
+
+pub(super) const DEFORMATION_GRADIENT: Declaration = Declaration {
+    unit: "",
+    computed: |samples| Cow::from(&samples.deformation_gradient),
+    exact: |truth, label, t, into| truth.deformation_gradient(label, t, into),
+    size: SolutionSize::FromIdentity,
+    rounding_size: |_| 1.0,
+    needs_deformation_gradient: true,
+    ..STRESS
+};
+
+pub(super) const TEMPERATURE: Declaration = Declaration {
+    unit: "K",
+    shape: TensorShape::Scalar,
+    computed: |samples| Cow::from(&samples.temperature),
+    exact: |truth, label, t, into| {
+        truth.temperature(label, t).map(|value| into[0] = value).is_some()
+    },
+    size: SolutionSize::Range,
+    is_primary: true,
+    is_of_motion: false,
+    ..STRESS
+};
+
+/// A sum of nothing: it has no values at labels.
+const SUM: Declaration = Declaration {
+    unit: "J",
+    shape: TensorShape::Scalar,
+    computed: |_| Cow::from(&[]),
+    exact: |_, _, _, _| false,
+    exact_at_all: None,
+    size: SolutionSize::Magnitude,
+    rounding_size: |_| f64::NAN,
+    is_primary: false,
+    is_optional: true,
+    is_of_motion: true,
+    needs_deformation_gradient: false,
+    sum: None,
+};
+
+pub(super) const KINETIC_ENERGY: Declaration = Declaration {
+    sum: Some(SumDeclaration {
+        computed: ComputedSum::OfTotals(|totals| Some(scalar(totals.kinetic_energy).0)),
+        density: |point| scalar(point.kinetic_energy()),
+        needs: SumNeed::Nothing,
+    }),
+    ..SUM
+};
+
+pub(super) const STRAIN_ENERGY: Declaration = Declaration {
+    sum: Some(SumDeclaration {
+        computed: ComputedSum::OfTotals(|totals| Some(scalar(totals.strain_energy?).0)),
+        density: |point| scalar(point.stored_energy()),
+        needs: SumNeed::StoredEnergy,
+    }),
+    ..SUM
+};
+
+pub(super) const ENERGY: Declaration = Declaration {
+    sum: Some(SumDeclaration {
+        computed: ComputedSum::OfTotals(|totals| Some(scalar(totals.energy()?).0)),
+        density: |point| scalar(point.kinetic_energy() + point.stored_energy()),
+        needs: SumNeed::StoredEnergy,
+    }),
+    ..SUM
+};
+
+pub(super) const MOMENTUM: Declaration = Declaration {
+    unit: "kg m/s",
+    sum: Some(SumDeclaration {
+        computed: ComputedSum::OfTotals(|totals| Some(totals.momentum)),
+        density: |point| vector(point.momentum()),
+        needs: SumNeed::Nothing,
+    }),
+    ..SUM
+};
+
+pub(super) const ANGULAR_MOMENTUM: Declaration = Declaration {
+    unit: "kg m2/s",
+    sum: Some(SumDeclaration {
+        computed: ComputedSum::OfTotals(|totals| Some(totals.angular_momentum)),
+        density: |point| vector(point.angular_momentum()),
+        needs: SumNeed::Rotation,
+    }),
+    ..SUM
+};
+
+pub(super) const REACTION: Declaration = Declaration {
+    unit: "N",
+    sum: Some(SumDeclaration {
+        computed: ComputedSum::Reaction,
+        density: |point: &SumPoint<'_>| vector(point.traction()),
+        needs: SumNeed::Wall,
+    }),
+    ..SUM
+};
+
+fn scalar(value: f64) -> ([f64; 3], f64) {
+    ([value, 0.0, 0.0], value)
+}
+
+fn vector(value: [f64; 3]) -> ([f64; 3], f64) {
+    (value, value.iter().fold(0.0, |length, component| libm::hypot(length, *component)))
 }

@@ -4,9 +4,7 @@ pub(crate) mod clock;
 pub(crate) mod declaration;
 pub(crate) mod error_field;
 pub(crate) mod error_scale;
-mod fields;
 pub(crate) mod judged_sum;
-pub(crate) mod lagrange;
 /// The quantity that `docs/exercises/quantity.md` adds.
 #[cfg(test)]
 #[path = "../../../tests/exercises/mean_stress.rs"]
@@ -15,6 +13,3 @@ pub(crate) mod norm;
 pub(crate) mod observer;
 pub(crate) mod quantity;
 pub(crate) mod run;
-pub(crate) mod run_result;
-mod sums;
-mod tensor_shape;

@@ -1,6 +1,5 @@
-//! One place of the body, watched over time.
+//! Displacement and velocity at one place of the body over time.
 
-use super::lagrange;
 use crate::exact::Truth;
 use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
@@ -83,8 +82,21 @@ fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
         samples.label.iter().skip(axis).step_by(samples.dimension).copied().collect();
     all.sort_by(f64::total_cmp);
     all.dedup();
-    let (first, weights) = lagrange::weights(&all, x, NEAR);
+    let (first, weights) = lagrange_weights(&all, x, NEAR);
     all[first..].iter().copied().zip(weights).collect()
+}
+
+/// Lagrange interpolation at `x` over the `count` nearest of the ascending coordinates `sorted`, or
+/// over all if there are fewer: index of the first coordinate, and the weight of each.
+pub(crate) fn lagrange_weights(sorted: &[f64], x: f64, count: usize) -> (usize, Vec<f64>) {
+    let count = sorted.len().min(count);
+    let above = sorted.partition_point(|c| *c < x);
+    let first = above.saturating_sub(count / 2).min(sorted.len() - count);
+    let near = &sorted[first..first + count];
+    let weight = |c: &f64| -> f64 {
+        near.iter().filter(|other| *other != c).map(|other| (x - other) / (c - other)).product()
+    };
+    (first, near.iter().map(weight).collect())
 }
 
 #[cfg(test)]
@@ -194,5 +206,15 @@ mod tests {
         let (at, mut history) = History::start(&samples, &[0.75, 0.0]).unwrap();
         history.record(at, &samples, &Still, 2.0);
         assert_eq!(history.velocity, [[2.0, 6.0, 0.5]]);
+    }
+
+    /// As many on one side as on the other, but for the ends of the lattice.
+    #[rstest]
+    #[case::inside(3.5, 2)]
+    #[case::at_the_low_end(0.2, 0)]
+    #[case::at_the_high_end(6.9, 4)]
+    fn the_nearest_on_both_sides_are_taken(#[case] x: f64, #[case] first: usize) {
+        let lattice: Vec<f64> = (0..8).map(f64::from).collect();
+        assert_eq!(lagrange_weights(&lattice, x, 4).0, first);
     }
 }

@@ -7,10 +7,12 @@
 //! The error of a tensor at a label is measured by its Frobenius norm, that of a vector by its
 //! length: the square root of the sum of the squares of all components.
 
-use super::declaration::{Declaration, SolutionSize, SumDeclaration, SumNeed};
-use super::fields::{DEFORMATION_GRADIENT, DISPLACEMENT, STRESS, TEMPERATURE, VELOCITY};
+use super::declaration::{
+    ANGULAR_MOMENTUM, DEFORMATION_GRADIENT, DISPLACEMENT, Declaration, ENERGY, KINETIC_ENERGY,
+    MOMENTUM, REACTION, STRAIN_ENERGY, STRESS, SolutionSize, SumDeclaration, SumNeed, TEMPERATURE,
+    VELOCITY,
+};
 use super::norm::Norms;
-use super::sums::{ANGULAR_MOMENTUM, ENERGY, KINETIC_ENERGY, MOMENTUM, REACTION, STRAIN_ENERGY};
 use crate::exact::Truth;
 use crate::named::named;
 use crate::subject::Samples;

@@ -1,4 +1,4 @@
-//! One subject on one level, held against the truth.
+//! One subject on one level: the run, the comparison with the exact solution, and the results.
 
 use super::clock::Clock;
 use super::error_field::ErrorField;
@@ -6,11 +6,12 @@ use super::judged_sum::{JudgedSum, over_instants};
 use super::norm::{Norms, RunErrors, larger, largest_length};
 use super::observer::{History, displacement_at};
 use super::quantity::Quantity;
-use super::run_result::RunResult;
 use crate::exact::Truth;
-use crate::subject::{Failure, Samples, Subject, Totals};
+use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use crate::verify::conservation::{Balance, ConservationError};
 use crate::verify::energy_rate::energy_rate;
+use crate::verify::order::fit::Interval;
+use serde::{Deserialize, Serialize};
 
 /// Quantities compared in a run, besides the displacement.
 #[derive(Debug, Clone, Copy, Default)]
@@ -191,6 +192,46 @@ impl<'a> RunMonitor<'a> {
 /// Norms of `u_num - u_exact` at the labels of `samples` at time `t`.
 pub fn errors(samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
     Quantity::default().errors(samples, truth, t)
+}
+
+/// Results of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct RunResult {
+    /// Errors of the compared quantity.
+    pub errors: RunErrors,
+    /// Errors of the displacement (m), where another quantity is compared.
+    pub displacement_errors: Option<RunErrors>,
+    /// How far the body's totals drifted, if the subject gives them; NaN if the run failed.
+    pub drift: Option<ConservationError>,
+    /// The totals at t = 0 and at every instant that was reached (s), if the subject gives them.
+    pub account: Vec<(f64, Totals)>,
+    /// Rate of the energy, d ln E/dt (1/s), over the run, with its confidence interval.
+    pub energy_rate: Option<Interval>,
+    /// Counters at the end, or at the failure.
+    pub counters: RunCounters,
+    /// Steps taken.
+    pub steps: u64,
+    /// Why and when the run ended early.
+    pub failure: Option<String>,
+    /// The observed label, if one was asked for and the run came to its end.
+    pub history: Option<History>,
+    /// Errors over the body at the end, or at the failure, if they were asked for.
+    pub field: Option<ErrorField>,
+    /// Displacement at the observed place at the end (m), if it could be interpolated.
+    pub displacement: Option<Vec<f64>>,
+    /// Its distance (m) from the exact one.
+    pub observed_error: Option<f64>,
+    /// Largest speed towards the end, over
+    /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest), where that is given.
+    pub residual_speed: Option<f64>,
+}
+
+impl RunResult {
+    /// Errors of the displacement (m), whatever is compared.
+    pub fn errors_of_displacement(&self) -> &RunErrors {
+        self.displacement_errors.as_ref().unwrap_or(&self.errors)
+    }
 }
 
 #[cfg(test)]

@@ -7,14 +7,14 @@
 //! interval need not be above the bound as a whole: a few levels leave a sound solver an interval
 //! of 0.1 and more to each side.
 
-use crate::verify::order::axis::Axis;
 use crate::verify::order::fit::Interval;
 use crate::verify::order::format_number::{format_number, rounded};
 use crate::verify::order::hypothesis::OrderHypothesis;
-use crate::verify::order::level::Level;
+use crate::verify::order::level::{Axis, Level};
 use crate::verify::order::window::FEWEST_LEVELS;
 use crate::verify::verdict::judge::{Judgement, judge};
 use crate::verify::verdict::name::Verdict;
+use thiserror::Error;
 
 /// Loss of order that a fault causes at least.
 const FAULT: f64 = 0.5;
@@ -67,11 +67,16 @@ impl Acceptance {
     }
 }
 
+/// A requirement that is not met: one line with the requirement and the observation.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct UnmetRequirement(String);
+
 /// Result of a requirement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GateResult {
     /// The reason for which it is met; otherwise what was required and what was observed.
-    pub result: Result<Acceptance, String>,
+    pub result: Result<Acceptance, UnmetRequirement>,
     /// A remark on time steps that restored the order.
     pub remark: Option<String>,
 }
@@ -129,9 +134,9 @@ impl Requirement {
         axis: Axis,
         judgement: &Judgement,
         rounding: f64,
-    ) -> Result<Acceptance, String> {
+    ) -> Result<Acceptance, UnmetRequirement> {
         if judgement.verdict == Verdict::Failed {
-            return Err("expected every level to run to its end".to_owned());
+            return Err(UnmetRequirement("expected every level to run to its end".to_owned()));
         }
         let counted: Vec<&Level> = levels.iter().filter(|level| level.usable).collect();
         let bound = self.bound();
@@ -159,7 +164,7 @@ impl Requirement {
         if self.has_order(judgement) {
             return Ok(Acceptance::Order);
         }
-        Err(self.unmet(judgement, &counted))
+        Err(UnmetRequirement(self.unmet(judgement, &counted)))
     }
 
     /// The hypothesis that the judge tests.
@@ -204,7 +209,11 @@ mod tests {
         Requirement { order, error_below, own_error_below: None, because: String::new() }
     }
 
-    fn check(order: Option<f64>, bound: Option<f64>, errors: &[f64]) -> Result<Acceptance, String> {
+    fn check(
+        order: Option<f64>,
+        bound: Option<f64>,
+        errors: &[f64],
+    ) -> Result<Acceptance, UnmetRequirement> {
         let requirement = requirement(order, bound);
         let levels = levels(errors);
         let judgement = judge(&levels, &requirement.hypothesis(Axis::Space));
@@ -266,13 +275,13 @@ mod tests {
 
     #[test]
     fn a_bound_alone_is_not_met_by_an_order() {
-        let message = check(None, Some(1e-3), &of_order(2.0, 4)).unwrap_err();
+        let message = check(None, Some(1e-3), &of_order(2.0, 4)).unwrap_err().to_string();
         assert_eq!(message, "expected errors at most 1e-3, got a largest error of 1");
     }
 
     #[test]
     fn the_message_has_the_requirement_and_the_observation() {
-        let message = check(Some(2.0), Some(1e-9), &of_order(1.0, 5)).unwrap_err();
+        let message = check(Some(2.0), Some(1e-9), &of_order(1.0, 5)).unwrap_err().to_string();
         let expected = "expected order at least 1.90, or errors at most 1e-9, got `too low` with \
                         the order 1.00 [1.00, 1.00] and a largest error of 1";
         assert_eq!(message, expected);

@@ -1,20 +1,14 @@
 //! Bounds on figures, for expectations that name no order: one level is enough for them.
 
 use crate::verify::conservation::{ConservationError, Conserved};
+use crate::verify::figure::{BoundKind, CaseFigure};
 use crate::verify::order::format_number::{format_number, rounded};
 
 /// Bounds, themselves allowed. Every one that is given must hold.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Limits {
-    /// Largest judged error of any level that counts.
-    pub error_below: Option<f64>,
-    /// Smallest judged error of any level that counts.
-    pub error_above: Option<f64>,
-    /// Largest distance (m) of the observed place from where it should be, at the end, on the
-    /// finest level.
-    pub observed_within: Option<f64>,
-    /// Largest speed towards the end of any level that counts, over the wave speed.
-    pub rest_below: Option<f64>,
+    /// Bounds on figures, in the order of [`CaseFigure::ALL`].
+    pub bounds: Vec<(CaseFigure, f64)>,
     /// Largest relative drifts on any level that counts.
     pub drift: Vec<(Conserved, f64)>,
     /// Range that must hold the whole confidence interval of the rate of the energy (1/s) on every
@@ -25,18 +19,24 @@ pub struct Limits {
 /// Measured values that are limited.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// Smallest and largest judged error of the levels that count; `None` if none counts.
-    pub errors: Option<(f64, f64)>,
-    /// Distance (m) of the observed place from where it should be; `None` if nothing was observed.
-    pub observed: Option<f64>,
-    /// Largest speed towards the end of the levels that count, over the wave speed; `None` if the
-    /// truth is no state of rest.
-    pub residual_speed: Option<f64>,
+    /// Values of [`CaseFigure::ALL`]; `None` where the levels do not have the figure.
+    pub figures: [Option<f64>; CaseFigure::ALL.len()],
     /// Largest drifts of the levels that count; `None` if the subject gives no totals.
     pub drift: Option<ConservationError>,
     /// The confidence intervals of the rate of the energy (1/s) on the levels that count, together;
     /// `None` if one level has none.
     pub energy_rate: Option<(f64, f64)>,
+}
+
+impl Measured {
+    /// Neither figures nor drifts nor rates.
+    pub const NONE: Self =
+        Self { figures: [None; CaseFigure::ALL.len()], drift: None, energy_rate: None };
+
+    /// The value of `figure`.
+    pub fn figure(&self, figure: CaseFigure) -> Option<f64> {
+        self.figures[figure as usize]
+    }
 }
 
 /// A figure that is not as expected.
@@ -48,24 +48,28 @@ pub(crate) struct UnmetFigure {
     pub(crate) measured: bool,
 }
 
-/// One bound on a figure beside what was measured.
+/// A bound on a figure, and the measured value.
 struct Check {
-    what: &'static str,
+    figure: CaseFigure,
     limit: f64,
     got: Option<f64>,
-    /// Whether the limit is the least instead of the most.
-    least: bool,
 }
 
 impl Check {
     /// Written so that NaN never holds.
     fn holds(&self) -> bool {
-        self.got.is_some_and(|got| if self.least { got >= self.limit } else { got <= self.limit })
+        self.got.is_some_and(|got| match self.figure.bound_kind() {
+            BoundKind::Minimum => got >= self.limit,
+            BoundKind::Maximum => got <= self.limit,
+        })
     }
 
     fn bound(&self) -> String {
-        let most = if self.least { "at least" } else { "at most" };
-        format!("{} {most} {:e}", self.what, rounded(self.limit, DIGITS))
+        let side = match self.figure.bound_kind() {
+            BoundKind::Minimum => "at least",
+            BoundKind::Maximum => "at most",
+        };
+        format!("{} {side} {:e}", self.figure.text(), rounded(self.limit, DIGITS))
     }
 
     fn got(&self) -> String {
@@ -80,6 +84,11 @@ impl Limits {
     /// Whether nothing is limited.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// The bound on `figure`.
+    pub fn bound(&self, figure: CaseFigure) -> Option<f64> {
+        self.bounds.iter().find(|(bounded, _)| *bounded == figure).map(|(_, limit)| *limit)
     }
 
     /// The sums whose drift is limited.
@@ -139,7 +148,7 @@ impl Limits {
 
     /// Measured values in words; empty if nothing is limited.
     pub fn found(&self, measured: &Measured) -> String {
-        let said = |check: &Check| format!("{} {}", check.what, check.got());
+        let said = |check: &Check| format!("{} {}", check.figure.text(), check.got());
         let mut parts: Vec<String> = self.checks(Some(measured)).iter().map(said).collect();
         let drift = |sum: &Conserved| measured.drift.map_or(f64::NAN, |drift| drift.of(*sum));
         let said =
@@ -156,20 +165,12 @@ impl Limits {
     }
 
     fn checks(&self, measured: Option<&Measured>) -> Vec<Check> {
-        let errors = measured.and_then(|measured| measured.errors);
-        let observed = measured.and_then(|measured| measured.observed);
-        let residual_speed = measured.and_then(|measured| measured.residual_speed);
-        let (least, most) = (errors.map(|(least, _)| least), errors.map(|(_, most)| most));
-        let figures = [
-            ("largest error", self.error_below, most, false),
-            ("smallest error", self.error_above, least, true),
-            ("error at the observed point (m)", self.observed_within, observed, false),
-            ("residual speed over the wave speed", self.rest_below, residual_speed, false),
-        ];
-        let check = |(what, limit, got, least): (_, Option<f64>, _, _)| {
-            Some(Check { what, limit: limit?, got, least })
+        let check = |&(figure, limit): &(CaseFigure, f64)| Check {
+            figure,
+            limit,
+            got: measured.and_then(|measured| measured.figure(figure)),
         };
-        figures.into_iter().filter_map(check).collect()
+        self.bounds.iter().map(check).collect()
     }
 }
 
@@ -177,7 +178,8 @@ fn rate_within(bounds: (f64, f64)) -> String {
     format!("rate of energy within {} 1/s", rates(bounds))
 }
 
-fn rates((low, high): (f64, f64)) -> String {
+fn rates(interval: (f64, f64)) -> String {
+    let (low, high) = interval;
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
@@ -198,20 +200,33 @@ mod tests {
     fn measured() -> Measured {
         let still = Balance::start(Totals::default()).drift();
         Measured {
-            errors: Some((1e-3, 1e-2)),
-            observed: Some(1e-4),
-            residual_speed: Some(1e-7),
+            figures: [Some(1e-2), Some(1e-3), Some(1e-4), Some(1e-7)],
             drift: Some(still),
             energy_rate: Some((-2e-5, 1e-5)),
         }
     }
 
+    /// `measured` with another value of `figure`.
+    fn with(figure: CaseFigure, value: Option<f64>) -> Measured {
+        let mut measured = measured();
+        measured.figures[figure as usize] = value;
+        measured
+    }
+
+    fn errors(least: f64, most: f64) -> Measured {
+        let mut measured = with(CaseFigure::ErrorBelow, Some(most));
+        measured.figures[CaseFigure::ErrorAbove as usize] = Some(least);
+        measured
+    }
+
     fn limits() -> Limits {
         Limits {
-            error_below: Some(1e-2),
-            error_above: Some(1e-3),
-            observed_within: Some(1e-3),
-            rest_below: Some(1e-6),
+            bounds: vec![
+                (CaseFigure::ErrorBelow, 1e-2),
+                (CaseFigure::ErrorAbove, 1e-3),
+                (CaseFigure::ObservedWithin, 1e-3),
+                (CaseFigure::RestBelow, 1e-6),
+            ],
             drift: vec![(Conserved::Mass, 1e-13), (Conserved::Momentum, 0.0)],
             energy_rate: Some((-2e-5, 1e-5)),
         }
@@ -219,15 +234,15 @@ mod tests {
 
     #[rstest]
     #[case::all_hold(measured(), 0)]
-    #[case::too_large(Measured { errors: Some((1e-3, 1.1e-2)), ..measured() }, 1)]
-    #[case::too_small(Measured { errors: Some((0.9e-3, 1e-2)), ..measured() }, 1)]
-    #[case::no_level_counts(Measured { errors: None, ..measured() }, 2)]
-    #[case::nan_errors(Measured { errors: Some((NAN, NAN)), ..measured() }, 2)]
-    #[case::far_off(Measured { observed: Some(2e-3), ..measured() }, 1)]
-    #[case::observed_nan(Measured { observed: Some(NAN), ..measured() }, 1)]
-    #[case::still_moving(Measured { residual_speed: Some(2e-6), ..measured() }, 1)]
-    #[case::residual_speed_nan(Measured { residual_speed: Some(NAN), ..measured() }, 1)]
-    #[case::not_observed(Measured { observed: None, ..measured() }, 1)]
+    #[case::too_large(errors(1e-3, 1.1e-2), 1)]
+    #[case::too_small(errors(0.9e-3, 1e-2), 1)]
+    #[case::no_level_counts(Measured { figures: [None, None, Some(1e-4), Some(1e-7)], ..measured() }, 2)]
+    #[case::nan_errors(errors(NAN, NAN), 2)]
+    #[case::far_off(with(CaseFigure::ObservedWithin, Some(2e-3)), 1)]
+    #[case::observed_nan(with(CaseFigure::ObservedWithin, Some(NAN)), 1)]
+    #[case::still_moving(with(CaseFigure::RestBelow, Some(2e-6)), 1)]
+    #[case::residual_speed_nan(with(CaseFigure::RestBelow, Some(NAN)), 1)]
+    #[case::not_observed(with(CaseFigure::ObservedWithin, None), 1)]
     #[case::failed(Measured { drift: Some(ConservationError::NONE), ..measured() }, 2)]
     #[case::no_totals(Measured { drift: None, ..measured() }, 2)]
     #[case::energy_lost(Measured { energy_rate: Some((-2.1e-5, 0.0)), ..measured() }, 1)]
@@ -258,24 +273,17 @@ mod tests {
 
     #[test]
     fn what_is_not_limited_may_be_anything() {
-        let nothing = Measured {
-            errors: None,
-            observed: None,
-            residual_speed: None,
-            drift: None,
-            energy_rate: None,
-        };
-        assert!(Limits::default().unmet(&nothing).is_empty());
+        assert!(Limits::default().unmet(&Measured::NONE).is_empty());
         assert!(Limits::default().is_empty() && !limits().is_empty());
     }
 
     #[test]
     fn limits_and_findings_in_words() {
-        let errors = Limits { error_below: Some(1e-11), ..Limits::default() };
-        assert_eq!(errors.summary(), ["largest error at most 1e-11"]);
-        assert_eq!(errors.found(&measured()), "largest error 0.01");
-        let nan = Measured { errors: Some((NAN, NAN)), ..measured() };
-        let unmet = errors.unmet(&nan).pop().expect("a line");
+        let bounds = vec![(CaseFigure::ErrorBelow, 1e-11)];
+        let limits = Limits { bounds, ..Limits::default() };
+        assert_eq!(limits.summary(), ["largest error at most 1e-11"]);
+        assert_eq!(limits.found(&measured()), "largest error 0.01");
+        let unmet = limits.unmet(&errors(NAN, NAN)).pop().expect("a line");
         assert_eq!(unmet.line, "expected largest error at most 1e-11, got NaN");
         assert!(!unmet.measured);
     }

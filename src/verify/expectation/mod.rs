@@ -3,7 +3,6 @@
 pub(crate) mod advice;
 pub(crate) mod gate;
 pub(crate) mod limits;
-pub(crate) mod observed;
 pub(crate) mod proposal;
 
 use super::expectation::limits::{Limits, Measured, UnmetFigure};
@@ -157,6 +156,7 @@ fn show((low, high): Bounds) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::verify::figure::CaseFigure;
     use rstest::rstest;
 
     const SEEN: CaseFindings = CaseFindings {
@@ -164,13 +164,7 @@ mod tests {
         order: Some((1.95, 2.05)),
         finest_pair: Some(1.99),
         crossings: Some(0),
-        measured: Measured {
-            errors: Some((1e-6, 1e-3)),
-            observed: None,
-            residual_speed: None,
-            drift: None,
-            energy_rate: None,
-        },
+        measured: Measured { figures: [Some(1e-3), Some(1e-6), None, None], ..Measured::NONE },
         floor: Some(FloorCause::Time),
     };
 
@@ -180,7 +174,7 @@ mod tests {
             order: Some((1.9, 2.1)),
             finest_pair: Some((1.9, 2.1)),
             crossings: Some(false),
-            limits: Limits { error_below: Some(1e-2), ..Limits::default() },
+            limits: Limits { bounds: vec![(CaseFigure::ErrorBelow, 1e-2)], ..Limits::default() },
             floor: Some(FloorCause::Time),
             because: "second-order scheme".to_owned(),
         }
@@ -196,7 +190,7 @@ mod tests {
     #[case::nan_pair(CaseFindings { finest_pair: Some(f64::NAN), ..SEEN }, 1)]
     #[case::crossings(CaseFindings { crossings: Some(3), ..SEEN }, 1)]
     #[case::crossings_not_counted(CaseFindings { crossings: None, ..SEEN }, 1)]
-    #[case::limit(CaseFindings { measured: Measured { errors: None, ..SEEN.measured }, ..SEEN }, 1)]
+    #[case::limit(CaseFindings { measured: Measured::NONE, ..SEEN }, 1)]
     #[case::floor(CaseFindings { floor: Some(FloorCause::Nothing), ..SEEN }, 1)]
     #[case::floor_not_told(CaseFindings { floor: None, ..SEEN }, 1)]
     fn every_part_must_hold(#[case] found: CaseFindings, #[case] unmet: usize) {
@@ -216,13 +210,12 @@ mod tests {
 
     #[test]
     fn figures_that_a_failed_run_cannot_have_are_not_told_again() {
-        let measured = Measured { errors: None, ..SEEN.measured };
         let failed = CaseFindings {
             verdict: Verdict::Failed,
             order: None,
             finest_pair: None,
             crossings: None,
-            measured,
+            measured: Measured::NONE,
             floor: None,
         };
         assert_eq!(expectation().unmet(&failed).len(), 1);

@@ -5,14 +5,13 @@
 //! that the run only just meets: twice its uncertainty must fit between the observed order and
 //! either end.
 
-use super::advice::advice;
-use super::observed::{counted, is_inside, range};
+use super::advice::{advice, counted, is_inside, range};
 use crate::named::named;
 use crate::verify::conservation::Conserved;
 use crate::verify::convergence::{Convergence, LevelOutcome};
 use crate::verify::error::norm::larger;
-use crate::verify::order::axis::Axis;
 use crate::verify::order::format_number::format_number;
+use crate::verify::order::level::Axis;
 use crate::verify::verdict::name::Verdict;
 
 /// A drift below this is rounding, which the sums of a run keep within a bound of their own.

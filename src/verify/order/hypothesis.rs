@@ -1,7 +1,7 @@
 //! The hypothesis that a series of errors is tested against.
 
-use super::axis::Axis;
 use super::format_number::format_number;
+use super::level::Axis;
 
 /// An order that theory gives, and the range in which the observed one must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]

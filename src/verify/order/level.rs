@@ -1,9 +1,41 @@
-//! Levels of a refinement study, put in order and checked.
+//! Levels of a refinement: axes, errors, and the order between two levels.
 
+use super::format_number::format_number;
+use crate::named::named;
 use std::cmp::Ordering;
 
-use super::axis::Axis;
-use super::format_number::format_number;
+named! {
+    /// An axis of refinement. Errors of the axes add up, so that refining one of them alone ends at
+    /// the error of the others.
+    pub enum Axis {
+        /// Cells. The time step may follow as a formula of h.
+        Space = "space",
+        /// Time steps, on one grid.
+        Time = "time",
+        /// Particles per cell, on one grid. Their spacing along an axis is h/ppc^(1/D).
+        Particles = "particles",
+    }
+}
+
+impl Axis {
+    /// The symbol of the spacing that is judged, as sentences and tables write it.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Space => "h",
+            Self::Time => "dt",
+            Self::Particles => "particle spacing",
+        }
+    }
+
+    /// The spacing in words.
+    pub fn noun(self) -> &'static str {
+        match self {
+            Self::Space => "cell size",
+            Self::Time => "time step",
+            Self::Particles => "particle spacing",
+        }
+    }
+}
 
 /// One level of refinement: a spacing and the error measured there.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,9 +119,36 @@ fn same(a: f64, b: f64) -> bool {
     a.partial_cmp(&b) == Some(Ordering::Equal)
 }
 
+/// The observed order between two levels, with the true ratio of `h` and with its sign:
+///
+/// ```text
+/// p = ln(error_coarse / error_fine) / ln(h_coarse / h_fine)
+/// ```
+///
+/// Negative if the error grows under refinement. None where it does not exist: a zero, negative
+/// or non-finite figure, or spacings that cannot be told apart.
+pub fn observed_order(coarse: &Level, fine: &Level) -> Option<f64> {
+    let fall = logarithm(coarse.error)? - logarithm(fine.error)?;
+    let ratio = logarithm(coarse.h)? - logarithm(fine.h)?;
+    let order = fall / ratio;
+    order.is_finite().then_some(order)
+}
+
+/// The observed order of each level with the one before; None for the first.
+pub(crate) fn pairwise(levels: &[Level]) -> Vec<Option<f64>> {
+    let pairs = levels.windows(2);
+    let orders = pairs.map(|pair| observed_order(&pair[0], &pair[1]));
+    levels.first().map(|_| None).into_iter().chain(orders).collect()
+}
+
+fn logarithm(x: f64) -> Option<f64> {
+    (x > 0.0 && x.is_finite()).then(|| libm::log(x))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_relative_eq;
     use rstest::rstest;
 
     #[test]
@@ -118,5 +177,30 @@ mod tests {
     fn diagnostics(#[case] level: Level, #[case] expected: &str) {
         let (_, diagnostic) = arrange(&[Level::new(1.0, 0.5), level], Axis::Space);
         assert_eq!(diagnostic.as_deref(), Some(expected));
+    }
+
+    #[rstest]
+    #[case::halved((2.0, 4.0), (1.0, 1.0), 2.0)]
+    #[case::growing_keeps_its_sign((2.0, 1.0), (1.0, 4.0), -2.0)]
+    #[case::true_ratio((3.0, 9.0), (2.0, 4.0), 2.0)]
+    #[case::flat((2.0, 1.0), (1.0, 1.0), 0.0)]
+    fn orders(#[case] coarse: (f64, f64), #[case] fine: (f64, f64), #[case] expected: f64) {
+        let levels = [coarse, fine].map(|(h, error)| Level::new(h, error));
+        let orders = pairwise(&levels);
+        assert_eq!(orders[0], None);
+        assert_relative_eq!(orders[1].unwrap(), expected, max_relative = 1e-14);
+    }
+
+    #[rstest]
+    #[case(0.0)]
+    #[case(-1.0)]
+    #[case(f64::NAN)]
+    #[case(f64::INFINITY)]
+    fn no_order_without_a_positive_figure(#[case] figure: f64) {
+        let level = Level::new(2.0, 1.0);
+        assert_eq!(observed_order(&level, &Level::new(1.0, figure)), None);
+        assert_eq!(observed_order(&level, &Level::new(figure, 1.0)), None);
+        assert_eq!(observed_order(&level, &level), None);
+        assert!(pairwise(&[]).is_empty());
     }
 }

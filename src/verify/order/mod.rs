@@ -1,11 +1,9 @@
 //! The observed order: pairwise, by regression, and by Richardson extrapolation.
 
-pub(crate) mod axis;
 pub(crate) mod fit;
 pub(crate) mod format_number;
 pub(crate) mod hypothesis;
 pub(crate) mod level;
-pub(crate) mod pairwise;
 pub(crate) mod richardson;
 pub(crate) mod t_quantile;
 pub(crate) mod variance_ratio;

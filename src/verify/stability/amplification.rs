@@ -6,8 +6,9 @@
 //! is quadratic (volume times stress) drops out, and numbers are measured in their natural sizes,
 //! which is a similarity and leaves eigenvalues alone.
 
-use crate::subject::Perturbable;
+use crate::subject::{Failure, Perturbable};
 use nalgebra::DMatrix;
+use thiserror::Error;
 
 /// Size of a perturbation. Laws of the deformation round it against F = I, to 1e-10 of the result.
 const STEP: f64 = 1e-6;
@@ -18,6 +19,17 @@ const REST: f64 = 1e-12;
 /// Size of differences of rounded numbers whose exact difference is zero.
 const ROUNDING: f64 = 1e-8;
 
+/// Reason why a step has no amplification matrix.
+#[derive(Debug, Error)]
+pub enum AmplificationError {
+    /// The unperturbed subject changes its state in a step.
+    #[error("the body does not stay at rest by itself")]
+    NotAtRest,
+    /// A step of the subject failed.
+    #[error("{0}")]
+    Failed(Failure),
+}
+
 /// The amplification matrix of a step, or of several steps of the lengths `dt` (s) after one
 /// another. `subject` must be frozen and at rest, with speeds of the size `speed` (m/s) and
 /// stresses of the size `modulus` (Pa). Numbers of the state that nothing else depends on and that
@@ -25,13 +37,13 @@ const ROUNDING: f64 = 1e-8;
 /// one and no row.
 ///
 /// # Errors
-/// One line, if the subject is not at rest or a perturbed step fails.
+/// If the subject is not at rest or a step fails.
 pub fn amplification(
     subject: &mut dyn Perturbable,
     dt: &[f64],
     speed: f64,
     modulus: f64,
-) -> Result<DMatrix<f64>, String> {
+) -> Result<DMatrix<f64>, AmplificationError> {
     let (mut sizes, mut rest, mut after) = (Vec::new(), Vec::new(), Vec::new());
     subject.sizes(speed, modulus, &mut sizes);
     subject.state(&mut rest);
@@ -39,7 +51,7 @@ pub fn amplification(
     subject.state(&mut after);
     let moved = rest.iter().zip(&after).zip(&sizes).map(|((a, b), size)| (b - a).abs() / size);
     if !moved.fold(0.0, crate::verify::larger).le(&REST) {
-        return Err("the body does not stay at rest by itself".to_owned());
+        return Err(AmplificationError::NotAtRest);
     }
     let n = rest.len();
     let mut full = DMatrix::zeros(n, n);
@@ -60,8 +72,8 @@ pub fn amplification(
     Ok(reduced(&full))
 }
 
-fn advance(subject: &mut dyn Perturbable, dt: &[f64]) -> Result<(), String> {
-    dt.iter().try_for_each(|dt| subject.step(*dt)).map_err(|failure| failure.to_string())
+fn advance(subject: &mut dyn Perturbable, dt: &[f64]) -> Result<(), AmplificationError> {
+    dt.iter().try_for_each(|dt| subject.step(*dt)).map_err(AmplificationError::Failed)
 }
 
 /// The matrix without the numbers whose column is that of the identity.
@@ -77,7 +89,7 @@ fn reduced(full: &DMatrix<f64>) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::subject::{Failure, RunCounters, Samples, Subject};
+    use crate::subject::{RunCounters, Samples, Subject};
 
     /// A state whose step is `a' = a/2 + b, b' = 3 b`, with a third number that `third` gives.
     struct Linear {
@@ -115,7 +127,7 @@ mod tests {
         }
     }
 
-    fn matrix(third: fn(f64) -> f64) -> Result<DMatrix<f64>, String> {
+    fn matrix(third: fn(f64) -> f64) -> Result<DMatrix<f64>, AmplificationError> {
         amplification(&mut Linear { state: vec![0.0; 3], third }, &[1.0], 10.0, 40.0)
     }
 

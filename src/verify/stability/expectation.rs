@@ -1,10 +1,9 @@
 //! Expectations of a stability study, row by row.
 
-use super::figure::RunFigure;
 use super::limit::StabilityLimit;
 use super::outcome::{Critical, StabilityRow};
-use super::trial_result::Trial;
-use super::verdict::Stability;
+use super::trial_result::{Stability, Trial};
+use crate::verify::figure::RunFigure;
 use crate::verify::order::format_number::format_number;
 
 /// Expectation of one row.

@@ -30,7 +30,8 @@ impl StabilityLimit {
 /// # Errors
 /// The first that `stable` returns.
 pub fn stability_limit<E>(
-    (low, high): (f64, f64),
+    low: f64,
+    high: f64,
     points: u32,
     tolerance: f64,
     mut stable: impl FnMut(f64) -> Result<bool, E>,
@@ -66,7 +67,7 @@ mod tests {
     use rstest::rstest;
 
     fn find(stable: impl Fn(f64) -> bool) -> StabilityLimit {
-        stability_limit::<()>((0.1, 10.0), 20, 1e-4, |x| Ok(stable(x))).unwrap()
+        stability_limit::<()>(0.1, 10.0, 20, 1e-4, |x| Ok(stable(x))).unwrap()
     }
 
     #[rstest]
@@ -99,7 +100,7 @@ mod tests {
             tried.push(x);
             Ok::<bool, ()>(x < 5.0)
         };
-        let found = stability_limit((1.0, 16.0), 4, 1.1, stable).unwrap();
+        let found = stability_limit(1.0, 16.0, 4, 1.1, stable).unwrap();
         let expected = [1.0, 2.0, 4.0, 8.0];
         assert!(tried.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{tried:?}");
         assert_eq!(tried.len(), 4);

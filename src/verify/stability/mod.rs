@@ -2,7 +2,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`verdict`](Stability) | the verdicts |
+//! | [`trial_result`](Trial) | verdict and figures of one run |
 //! | [`trial`](trial()) | one run: energy over that at the start, J, the largest speed |
 //! | [`amplification`](amplification()) | one step as a matrix, by running the subject itself |
 //! | [`radius`](spectral_radius) | the largest eigenvalue of that matrix |
@@ -13,21 +13,17 @@
 mod amplification;
 mod checkerboard;
 mod expectation;
-mod figure;
 mod limit;
 mod outcome;
 mod radius;
 mod trial;
 mod trial_result;
-mod verdict;
 
-pub use amplification::amplification;
+pub use amplification::{AmplificationError, amplification};
 pub use expectation::{FigureBounds, StabilityExpectation};
-pub use figure::RunFigure;
 pub use limit::{StabilityLimit, stability_limit};
 pub use outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
 pub use radius::{Radius, spectral_radius};
 pub(crate) use trial::is_looked_at;
 pub use trial::trial;
-pub use trial_result::{Scales, Trial};
-pub use verdict::Stability;
+pub use trial_result::{Scales, Stability, Trial};

@@ -1,9 +1,8 @@
 //! The results of a stability study.
 
-use super::figure::RunFigure;
 use super::limit::StabilityLimit;
-use super::trial_result::Trial;
-use super::verdict::Stability;
+use super::trial_result::{Stability, Trial};
+use crate::verify::figure::RunFigure;
 use crate::verify::order::format_number::format_number;
 use crate::verify::study_results::StudyResults;
 

@@ -6,8 +6,7 @@
 //! compared with its start, or, in a body that starts at rest, with the energy of a strain of one.
 
 use super::checkerboard::{checkerboard, stress_spread};
-use super::trial_result::{Scales, Trial};
-use super::verdict::Stability;
+use super::trial_result::{Scales, Stability, Trial};
 use crate::subject::{Failure, Samples, Subject};
 use crate::verify::conservation::{Balance, ConservationError, Conserved};
 use crate::verify::error::norm::larger;
@@ -193,8 +192,8 @@ mod tests {
     use super::*;
     use crate::subject::{RunCounters, Totals};
     use crate::verify::StudyResults;
+    use crate::verify::figure::RunFigure;
     use crate::verify::stability::expectation::StabilityExpectation;
-    use crate::verify::stability::figure::RunFigure;
     use crate::verify::stability::limit::StabilityLimit;
     use crate::verify::stability::outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
     use approx::assert_relative_eq;

@@ -1,7 +1,31 @@
-//! Results of a trial, and the scales of its measurements.
+//! Results of a trial: verdict, figures, and the scales of the measurements.
 
-use super::verdict::Stability;
+use crate::named::named;
 use serde::{Deserialize, Serialize};
+
+named! {
+    /// How a run ended.
+    pub enum Stability {
+        /// The energy stayed within what exchange between its kinds allows.
+        Stable = "stable",
+        /// It grew beyond that, and not out of all bounds in the steps of the run.
+        BoundedGrowth = "bounded_growth",
+        /// It grew out of all bounds.
+        Unstable = "unstable",
+        /// The subject could not go on, or a figure is not finite.
+        Failed = "failed",
+    }
+}
+
+impl Stability {
+    /// In plain words, as reports print it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::BoundedGrowth => "bounded growth",
+            other => other.name(),
+        }
+    }
+}
 
 /// Scales of the measurements of a trial.
 #[derive(Debug, Clone, Copy, PartialEq)]

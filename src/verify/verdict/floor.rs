@@ -6,8 +6,8 @@
 //! 2005, J. Comput. Phys. 205, 131.)
 
 use crate::named::named;
-use crate::verify::order::axis::Axis;
 use crate::verify::order::format_number::format_number;
+use crate::verify::order::level::Axis;
 
 /// An axis is named if halving its spacing takes at least a quarter off the error. With order one
 /// that is an axis which makes half of the error, with order two a third.

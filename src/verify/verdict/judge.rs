@@ -19,8 +19,8 @@ use super::name::Verdict;
 use super::reason::Reason;
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
 use crate::verify::order::hypothesis::OrderHypothesis;
+use crate::verify::order::level::pairwise;
 use crate::verify::order::level::{Level, arrange};
-use crate::verify::order::pairwise::pairwise;
 use crate::verify::order::window;
 use crate::verify::order::window::{FEWEST_LEVELS, Window};
 

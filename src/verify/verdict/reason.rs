@@ -1,10 +1,9 @@
 //! The one line that says why, for a reader who has only the figures.
 
 use super::name::Verdict;
-use crate::verify::order::axis::Axis;
 use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::format_number::{format_number, order};
-use crate::verify::order::level::Level;
+use crate::verify::order::level::{Axis, Level};
 use crate::verify::order::window::FEWEST_LEVELS;
 
 /// Reason of a verdict; levels by index.
@@ -109,8 +108,8 @@ fn floor(levels: &[Level], axis: Axis) -> String {
     }
 }
 
-fn against(verdict: Verdict, (low, high): (f64, f64), overlaps: bool) -> String {
-    let (low, high) = (format_number(low), format_number(high));
+fn against(verdict: Verdict, range: (f64, f64), overlaps: bool) -> String {
+    let (low, high) = (format_number(range.0), format_number(range.1));
     let undecided = if overlaps { ", but the interval overlaps it: not decided" } else { "" };
     match verdict {
         Verdict::Converging => format!("within [{low}, {high}]"),

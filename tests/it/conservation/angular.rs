@@ -114,7 +114,9 @@ fn apic_under_musl_does_not_keep_it() {
 
 #[test]
 fn meaningless_pairs_are_named() {
-    let refused = |basis, transfer, mass, frame| combine(basis, transfer, mass, frame).unwrap_err();
+    let refused = |basis, transfer, mass, frame| {
+        combine(basis, transfer, mass, frame).unwrap_err().to_string()
+    };
     let (lumped, updated) = (MassName::Lumped, FrameName::Updated);
     let message = refused(BasisName::Linear, TransferName::Mls, lumped, updated);
     assert!(message.contains("`mls`") && message.contains("`linear`"), "{message}");

@@ -97,7 +97,7 @@ fn translation_is_exact<const D: usize>(rows: &[Row]) {
         grid.acceleration.fill(velocity);
         let mut advected = before.x.clone();
         let stages = [Stage::ParticleVelocity, Stage::Stress, Stage::Position];
-        g2p(&mut *transfer, kernel, (&grid, 0.5), &mut after, &stages, &mut advected);
+        g2p(&mut *transfer, kernel, &grid, 0.5, &mut after, &stages, &mut advected);
         for p in 0..before.len() {
             let dv = after.v[p] - before.v[p] - velocity * 0.5;
             let dx = advected[p] - before.x[p] - velocity * 0.5;

@@ -36,8 +36,8 @@ fn a_linear_temperature_is_shown_as_it_is(
     let (kernel, grid, mut particles) = plate(basis);
     let slope = Vector::<2>::new(2.0, -3.0);
     let field = |x: &Vector<2>| 1.0 + slope.dot(x);
-    let mut heat = Heat::new((1.0, 1.0), &mut particles, |x| (field(x), slope));
-    heat.integrate_state((0.0, 0.0), &mut particles, kernel.as_ref(), &grid).unwrap();
+    let mut heat = Heat::new(1.0, 1.0, &mut particles, |x| (field(x), slope));
+    heat.integrate_state(0.0, 0.0, &mut particles, kernel.as_ref(), &grid).unwrap();
     let (temperature, slopes) = heat.fields();
     for (node, value) in temperature.iter().enumerate() {
         let place = basis.place(&grid, node);
@@ -56,9 +56,9 @@ fn no_heat_is_lost(
 ) {
     let (kernel, grid, mut particles) = plate(basis);
     let start = |x: &Vector<2>| (libm::sin(9.0 * x[0]) * x[1], Vector::zeros());
-    let heat = Heat::new((0.1, 2.0), &mut particles, start);
+    let heat = Heat::new(0.1, 2.0, &mut particles, start);
     let flux = Thermal::Inflow(Box::new(|_, _, _| 7.0));
-    let face = ThermalBoundary::new((&grid, basis), &particles, (0, Side::High), flux);
+    let face = ThermalBoundary::new(&grid, basis, &particles, 0, Side::High, flux);
     let source: HeatSource<2> = Box::new(|_, _, into| into.fill(5.0));
     let mut heat = heat.with_faces(vec![face]).with_source(source);
     let content = |particles: &Particles<2>| -> f64 {
@@ -67,8 +67,8 @@ fn no_heat_is_lost(
     };
     let before = content(&particles);
     for step in 0..5 {
-        let now = (0.01 * f64::from(step), 0.01);
-        heat.integrate_state(now, &mut particles, kernel.as_ref(), &grid).unwrap();
+        let t = 0.01 * f64::from(step);
+        heat.integrate_state(t, 0.01, &mut particles, kernel.as_ref(), &grid).unwrap();
     }
     let gained = content(&particles) - before;
     assert_relative_eq!(gained, 0.05 * (7.0 * 0.5 + 5.0 * 1.5), max_relative = 1e-12);
@@ -89,7 +89,7 @@ fn a_source_has_the_temperature_at_the_start_of_the_step(
 ) {
     let (kernel, grid, mut particles) = plate(basis);
     let (capacity, r, dt) = (2.0, 3.0, 0.1);
-    let heat = Heat::new((0.1, capacity), &mut particles, |_| (5.0, Vector::zeros()));
+    let heat = Heat::new(0.1, capacity, &mut particles, |_| (5.0, Vector::zeros()));
     let mut heat = heat.with_source(Box::new(move |_, particles, into| {
         for (into, value) in into.iter_mut().zip(&particles.temperature) {
             *into = -r * capacity * value;
@@ -97,7 +97,7 @@ fn a_source_has_the_temperature_at_the_start_of_the_step(
     }));
     let mut expected = 5.0;
     for _ in 0..4 {
-        heat.integrate_state((0.0, dt), &mut particles, kernel.as_ref(), &grid).unwrap();
+        heat.integrate_state(0.0, dt, &mut particles, kernel.as_ref(), &grid).unwrap();
         expected *= 1.0 - r * dt;
         for value in &particles.temperature {
             assert_relative_eq!(*value, expected, max_relative = 1e-12);
@@ -110,7 +110,7 @@ fn a_temperature_that_is_no_number_is_named() {
     let (kernel, grid, mut particles) = plate(BasisName::Linear);
     let source: HeatSource<2> = Box::new(|_, _, into| into[3] = f64::INFINITY);
     let start = |_: &Vector<2>| (0.0, Vector::zeros());
-    let mut heat = Heat::new((1.0, 1.0), &mut particles, start).with_source(source);
-    let found = heat.integrate_state((0.0, 0.1), &mut particles, kernel.as_ref(), &grid);
+    let mut heat = Heat::new(1.0, 1.0, &mut particles, start).with_source(source);
+    let found = heat.integrate_state(0.0, 0.1, &mut particles, kernel.as_ref(), &grid);
     assert!(matches!(found, Err(Failure::NonFinite { quantity: "temperature", .. })));
 }

@@ -236,7 +236,8 @@ impl<'a> ProgramBuilder<'a> {
         &mut self,
         frame: &Frame<'a>,
         node: &'a Node,
-        (name, table): (&'a str, &'a Tabulated),
+        name: &'a str,
+        table: &'a Tabulated,
         at: usize,
     ) -> Result<Operand, FormulaError> {
         let by = table.by.as_str();

@@ -27,7 +27,7 @@ impl<'a> ProgramBuilder<'a> {
             return Ok(Operand::Constant(value));
         }
         if let Some(table) = self.scope.tabulated(name) {
-            return self.table(frame, node, table, at);
+            return self.table(frame, node, table.0, table.1, at);
         }
         let span = node.span.clone();
         if self.scope.called(name).is_some() {

@@ -160,7 +160,7 @@ fn sets(
         let inside = |x0: &[f64], _| set.holds(x0);
         let is_held = match (&scene.outline, per_axis) {
             (Some(_), Some(n)) if scene.mapped.is_none() => {
-                any_particle(scene, (scene, level.h), n, inside)
+                any_particle(scene, scene, level.h, n, inside)
             }
             _ => (0..scene.dimension()).all(some),
         };

@@ -10,6 +10,13 @@ use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 /// Label of a level that is not finer than the one before.
 pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
 
+/// A stated time step (s), and the clock that it becomes.
+#[derive(Clone, Copy)]
+struct StatedStep {
+    dt: f64,
+    clock: Clock,
+}
+
 /// Whether every level, and the reference, has a usable time step, and a finer one where time is
 /// refined. Instants that are shared with a computed truth must not change it.
 pub(crate) fn refuse_unusable(
@@ -18,32 +25,33 @@ pub(crate) fn refuse_unusable(
     places: &[LevelPaths],
 ) -> Result<(), Diagnostic> {
     for case in &plan.cases {
-        let mut coarser: Option<(f64, Clock)> = None;
+        let mut coarser: Option<StatedStep> = None;
         for (level, place) in plan.refine.levels.iter().zip(places) {
             let clock = case.clock(plan, level.dt);
-            let clock = usable(evaluator, &place.dt, clock, (level.cells, level.dt))?;
+            let clock = usable(evaluator, &place.dt, clock, level.cells, level.dt)?;
+            let step = StatedStep { dt: level.dt, clock };
             if plan.refine.axis == Axis::Time || plan.refine.steps.len() > 1 {
                 if let Some(coarser) = coarser {
-                    finer(evaluator, &place.dt, coarser, (level.dt, clock))?;
+                    finer(evaluator, &place.dt, coarser, step)?;
                 }
-                coarser = Some((level.dt, clock));
+                coarser = Some(step);
             }
             if case.against.is_computed() && plan.refine.rule.is_none() {
-                as_wanted(evaluator, &place.dt, case, (level.dt, clock))?;
+                as_wanted(evaluator, &place.dt, case, step)?;
             }
         }
         if let Some(fine) = case.against.fine_grid() {
             let path = Path::top("reference").then("same_method").then("cells");
-            let clock = usable(evaluator, &path, case.clock(plan, fine.dt), (fine.cells, fine.dt))?;
+            let clock = usable(evaluator, &path, case.clock(plan, fine.dt), fine.cells, fine.dt)?;
             if plan.refine.rule.is_none() {
-                as_wanted(evaluator, &path, case, (fine.dt, clock))?;
+                as_wanted(evaluator, &path, case, StatedStep { dt: fine.dt, clock })?;
             }
         }
         if let Some(fine) = &plan.reference {
             let path = Path::top("reference").then("fem").then("dt");
             let dt = fine.dt.eval(&[cell_size(&plan.scene, fine.cells)]);
             let clock = plan.clock(Against::Reference, case.until, dt);
-            usable(evaluator, &path, clock, (fine.cells, dt))?;
+            usable(evaluator, &path, clock, fine.cells, dt)?;
         }
     }
     Ok(())
@@ -53,7 +61,8 @@ fn usable(
     evaluator: &Evaluator<'_>,
     path: &Path,
     clock: Option<Clock>,
-    (cells, dt): (u64, f64),
+    cells: u64,
+    dt: f64,
 ) -> Result<Clock, Diagnostic> {
     clock.ok_or_else(|| {
         let message = format!("with {cells} cells the time step is {}", shown(dt));
@@ -66,19 +75,19 @@ fn usable(
 fn finer(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    (coarse, coarse_clock): (f64, Clock),
-    (fine, fine_clock): (f64, Clock),
+    coarse: StatedStep,
+    fine: StatedStep,
 ) -> Result<(), Diagnostic> {
-    let (wide, narrow) = (shown(coarse), shown(fine));
-    if !(fine < coarse) {
+    let (wide, narrow) = (shown(coarse.dt), shown(fine.dt));
+    if !(fine.dt < coarse.dt) {
         let message = format!("a level with dt = {narrow} after one with {wide}");
         return Err(evaluator.diagnostic(path, &message).with_label(COARSE_TO_FINE));
     }
-    if fine_clock.steps > coarse_clock.steps {
+    if fine.clock.steps > coarse.clock.steps {
         return Ok(());
     }
-    let message = format!("dt = {narrow} and {wide} both become {} s", shown(fine_clock.dt()));
-    let label = format!("both runs take {} steps", fine_clock.steps);
+    let message = format!("dt = {narrow} and {wide} both become {} s", shown(fine.clock.dt()));
+    let label = format!("both runs take {} steps", fine.clock.steps);
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
@@ -87,8 +96,9 @@ fn as_wanted(
     evaluator: &Evaluator<'_>,
     path: &Path,
     case: &Case,
-    (wanted, clock): (f64, Clock),
+    step: StatedStep,
 ) -> Result<(), Diagnostic> {
+    let StatedStep { dt: wanted, clock } = step;
     let is_near = |clock: &Clock| (clock.dt() / wanted - 1.0).abs() <= STEP_TOLERANCE;
     if is_near(&clock) {
         return Ok(());

@@ -146,7 +146,7 @@ fn combined(
     }
     known.map_err(|reason| {
         let help = "give what goes together an entry of `methods` of its own";
-        evaluator.diagnostic(path, &reason).with_help(help)
+        evaluator.diagnostic(path, &reason.to_string()).with_help(help)
     })
 }
 

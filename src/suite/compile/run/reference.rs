@@ -53,7 +53,8 @@ const SHORTER: f64 = 8.0;
 pub(crate) fn same_method(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
-    (scene, refine): (&Scene, &RefinePlan),
+    scene: &Scene,
+    refine: &RefinePlan,
     until: &[(String, f64)],
     instants: u64,
 ) -> Result<Option<SameMethod>, Diagnostic> {

@@ -47,7 +47,7 @@ pub(crate) fn body(
         .as_ref()
         .map(|grid| outline::corners(evaluator, &path.then("grid"), grid, dimension))
         .transpose()?;
-    let sets = sets::declared(evaluator, &path, spec, (&from, &to), outline.as_deref())?;
+    let sets = sets::declared(evaluator, &path, spec, &from, &to, outline.as_deref())?;
     let at = own.at.then("material");
     let (material, density) = material::material(evaluator, &at, own.material)?;
     let plane = plane(evaluator, &path, spec, dimension)?;

@@ -16,16 +16,17 @@ pub(crate) fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
     spec: &SceneSpec,
-    corners: (&[f64], &[f64]),
+    low: &[f64],
+    high: &[f64],
     outline: Option<&dyn Outline>,
 ) -> Result<Vec<Region>, Diagnostic> {
     let declare = |(name, SetSpec::Box(spec)): &(String, SetSpec)| {
         let at = path.then("sets").then(name.as_str());
         refuse_face_name(evaluator, &at, name)?;
         let at = at.then("box");
-        let (from, to) = outline::corners(evaluator, &at, spec, corners.0.len())?;
+        let (from, to) = outline::corners(evaluator, &at, spec, low.len())?;
         let set = Region { name: name.clone(), from, to };
-        refuse_outside(evaluator, &at, &set, corners)?;
+        refuse_outside(evaluator, &at, &set, low, high)?;
         if let Some(outline) = outline {
             refuse_beside(evaluator, &at, &set, outline)?;
         }
@@ -48,7 +49,8 @@ fn refuse_outside(
     evaluator: &Evaluator<'_>,
     path: &Path,
     set: &Region,
-    (from, to): (&[f64], &[f64]),
+    from: &[f64],
+    to: &[f64],
 ) -> Result<(), Diagnostic> {
     for axis in 0..from.len() {
         if !(set.from[axis] < to[axis] && set.to[axis] > from[axis]) {
@@ -72,7 +74,7 @@ fn refuse_beside(
     outline: &dyn Outline,
 ) -> Result<(), Diagnostic> {
     let ends = outline.ends();
-    let (from, to) = set.within((&ends.0, &ends.1));
+    let (from, to) = set.within(&ends.0, &ends.1);
     let size: f64 = from.iter().zip(&to).map(|(from, to)| to - from).product();
     if outline.volume_within(&from, &to) > SLIVER * size {
         return Ok(());

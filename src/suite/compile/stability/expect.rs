@@ -13,7 +13,7 @@ pub(crate) fn named(
     spec: &StabilityExpectSpec,
 ) -> Result<Vec<RunFigure>, Diagnostic> {
     let find = |(name, _): &(String, FigureSpec)| {
-        RunFigure::ALL.iter().copied().find(|figure| figure.name() == name).ok_or_else(|| {
+        RunFigure::by_name(name).ok_or_else(|| {
             let known: Vec<&str> = RunFigure::ALL.iter().map(|figure| figure.name()).collect();
             let at = path.then("figures").then(name.as_str());
             evaluator
@@ -26,7 +26,8 @@ pub(crate) fn named(
 
 /// Expectation of every row by entry number `i` of `expect`; `rows` are the values of each row.
 pub(crate) fn rows(
-    (evaluator, template): (&Evaluator<'_>, &SetupTemplate),
+    evaluator: &Evaluator<'_>,
+    template: &SetupTemplate,
     spec: &StabilityExpectSpec,
     i: usize,
     rows: &[Vec<(&str, f64)>],
@@ -144,7 +145,7 @@ pub(crate) fn summary(spec: &StabilityExpectSpec, predicted: bool) -> String {
     }
     let figures = spec.figures.as_slice().iter();
     parts.extend(figures.map(|(name, spec)| {
-        let known = RunFigure::ALL.iter().find(|figure| figure.name() == name);
+        let known = RunFigure::by_name(name);
         format!("{} {}", known.map_or(name.as_str(), |figure| figure.head()), bounds_text(spec))
     }));
     parts.join("; ")

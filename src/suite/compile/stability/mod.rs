@@ -47,7 +47,7 @@ pub(crate) fn plan(
         }
     }
     let drafts = drafts(evaluator, spec, &material, base.scene.plane)?;
-    let cases = cases(evaluator, &template, spec, drafts, (&swept, &values, sought.is_some()))?;
+    let cases = cases(evaluator, &template, spec, drafts, &swept, &values, sought.is_some())?;
     let mut figures = spec.show.clone();
     for entry in &spec.expect {
         for figure in expect::named(evaluator, &Path::top("expect"), entry)? {
@@ -157,7 +157,7 @@ fn drafts(
                 let across = |()| combine_across(plane, basis, transfer);
                 combine(basis, transfer, mass, frame).and_then(across).map_err(|reason| {
                     let help = "give what goes together an entry of `methods` of its own";
-                    evaluator.diagnostic(&path, &reason).with_help(help)
+                    evaluator.diagnostic(&path, &reason.to_string()).with_help(help)
                 })?;
             }
             drafts.push(draft);
@@ -172,7 +172,9 @@ fn cases(
     template: &SetupTemplate,
     spec: &StabilitySpec,
     drafts: Vec<(String, Method)>,
-    (swept, values, seeks): (&str, &[f64], bool),
+    swept: &str,
+    values: &[f64],
+    seeks: bool,
 ) -> Result<Vec<StabilityCase>, Diagnostic> {
     let names: Vec<&str> = drafts.iter().map(|(name, _)| name.as_str()).collect();
     let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
@@ -185,7 +187,7 @@ fn cases(
         .map(|(i, spec)| {
             let path = Path::top("expect").then(i);
             Ok((
-                expect::rows((evaluator, template), spec, i, &rows, seeks)?,
+                expect::rows(evaluator, template, spec, i, &rows, seeks)?,
                 evaluator.because(&path, "an expectation", &spec.because)?,
             ))
         })

@@ -253,9 +253,8 @@ fn of_null_space(
     let shown = shown.map(|(i, figure)| (Path::top("show").then(i), *figure));
     let expected = spec.expect.iter().enumerate().flat_map(|(i, entry)| {
         let path = Path::top("expect").then(i).then("figures");
-        let named = entry.figures.as_slice().iter().filter_map(|(name, _)| {
-            RunFigure::ALL.iter().copied().find(|figure| figure.name() == name)
-        });
+        let named =
+            entry.figures.as_slice().iter().filter_map(|(name, _)| RunFigure::by_name(name));
         named.map(move |figure| (path.then(figure.name()), figure))
     });
     let Some((path, figure)) = shown.chain(expected).find(|(_, f)| f.is_of_null_space()) else {

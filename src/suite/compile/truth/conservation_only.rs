@@ -41,11 +41,9 @@ pub(crate) fn refuse_need_of_truth(
     }
     let asked = |spec: &ExpectSpec| {
         let ExpectSpec { order, verdict, finest_pair, floor, drift, energy_rate, .. } = spec;
-        let ExpectSpec { error_below, error_above, observed_within, rest_below, .. } = spec;
-        let bounds = [error_below, error_above, observed_within, rest_below];
         let judged = order.is_some() || verdict.is_some() || finest_pair.is_some();
         let kept = drift.is_some() || energy_rate.is_some();
-        judged || floor.is_some() || bounds.iter().any(|b| b.is_some()) || !kept
+        judged || floor.is_some() || !spec.bounds().is_empty() || !kept
     };
     let full = |spec: &ExpectSpec| spec.full.as_deref().is_some_and(asked);
     if spec.expect.iter().any(|spec| asked(spec) || full(spec)) {

@@ -46,7 +46,7 @@ pub(crate) fn exact(
         return Ok(Some(Problem {
             at_rest: true,
             follows_motion: false,
-            ..solution(evaluator, &path, state, (scene, true), until)?
+            ..solution(evaluator, &path, state, scene, true, until)?
         }));
     }
     let Some(exact) = &spec.exact else { return manufactured(evaluator, spec, scene, until) };
@@ -55,9 +55,9 @@ pub(crate) fn exact(
         let message = "a solution is either exact or manufactured";
         return Err(evaluator.diagnostic_at_key(&Path::top("manufactured"), message));
     }
-    let problem = solution(evaluator, &path, exact, (scene, false), until)?;
+    let problem = solution(evaluator, &path, exact, scene, false, until)?;
     let each =
-        scene.bodies.iter().map(|body| solution(evaluator, &path, exact, (body, false), until));
+        scene.bodies.iter().map(|body| solution(evaluator, &path, exact, body, false, until));
     let bodies = each.collect::<Result<Vec<Problem>, _>>()?;
     Ok(Some(Problem { bodies, ..problem }))
 }
@@ -98,7 +98,8 @@ fn solution(
     evaluator: &Evaluator<'_>,
     path: &Path,
     spec: &ExactSpec,
-    (scene, at_rest): (&Scene, bool),
+    scene: &Scene,
+    at_rest: bool,
     until: f64,
 ) -> Result<Problem, Diagnostic> {
     let tolerance = tolerance(evaluator, path, spec.tolerance.as_ref())?;
@@ -107,7 +108,7 @@ fn solution(
         let message = "a body that moves needs an `equation` and a `displacement`";
         return Err(evaluator.diagnostic_at_key(path, message));
     };
-    let equation = equation(evaluator, &path.then("equation"), name, (scene, at_rest))?;
+    let equation = equation(evaluator, &path.then("equation"), name, scene, at_rest)?;
     let motion = motion(evaluator, path, texts, scene.dimension())?;
     let motion_in_heat = equation.is_finite().then(|| motion.clone());
     let inputs = ConductionInputs { motion: motion_in_heat, manufactured: false, until, tolerance };
@@ -120,7 +121,8 @@ fn equation(
     evaluator: &Evaluator<'_>,
     path: &Path,
     name: EquationName,
-    (scene, at_rest): (&Scene, bool),
+    scene: &Scene,
+    at_rest: bool,
 ) -> Result<Equation, Diagnostic> {
     if let Some(equation) = equation_of(&scene.material).filter(|law| law.name() == name.name()) {
         let admitted = equation.admits(scene.dimension(), at_rest);

@@ -42,8 +42,8 @@ impl BodyForceLoad {
             let places = particles.x0.iter().zip(particles.positions());
             for (b, (label, x)) in b.iter_mut().zip(places) {
                 let u = space(&(x - label));
-                let place = (label.as_slice(), t);
-                *b = Vector::from_fn(|i, _| of_displacement(&formulas[i], place, &u));
+                let label = label.as_slice();
+                *b = Vector::from_fn(|i, _| of_displacement(&formulas[i], label, t, &u));
             }
         }));
         force.with_stiffness(self.stiffness(particles))
@@ -55,9 +55,8 @@ impl BodyForceLoad {
         let of = |label: &Vector<D>, x: &Vector<D>| {
             let u = space(&(x - label));
             let seeds: [Jet<3>; 3] = std::array::from_fn(|a| Jet::variable(u[a], a));
-            let slope: [Jet<3>; D] = std::array::from_fn(|i| {
-                of_displacement(&self.0[i], (label.as_slice(), 0.0), &seeds)
-            });
+            let slope: [Jet<3>; D] =
+                std::array::from_fn(|i| of_displacement(&self.0[i], label.as_slice(), 0.0, &seeds));
             let held = |i: usize, j: usize| -0.5 * (slope[i].d(j) + slope[j].d(i));
             let circle = |i: usize| {
                 let others = (0..D).filter(|j| *j != i).map(|j| held(i, j).abs());
@@ -77,7 +76,7 @@ fn space<const D: usize>(vector: &Vector<D>) -> [f64; 3] {
 
 impl Term for BodyForceLoad {
     fn stated(&self, i: usize, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
-        self.0.get(i).map_or(0.0, |formula| of_displacement(formula, (label, t), u))
+        self.0.get(i).map_or(0.0, |formula| of_displacement(formula, label, t, u))
     }
 
     fn depends_on_displacement(&self) -> bool {

@@ -125,7 +125,7 @@ impl<const D: usize> BuildEffect<D> for SceneHeat {
     /// The particles get their temperature here.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let start = initial::<D>(site.heat, self.initial.as_ref());
-        let heat = Heat::new((self.conductivity, self.capacity), site.particles, |x0| {
+        let heat = Heat::new(self.conductivity, self.capacity, site.particles, |x0| {
             let TemperatureDerivatives { value, grad, .. } = start(x0.as_slice());
             (value, Vector::from_fn(|axis, _| grad[axis]))
         });
@@ -224,9 +224,16 @@ fn build_faces<const D: usize>(
     site: &BodySite<'_, D>,
 ) -> Vec<ThermalBoundary<D>> {
     let build = |face: &ThermalFace| {
-        let at = (face.axis, if face.high { Side::High } else { Side::Low });
+        let side = if face.high { Side::High } else { Side::Low };
         let condition = build_condition(&face.condition)?;
-        Some(ThermalBoundary::new((site.grid, site.basis), site.particles, at, condition))
+        Some(ThermalBoundary::new(
+            site.grid,
+            site.basis,
+            site.particles,
+            face.axis,
+            side,
+            condition,
+        ))
     };
     faces.iter().filter_map(build).collect()
 }

@@ -28,7 +28,7 @@ impl LoadKeys for SetForceSpec {
 
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         let (set, scene) = (entry.free_set(&self.on)?, entry.scene);
-        let (from, to) = set.region.within((&scene.from, &scene.to));
+        let (from, to) = set.region.within(&scene.from, &scene.to);
         let of_box = || from.iter().zip(&to).map(|(from, to)| to - from).product();
         let volume = scene.outline.as_ref().map_or_else(of_box, |o| o.volume_within(&from, &to));
         Ok(Arc::new(SetForceLoad {

@@ -102,7 +102,9 @@ impl<const D: usize> BuildEffect<D> for ExpansionLoad {
         let Self(Expansion { coefficient, reference }, rate_form) = *self;
         Ok(Box::new(match rate_form {
             None => ThermalExpansion::of_deformation(coefficient, reference),
-            Some(elasticity) => ThermalExpansion::in_rate_form(coefficient, reference, elasticity),
+            Some((young, poisson)) => {
+                ThermalExpansion::in_rate_form(coefficient, reference, young, poisson)
+            }
         }))
     }
 }

@@ -65,7 +65,7 @@ fn node_weights<const D: usize>(
     let offset: [Vec<f64>; D] = std::array::from_fn(|axis| {
         let slope = Vector::from_fn(|i, _| if i == axis { 1.0 } else { 0.0 });
         let mut column = vec![0.0; grid.nodes()];
-        kernel.p2g_scalar(&one, (&[0.0], &[slope]), grid, &mut column);
+        kernel.p2g_scalar(&one, &[0.0], &[slope], grid, &mut column);
         column
     });
     let node = |node: usize| NodeWeight {

@@ -1,0 +1,225 @@
+//! Registry of the figures that suites bound: [`CaseFigure`] for convergence studies, [`RunFigure`]
+//! for stability studies.
+//!
+//! An entry states the key in suites and JSON, the documentation of that key, the text in reports
+//! (with the unit, if there is one) and the value. The grammar of suites and its JSON Schema, the
+//! checks of a suite, the comparison with the bound and the reports follow from the entry. Adding a
+//! figure: `docs/exercises/figure.md`.
+
+use super::convergence::LevelOutcome;
+use super::error::norm::larger;
+use super::stability::Trial;
+use crate::named::named;
+
+/// Calls the macro `declare` with every bounded figure of a convergence study. An entry
+///
+/// `RestBelow = rest_below, "residual speed over the wave speed", Maximum, StateOfRest,`
+/// `residual_speed;`
+///
+/// gives the member of [`CaseFigure`]; its key in suites; its text in reports; the
+/// [`BoundKind`]; the [`FigureNeed`]; and the function that takes the levels of a case and returns
+/// the value. The documentation of the entry is that of the key in the JSON Schema.
+///
+/// The grammar declares a field for each entry by this macro. `#[serde(flatten)]` over a map of
+/// keys would need no macro, but it excludes `deny_unknown_fields`, and a misspelt key would lose
+/// its place and suggestion.
+macro_rules! each_case_figure {
+    ($declare:ident) => {
+        $declare! {
+        /// Bounds on the judged error of every level that counts.
+        ErrorBelow = error_below, "largest error", Maximum, Nothing, largest_error;
+        /// Lower bound on the judged error of every level that counts.
+        ErrorAbove = error_above, "smallest error", Minimum, Nothing, smallest_error;
+        /// Distance (m) of the observed place from the exact one, at the end, on the finest level.
+        ObservedWithin = observed_within, "error at the observed point (m)", Maximum,
+            ObservedPlace, observed_error;
+        /// Largest speed towards the end of every level that counts, over the wave speed.
+        RestBelow = rest_below, "residual speed over the wave speed", Maximum, StateOfRest,
+            residual_speed;
+        }
+    };
+}
+pub(crate) use each_case_figure;
+
+/// Side on which a bound limits a figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BoundKind {
+    /// The figure must not exceed the bound.
+    Maximum,
+    /// The figure must not fall below the bound.
+    Minimum,
+}
+
+/// Part of a suite without which a figure does not exist.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FigureNeed {
+    /// None: every case has the figure.
+    Nothing,
+    /// The key `observe`.
+    ObservedPlace,
+    /// An exact solution that is a state of rest.
+    StateOfRest,
+}
+
+/// Declares [`CaseFigure`] from the entries of `each_case_figure`.
+macro_rules! case_figures {
+    ($($(#[$doc:meta])* $member:ident = $key:ident, $text:literal, $bound:ident, $need:ident,
+        $value:ident;)+) => {
+        /// A bounded figure of a case of a convergence study.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum CaseFigure {
+            $($(#[$doc])* $member,)+
+        }
+
+        impl CaseFigure {
+            /// Every figure, in the order of declaration.
+            pub const ALL: [Self; [$(stringify!($key)),+].len()] = [$(Self::$member),+];
+
+            /// Key of the bound in suites.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$member => stringify!($key),)+
+                }
+            }
+
+            /// Text in reports.
+            pub fn text(self) -> &'static str {
+                match self {
+                    $(Self::$member => $text,)+
+                }
+            }
+
+            /// Side on which the bound limits the figure.
+            pub fn bound_kind(self) -> BoundKind {
+                match self {
+                    $(Self::$member => BoundKind::$bound,)+
+                }
+            }
+
+            /// Part of a suite without which the figure does not exist.
+            pub fn need(self) -> FigureNeed {
+                match self {
+                    $(Self::$member => FigureNeed::$need,)+
+                }
+            }
+
+            /// Value for the levels of a case; `None` if they do not have the figure.
+            pub fn value(self, levels: &[LevelOutcome]) -> Option<f64> {
+                match self {
+                    $(Self::$member => $value(levels),)+
+                }
+            }
+        }
+    };
+}
+each_case_figure!(case_figures);
+
+/// Largest judged error of the levels that count; NaN if one is.
+fn largest_error(levels: &[LevelOutcome]) -> Option<f64> {
+    counted(levels).map(|level| level.error).reduce(larger)
+}
+
+/// Smallest judged error of the levels that count; NaN if one is.
+fn smallest_error(levels: &[LevelOutcome]) -> Option<f64> {
+    counted(levels).map(|level| level.error).reduce(|a, b| -larger(-a, -b))
+}
+
+/// Distance (m) of the observed place from the exact one on the finest level.
+fn observed_error(levels: &[LevelOutcome]) -> Option<f64> {
+    levels.last().and_then(|level| level.run.observed_error)
+}
+
+/// Largest speed towards the end of the levels that count, over the wave speed; `None` if one
+/// level has none, as the exact solution is no state of rest.
+fn residual_speed(levels: &[LevelOutcome]) -> Option<f64> {
+    let speeds: Option<Vec<f64>> = counted(levels).map(|level| level.run.residual_speed).collect();
+    speeds.and_then(|speeds| speeds.into_iter().reduce(larger))
+}
+
+/// The levels that count.
+pub(super) fn counted(levels: &[LevelOutcome]) -> impl Iterator<Item = &LevelOutcome> {
+    levels.iter().filter(|level| level.usable)
+}
+
+/// Declares [`RunFigure`]: for each member its documentation, its name in suites and JSON, its
+/// heading in tables and its value in a run.
+macro_rules! run_figures {
+    ($($(#[$doc:meta])* $member:ident = $name:literal, $head:literal, $value:expr;)+) => {
+        named! {
+            /// A figure of a run.
+            pub enum RunFigure {
+                $($(#[$doc])* $member = $name,)+
+            }
+        }
+
+        impl RunFigure {
+            /// Heading in tables.
+            pub fn head(self) -> &'static str {
+                match self {
+                    $(Self::$member => $head,)+
+                }
+            }
+
+            /// Value in a run.
+            pub fn of(self, trial: &Trial) -> f64 {
+                let value: fn(&Trial) -> f64 = match self {
+                    $(Self::$member => $value,)+
+                };
+                value(trial)
+            }
+        }
+    };
+}
+
+run_figures! {
+    /// The largest energy over the energy at the start.
+    Energy = "energy", "largest energy", |trial| trial.energy;
+    /// The energy at the end over that at the start.
+    EnergyKept = "energy_kept", "energy kept", |trial| trial.energy_kept;
+    /// Kinetic energy at the end over that at the start.
+    KineticKept = "kinetic_kept", "kinetic kept", |trial| trial.kinetic_kept;
+    /// The largest relative change of the momentum.
+    Momentum = "momentum", "momentum", |trial| trial.momentum;
+    /// The largest relative change of the angular momentum.
+    AngularMomentum = "angular_momentum", "angular mom.", |trial| trial.angular_momentum;
+    /// The smallest J met.
+    LeastJ = "least_j", "least J", |trial| trial.least_j;
+    /// The largest speed met, over the wave speed.
+    Speed = "speed", "largest speed/c", |trial| trial.speed;
+    /// At the end, the kinetic energy in the null space of the map to the grid over the largest
+    /// kinetic energy of the run.
+    NullShare = "null_share", "null share", |trial| trial.null_share;
+    /// The largest kinetic energy met in the null space over the largest kinetic energy of the
+    /// run.
+    LargestNullShare = "largest_null_share", "largest null share", |trial| trial.largest_null_share;
+    /// At the end, the part of the stress that changes from particle to particle and no
+    /// further, over its mean size.
+    Checkerboard = "checkerboard", "checkerboard", |trial| trial.checkerboard;
+    /// At the end, the largest less the smallest mean normal stress over the largest.
+    StressSpread = "stress_spread", "stress spread", |trial| trial.stress_spread;
+    /// At the end, the largest stress over the modulus.
+    Stress = "stress", "stress/M", |trial| trial.stress;
+    /// At the end, the largest displacement (m).
+    Displacement = "displacement", "displacement", |trial| trial.displacement;
+    /// Steps taken.
+    Steps = "steps", "steps", |trial| trial.steps as f64;
+}
+
+impl RunFigure {
+    /// The figure called `name` in suites.
+    pub(crate) fn by_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|figure| figure.name() == name)
+    }
+
+    /// Whether the figure is measured in the null space of the map to the grid, which is computed
+    /// only on request.
+    pub fn is_of_null_space(self) -> bool {
+        matches!(self, Self::NullShare | Self::LargestNullShare)
+    }
+}
+
+/// The figure that `docs/exercises/figure.md` adds.
+#[cfg(test)]
+#[path = "../../tests/exercises/steps_below.rs"]
+#[expect(unreachable_pub, reason = "the macro declares public items")]
+mod steps_below;
