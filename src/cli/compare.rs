@@ -154,7 +154,9 @@ fn run(path: &Path) -> Result<ReportDocument, Diagnostic> {
     ReportDocument::read(&text).map_err(|unreadable| {
         let Unreadable { message, place } = unreadable;
         let diagnostic = match place {
-            Some(place) => Diagnostic::at(&file, &text, bytes(&text, place), &message),
+            Some((line, column)) => {
+                Diagnostic::at(&file, &text, bytes(&text, line, column), &message)
+            }
             None => Diagnostic::about(&file, &message),
         };
         let help = "expected the document that `mpm-verify run --format json` prints";
@@ -163,7 +165,7 @@ fn run(path: &Path) -> Result<ReportDocument, Diagnostic> {
 }
 
 /// The byte at a line and a column, which is counted in bytes.
-fn bytes(text: &str, (line, column): (usize, usize)) -> Range<usize> {
+fn bytes(text: &str, line: usize, column: usize) -> Range<usize> {
     let start: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
     let at = (start + column - 1).min(text.len());
     at..at + 1

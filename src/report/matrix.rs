@@ -92,6 +92,7 @@ pub(crate) fn shares<'a>(
 ) -> [(usize, usize); COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcomes.clone().flat_map(|outcome| &outcome.cases);
+        let cases = cases.filter(|case| case.convergence().is_some());
         let classes = cases.filter(|case| column_of(case) == column).map(FindingClass::of);
         let counted = classes.filter(|class| *class != FindingClass::Other);
         counted.fold((0, 0), |(kept, all), class| {

@@ -1,7 +1,7 @@
 //! Columns of the tables of cost: the work that methods take for an error.
 
 use super::{Cell, TableColumn, decimals, json_object, short};
-use crate::report::columns::number::number;
+use crate::report::columns::number;
 use crate::verify::{Agreement, End, Exponent, Model, Ranked, Ranking, Reach};
 
 type MethodColumn<'a> = TableColumn<'a, Ranked>;
@@ -114,7 +114,7 @@ fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
 
 /// The terms of the cost model.
 pub(crate) fn model<'a>() -> [TableColumn<'a, Model>; 4] {
-    let column = |k: usize, (heading, key): (&'static str, &'static str)| {
+    let column = |k: usize, heading: &'static str, key: &'static str| {
         TableColumn::<Model>::new(heading, key, "cost (ns, in JSON s)", move |model| {
             let seconds = model.seconds[k];
             let text = (seconds != 0.0).then(|| format!("{:.2}", 1e9 * seconds));
@@ -122,10 +122,10 @@ pub(crate) fn model<'a>() -> [TableColumn<'a, Model>; 4] {
         })
     };
     [
-        column(0, ("per transfer", "transfer")),
-        column(1, ("per particle", "particle")),
-        column(2, ("per node", "node")),
-        column(3, ("per step", "step")),
+        column(0, "per transfer", "transfer"),
+        column(1, "per particle", "particle"),
+        column(2, "per node", "node"),
+        column(3, "per step", "step"),
     ]
 }
 

@@ -1,7 +1,7 @@
 //! Columns of the levels of a convergence study.
 
 use super::{Cell, TableColumn, decimals, json_object, scientific};
-use crate::report::columns::number::number;
+use crate::report::columns::number;
 use crate::verify::{
     Axis, Conserved, Convergence, History, Interval, Level, LevelOutcome, RunErrors, observed_order,
 };

@@ -3,16 +3,193 @@
 //! Text, JSON, Markdown and `docs/columns.md` read the same lists. To add a column is to add an
 //! entry to a list.
 
-mod cell;
-mod column;
+use crate::verify::Interval;
+use serde_json::{Map, Value, json};
+use std::borrow::Cow;
+
 pub(crate) mod cost;
 pub(crate) mod force;
 pub(crate) mod level;
-pub(crate) mod number;
 pub(crate) mod stability;
 #[cfg(test)]
 mod tests;
 pub(crate) mod timed_level;
 
-pub(crate) use cell::{Cell, decimals, scientific, short};
-pub(crate) use column::{TableColumn, json_object};
+/// A value as text and as JSON.
+#[derive(Debug, Clone)]
+pub(crate) struct Cell {
+    pub(crate) text: String,
+    pub(crate) json: Value,
+}
+
+impl Cell {
+    /// Forms that differ.
+    pub(crate) fn new(text: impl Text, json: impl Into<Value>) -> Self {
+        Self { text: text.text(), json: json.into() }
+    }
+
+    /// A value of text only.
+    pub(crate) fn text(text: impl Text) -> Self {
+        Self::new(text, Value::Null)
+    }
+
+    /// A value of JSON only.
+    pub(crate) fn json(json: impl Into<Value>) -> Self {
+        Self::new(None::<String>, json)
+    }
+
+    /// A name or a count, the same in both forms.
+    pub(crate) fn plain(value: impl Text + Clone + Into<Value>) -> Self {
+        Self::new(value.clone(), value)
+    }
+
+    /// A number, in text as `format` writes it.
+    pub(crate) fn number(value: impl Into<Option<f64>>, format: impl Fn(f64) -> String) -> Self {
+        let value = value.into();
+        Self::new(value.map(format), value.map(number))
+    }
+
+    /// The same with the word `failed` as text, if there is a failure.
+    pub(crate) fn or_failed(self, failure: Option<&String>) -> Self {
+        if failure.is_some() { Self { text: "failed".to_owned(), ..self } } else { self }
+    }
+}
+
+/// A name or a count as text; a dash for none.
+pub(crate) trait Text {
+    fn text(self) -> String;
+}
+
+macro_rules! text {
+    ($($plain:ty),+) => {$(
+        impl Text for $plain {
+            fn text(self) -> String {
+                self.to_string()
+            }
+        }
+    )+};
+}
+text!(String, &str, u64, usize);
+
+impl<T: Text> Text for Option<T> {
+    fn text(self) -> String {
+        self.map_or_else(|| "-".to_owned(), Text::text)
+    }
+}
+
+/// A number with so many decimals.
+pub(crate) fn decimals(count: usize) -> impl Fn(f64) -> String {
+    move |value| format!("{value:.count$}")
+}
+
+/// An error or a length: four significant digits, exponent of two digits.
+pub(crate) fn scientific(value: f64) -> String {
+    if !value.is_finite() {
+        return if value.is_nan() { "nan".to_owned() } else { "inf".to_owned() };
+    }
+    // No minus before a zero.
+    two_digit_exponent(&format!("{:.3e}", value + 0.0))
+}
+
+/// Three significant digits, exponent of two.
+pub(crate) fn short(value: f64) -> String {
+    two_digit_exponent(&format!("{value:.2e}"))
+}
+
+fn two_digit_exponent(text: &str) -> String {
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
+    let (sign, digits) = exponent.strip_prefix('-').map_or(("+", exponent), |digits| ("-", digits));
+    format!("{mantissa}e{sign}{digits:0>2}")
+}
+
+/// A column of a table with rows of type `R`.
+pub(crate) struct TableColumn<'a, R: ?Sized> {
+    /// Heading in text and Markdown.
+    pub(crate) heading: Cow<'a, str>,
+    /// Key in the JSON object of a row: `errors.rms` is the key `rms` of the object `errors`; empty
+    /// for a column of text only.
+    pub(crate) key: &'static str,
+    /// Meaning, with the unit.
+    pub(crate) about: &'static str,
+    /// Whether text is set flush left; numbers are set flush right.
+    pub(crate) flush_left: bool,
+    cell: Box<dyn Fn(&R) -> Cell + 'a>,
+}
+
+impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
+    /// A column of text and JSON.
+    pub(crate) fn new(
+        heading: impl Into<Cow<'a, str>>,
+        key: &'static str,
+        about: &'static str,
+        cell: impl Fn(&R) -> Cell + 'a,
+    ) -> Self {
+        Self { heading: heading.into(), key, about, flush_left: false, cell: Box::new(cell) }
+    }
+
+    /// A column of text only.
+    pub(crate) fn text<V: Text>(
+        heading: impl Into<Cow<'a, str>>,
+        about: &'static str,
+        text: impl Fn(&R) -> V + 'a,
+    ) -> Self {
+        Self::new(heading, "", about, move |row| Cell::text(text(row)))
+    }
+
+    /// A column of JSON only.
+    pub(crate) fn json<V: Into<Value>>(
+        key: &'static str,
+        about: &'static str,
+        json: impl Fn(&R) -> V + 'a,
+    ) -> Self {
+        Self::new("", key, about, move |row| Cell::json(json(row)))
+    }
+
+    /// The same column, set flush left.
+    pub(crate) fn flush_left(self) -> Self {
+        Self { flush_left: true, ..self }
+    }
+
+    /// The same column of a table whose rows hold an `R`; dashes in rows without one.
+    pub(crate) fn within<S: 'a>(self, part: impl Fn(&S) -> Option<&R> + 'a) -> TableColumn<'a, S> {
+        let Self { heading, key, about, flush_left, cell } = self;
+        let cell = move |row: &S| part(row).map_or_else(|| Cell::json(Value::Null), &cell);
+        TableColumn { heading, key, about, flush_left, cell: Box::new(cell) }
+    }
+
+    /// The value in a row.
+    pub(crate) fn cell(&self, row: &R) -> Cell {
+        (self.cell)(row)
+    }
+}
+
+/// The JSON object of a row.
+pub(crate) fn json_object<R: ?Sized>(columns: &[TableColumn<'_, R>], row: &R) -> Value {
+    let mut object = Map::new();
+    for column in columns.iter().filter(|column| !column.key.is_empty()) {
+        let json = (column.cell)(row).json;
+        match column.key.split_once('.') {
+            None => _ = object.insert(column.key.to_owned(), json),
+            Some((outer, inner)) => {
+                let nested = object.entry(outer).or_insert_with(|| Map::new().into());
+                nested[inner] = json;
+            }
+        }
+    }
+    object.into()
+}
+
+/// The number, or one of the strings `"nan"`, `"inf"`, `"-inf"`.
+pub(crate) fn number(value: f64) -> Value {
+    match value {
+        v if v.is_nan() => json!("nan"),
+        v if v.is_infinite() => json!(if v > 0.0 { "inf" } else { "-inf" }),
+        v => json!(v),
+    }
+}
+
+/// An estimate with both ends of its interval.
+pub(crate) fn interval(estimate: Interval) -> Value {
+    let Interval { value, low, high } = estimate;
+    json!({"value": number(value), "low": number(low), "high": number(high)})
+}

@@ -1,7 +1,7 @@
 //! Columns of a stability study.
 
 use super::{Cell, TableColumn, json_object, scientific};
-use crate::report::columns::number::number;
+use crate::report::columns::number;
 use crate::verify::{
     Critical, Prediction, RunFigure, StabilityLimit, StabilityRow, StabilityStudy, Trial,
 };

@@ -1,7 +1,8 @@
 //! `docs/columns.md` lists every column that is declared, and no other.
 
-use super::{TableColumn, cost, force, level, stability, timed_level};
+use super::{TableColumn, cost, force, level, number, scientific, stability, timed_level};
 use crate::verify::{Axis, Ranking, StabilityStudy};
+use rstest::rstest;
 
 const DOCUMENT: &str = include_str!("../../../docs/columns.md");
 
@@ -58,4 +59,25 @@ fn the_document_lists_the_columns() {
     let (_, listed) = DOCUMENT.split_once("\n## ").expect("a section");
     let expected = sections.join("\n");
     assert_eq!(format!("## {listed}"), expected, "docs/columns.md must list:\n{expected}");
+}
+
+#[rstest]
+#[case(1.23456e-5, "1.235e-05")]
+#[case(0.0, "0.000e+00")]
+#[case(-0.0, "0.000e+00")]
+#[case(-2.5e12, "-2.500e+12")]
+#[case(1e-300, "1.000e-300")]
+#[case(f64::NAN, "nan")]
+#[case(f64::INFINITY, "inf")]
+fn numbers(#[case] value: f64, #[case] text: &str) {
+    assert_eq!(scientific(value), text);
+}
+
+#[rstest]
+#[case(f64::NAN, "\"nan\"")]
+#[case(f64::INFINITY, "\"inf\"")]
+#[case(f64::NEG_INFINITY, "\"-inf\"")]
+#[case(0.1, "0.1")]
+fn non_finite_numbers_are_strings_in_json(#[case] value: f64, #[case] text: &str) {
+    assert_eq!(number(value).to_string(), text);
 }

@@ -1,7 +1,7 @@
 //! Columns of the levels of a suite that has been timed.
 
 use super::{Cell, TableColumn, short};
-use crate::report::columns::number::number;
+use crate::report::columns::number;
 use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, LevelOutcome, TimedSuite, Timing, Workload};
 use serde_json::{Value, json};

@@ -1,9 +1,9 @@
 //! Errors and work of two series of levels, level by level.
 
 use super::changes::{ErrorMove, ratio_moved};
+use super::document::JsonNumber;
 use super::document::{CaseDocument, JudgeDocument, LevelDocument};
 use super::equal_error::ErrorAndWork;
-use super::number::JsonNumber;
 use super::snapshots::FINEST;
 use crate::verify::Quantity;
 

@@ -10,29 +10,20 @@
 
 mod accuracy;
 mod changes;
-mod cheapest;
 mod document;
 mod equal_error;
-mod escape;
-mod json;
-mod markdown;
-mod number;
+mod output;
 mod pairs;
-mod problem;
-mod row;
 mod shared_words;
 mod snapshots;
 mod stability;
-mod text;
 
 #[cfg(test)]
 mod tests;
 
 pub use changes::{Rank, ReportComparison};
 pub use document::{ReportDocument, Unreadable};
-pub use json::json;
-pub use markdown::markdown;
-pub use text::text;
+pub use output::{json, markdown, text};
 
 /// Largest relative change of a figure that counts as none, unless a caller says otherwise: that of
 /// the [drift gate](super::text::drift).

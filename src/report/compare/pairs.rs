@@ -1,10 +1,13 @@
 //! Cases of two runs, paired, ranked and sorted.
 
-use super::changes::{Moved, Rank, ReportComparison, ratio_moved};
-use super::document::{CaseDocument, ReportDocument, name};
+use super::changes::{CheapestMove, Moved, ProblemMove, Rank, ReportComparison, ratio_moved};
+use super::document::{
+    CaseDocument, JsonNumber, RankingDocument, ReportDocument, SuiteDocument, name,
+};
 use super::shared_words::shared_words;
 use super::stability::StabilityMove;
-use super::{accuracy, cheapest, equal_error, problem, stability};
+use super::{accuracy, equal_error, stability};
+use crate::report::grouping::distinct;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// See [`compare`](super::compare()).
@@ -15,7 +18,7 @@ pub(super) fn compare(
 ) -> ReportComparison {
     let mut before: BTreeMap<String, &CaseDocument> =
         old.cases().map(|(suite, case)| (name(suite, case), case)).collect();
-    let problems = problem::compare(old, new);
+    let problems = problem_moves(old, new);
     let is_of_another = |suite: &str| problems.iter().any(|problem| problem.suite == suite);
     let mut moved = Vec::new();
     let mut unchanged = 0;
@@ -34,7 +37,7 @@ pub(super) fn compare(
     }
     moved.extend(before.into_iter().map(|(name, case)| lone(name, Rank::Gone, case)));
     moved.sort_by(|a, b| a.rank.cmp(&b.rank).then(b.weight.total_cmp(&a.weight)));
-    let cheapest = cheapest::compare(old, new, tolerance, is_of_another);
+    let cheapest = cheapest_moves(old, new, tolerance, is_of_another);
     let worse: BTreeSet<&str> = moved
         .iter()
         .filter(|moved| moved.rank.is_worse())
@@ -202,4 +205,112 @@ fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(R
         (None, None) if rows.limit[1] => Some((Rank::Better, rows.weight)),
         (None, None) => None,
     }
+}
+
+/// Rows of a statement that choose levels and figures, which are compared one by one.
+const OF_LEVELS: [&str; 7] =
+    ["cells", "dt", "instants", "particles", "--full adds", "judged", "crossing levels"];
+
+/// The suites of both runs whose statements differ.
+fn problem_moves(old: &ReportDocument, new: &ReportDocument) -> Vec<ProblemMove> {
+    let moved = |suite: &SuiteDocument| {
+        let before = old.suites.iter().find(|known| known.name == suite.name)?;
+        let rows = differing(&before.statement, &suite.statement);
+        (!rows.is_empty()).then(|| ProblemMove { suite: suite.name.clone(), rows })
+    };
+    new.suites.iter().filter_map(moved).collect()
+}
+
+/// Rows that differ, of two statements; none where one of the two was not kept.
+fn differing(old: &[(String, String)], new: &[(String, String)]) -> Vec<[String; 3]> {
+    if old.is_empty() || new.is_empty() {
+        return Vec::new();
+    }
+    let keys = distinct(old.iter().chain(new).map(|(key, _)| key));
+    let keys = keys.into_iter().filter(|key| !OF_LEVELS.contains(&key.as_str()));
+    let of = |rows: &[(String, String)], key: &String| {
+        let values = rows.iter().filter(|(known, _)| known == key).map(|(_, value)| value.as_str());
+        let values: Vec<&str> = values.collect();
+        if values.is_empty() { "nothing".to_owned() } else { values.join("; ") }
+    };
+    let rows = keys.map(|key| (key.clone(), of(old, key), of(new, key)));
+    let moved = rows.filter(|(_, old, new)| old != new);
+    let row = |(key, old, new): (String, String, String)| {
+        let [old, new] = shortened(&old, &new).unwrap_or([old, new]);
+        [key, old, new]
+    };
+    moved.map(row).collect()
+}
+
+/// The values that differ, of two lists of `name = value`.
+fn shortened(old: &str, new: &str) -> Option<[String; 2]> {
+    let [old, new] = [old, new].map(|list| list.split(", ").collect::<Vec<&str>>());
+    if old.len() != new.len() {
+        return None;
+    }
+    let pairs = old.into_iter().zip(new).filter(|(old, new)| old != new);
+    let (old, new): (Vec<&str>, Vec<&str>) = pairs.unzip();
+    let is_list = old.iter().chain(&new).all(|part| part.contains(" = "));
+    is_list.then(|| [old.join(", "), new.join(", ")])
+}
+
+/// Target errors whose least work moved, the more expensive first; a target that no method reaches any
+/// more before all. Suites of another problem are left out.
+///
+/// Documents list under `cost` what each method takes for each target of its problem. Documents
+/// without that key are not compared in this respect.
+fn cheapest_moves(
+    old: &ReportDocument,
+    new: &ReportDocument,
+    tolerance: f64,
+    is_of_another: impl Fn(&str) -> bool,
+) -> Vec<CheapestMove> {
+    let mut moves = Vec::new();
+    for before in old.suites.iter().filter(|suite| !is_of_another(&suite.name)) {
+        let Some(after) = new.suites.iter().find(|suite| suite.name == before.name) else {
+            continue;
+        };
+        for a in &before.cost {
+            let b = after.cost.iter().find(|b| (&b.problem, &b.work) == (&a.problem, &a.work));
+            moves.extend(b.into_iter().flat_map(|b| target_moves(&before.name, a, b, tolerance)));
+        }
+    }
+    moves.sort_by(|a, b| b.ratio().total_cmp(&a.ratio()));
+    moves
+}
+
+fn target_moves(
+    suite: &str,
+    old: &RankingDocument,
+    new: &RankingDocument,
+    tolerance: f64,
+) -> Vec<CheapestMove> {
+    let place =
+        if old.problem.is_empty() { suite.to_owned() } else { format!("{suite}, {}", old.problem) };
+    let same = |target: &JsonNumber| new.targets.iter().position(|other| other == target);
+    let targets = old.targets.iter().enumerate();
+    let pairs = targets.filter_map(|(k, target)| Some((target.0, k, same(target)?)));
+    let moves = pairs.map(|(target, k, m)| CheapestMove {
+        place: place.clone(),
+        target,
+        old: least_work(old, k),
+        new: least_work(new, m),
+    });
+    moves
+        .filter(|found| match (&found.old, &found.new) {
+            (None, None) => false,
+            (Some(_), Some(_)) => ratio_moved(found.ratio(), tolerance),
+            _ => true,
+        })
+        .collect()
+}
+
+/// The least work for the target with this index, and the method that needs no more.
+fn least_work(ranking: &RankingDocument, target: usize) -> Option<(f64, String)> {
+    let reached = ranking.methods.iter().filter_map(|method| {
+        let reached = method.reached.get(target)?.as_ref()?;
+        Some((reached.work.0, method.name.clone()))
+    });
+    let finite = reached.filter(|(work, _)| work.is_finite());
+    finite.reduce(|least, one| if one.0 < least.0 { one } else { least })
 }

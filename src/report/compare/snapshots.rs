@@ -1,8 +1,8 @@
 //! The results of a run as its snapshots keep them: the overview of all cases, and the reports of
 //! the suites for the problems.
 
+use super::document::JsonNumber;
 use super::document::{CaseDocument, LevelDocument, OrderDocument, ReportDocument, SuiteDocument};
-use super::number::JsonNumber;
 
 /// Axis of a study of which only the finest level is known.
 pub(super) const FINEST: &str = "finest";

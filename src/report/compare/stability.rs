@@ -1,8 +1,8 @@
 //! Stability studies of two runs, row by row.
 
 use super::changes::ratio_moved;
+use super::document::JsonNumber;
 use super::document::{LimitDocument, StabilityDocument, StabilityRowDocument};
-use super::number::JsonNumber;
 
 /// How a stability study moved.
 #[derive(Debug, Default)]

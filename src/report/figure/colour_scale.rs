@@ -3,7 +3,7 @@
 
 use super::plot::scale::{Pad, Scale};
 use super::plot::style::INK;
-use super::plot::svg::SvgElement;
+use super::plot::svg::{Pt, SvgElement};
 use super::plot::ticks::{self, Tick};
 
 /// Height of the bar of colours, with its labels.
@@ -36,8 +36,10 @@ impl ColourScale {
         self.0.fraction(value)
     }
 
-    /// The colours with their numbers, in a bar whose `label` stands before it.
-    pub(super) fn bar(self, (x, y): (f64, f64), label: &str) -> SvgElement {
+    /// A bar of all colours with numbers below, its upper left corner at `corner`, and `label` on its
+    /// left.
+    pub(super) fn bar(self, corner: Pt, label: &str) -> SvgElement {
+        let (x, y) = corner;
         let mut group = SvgElement::new("g");
         let step = BAR_WIDTH / f64::from(SHADES);
         for k in 0..SHADES {

@@ -2,10 +2,9 @@
 //! of colours, so that cases can be compared by eye.
 
 use super::colour_scale::{ColourScale, colour};
-use super::plot::canvas::{Heading, canvas};
+use super::plot::canvas::{Heading, canvas, shorten, wrap};
 use super::plot::style::{GRID, NEUTRAL, TEXT, WIDTH};
 use super::plot::svg::SvgElement;
-use super::plot::text;
 use crate::verify::ErrorField;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -75,14 +74,14 @@ impl ErrorMap {
         let heading = Heading::new(&self.title, WIDTH);
         let top = heading.bottom() + 6.0;
         let names: Vec<Vec<String>> =
-            self.panels.iter().map(|(name, _)| text::wrap(name, TEXT, width, LINES)).collect();
+            self.panels.iter().map(|(name, _)| wrap(name, TEXT, width, LINES)).collect();
         let named = names.iter().map(Vec::len).max().unwrap_or(0) as f64 * LEADING;
         let row = window.height + 4.0 + named + window.gap;
         let bottom = top + row * self.panels.len().div_ceil(columns) as f64;
         let errors = self.panels.iter().flat_map(|(_, field)| &field.parts).map(|part| part[2]);
         let scale = ColourScale::of(errors.filter(|error| *error > 0.0));
         let height = bottom + 60.0;
-        let mut svg = canvas((WIDTH, height), &self.title);
+        let mut svg = canvas(WIDTH, height, &self.title);
         heading.draw(&mut svg);
         for (k, ((_, field), name)) in self.panels.iter().zip(&names).enumerate() {
             let x = LEFT + (width + GAP) * (k % columns) as f64;
@@ -97,7 +96,7 @@ impl ErrorMap {
             panel.add(&body);
             svg.add(&panel);
         }
-        let label = text::shorten(&self.label, TEXT, WIDTH - 2.0 * LEFT);
+        let label = shorten(&self.label, TEXT, WIDTH - 2.0 * LEFT);
         svg.add(&SvgElement::text((LEFT, bottom + 14.0), "start", &label));
         svg.add(&scale.bar((LEFT, bottom + 22.0), ""));
         svg.render() + "\n"

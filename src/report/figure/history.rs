@@ -1,12 +1,12 @@
 //! The history plot: curves over linear axes, such as a velocity over time.
 
+use super::plot::frame::{KEY, Legend, LegendEntry};
 use super::plot::frame::{Plot, Titles};
-use super::plot::legend::{KEY, Legend, LegendEntry};
+use super::plot::marker;
 use super::plot::marker::{Fill, RADIUS};
 use super::plot::scale::{Pad, Scale};
 use super::plot::style::{EXACT, Look, look};
 use super::plot::svg::{Pt, SvgElement};
-use super::plot::{marker, thinning};
 
 /// Curves over linear axes.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,7 +108,7 @@ fn runs(points: &[Pt], plot: &Plot) -> Vec<Vec<Pt>> {
         .split(|&p| !is_finite(p))
         .filter(|run| !run.is_empty())
         .map(|run| run.iter().map(|&p| plot.place(p)).collect())
-        .map(|run: Vec<Pt>| if thinning::needed(points.len()) { thinning::thin(&run) } else { run })
+        .map(|run: Vec<Pt>| if points.len() > MAX_POINTS { thin(&run) } else { run })
         .collect()
 }
 
@@ -172,5 +172,64 @@ impl CurveLine<'_> {
         } else {
             LegendEntry::new(key, &self.curve.name)
         }
+    }
+}
+
+/// Maximum number of points of a curve that is drawn without thinning.
+const MAX_POINTS: usize = 1500;
+
+/// Keeps the first, the lowest, the highest and the last of each sequence of points within one
+/// pixel column: together they cover the same pixels, so that no peak is lost.
+fn thin(points: &[Pt]) -> Vec<Pt> {
+    points
+        .chunk_by(|a, b| libm::floor(a.0) as i64 == libm::floor(b.0) as i64)
+        .flat_map(extremes)
+        .collect()
+}
+
+fn extremes(column: &[Pt]) -> Vec<Pt> {
+    let height = |i: usize| column[i].1;
+    let by_height = |a: &usize, b: &usize| height(*a).total_cmp(&height(*b));
+    let mut kept: Vec<usize> = [
+        (0..column.len()).next(),
+        (0..column.len()).min_by(by_height),
+        (0..column.len()).max_by(by_height),
+        (0..column.len()).next_back(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    kept.sort_unstable();
+    kept.dedup();
+    kept.into_iter().map(|i| column[i]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn peaks_and_ends_survive() {
+        let mut points: Vec<Pt> =
+            (0..10_000).map(|i| (f64::from(i) / 100.0, f64::from(i % 7))).collect();
+        points[4321].1 = 99.0;
+        points[4322].1 = -99.0;
+        let thinned = thin(&points);
+        assert!(thinned.len() <= 400);
+        assert!(thinned.contains(&points[4321]) && thinned.contains(&points[4322]));
+        assert_eq!(thinned.first(), points.first());
+        assert_eq!(thinned.last(), points.last());
+    }
+
+    #[test]
+    fn a_point_alone_in_its_column_is_kept_once() {
+        let points = [(0.5, 1.0), (1.5, 2.0), (2.5, 3.0)];
+        assert_eq!(thin(&points), points);
+    }
+
+    #[test]
+    fn order_is_kept_when_the_curve_turns_back() {
+        let points = [(0.1, 0.0), (1.1, 1.0), (0.2, 2.0)];
+        assert_eq!(thin(&points), points);
     }
 }

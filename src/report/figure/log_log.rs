@@ -1,7 +1,7 @@
 //! The log-log plot: errors against cell size, time step or work.
 
+use super::plot::frame::{KEY, Legend, LegendEntry};
 use super::plot::frame::{Plot, Titles};
-use super::plot::legend::{KEY, Legend, LegendEntry};
 use super::plot::scale::{Pad, Scale};
 use super::plot::style::{CONTEXT, FRONT};
 use super::plot::svg::{Pt, SvgElement};

@@ -5,10 +5,9 @@
 //! otherwise.
 
 use super::colour_scale::{BAR_WIDTH, ColourScale, colour};
-use super::plot::canvas::{Heading, canvas};
+use super::plot::canvas::{Heading, canvas, text_width};
 use super::plot::style::{GRID, NEUTRAL, PAPER, TEXT};
 use super::plot::svg::SvgElement;
-use super::plot::text;
 use crate::verify::rounded;
 
 /// A table of numbers over coloured fields.
@@ -51,17 +50,17 @@ impl Map {
     /// The figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
         let names = self.rows.iter().map(|(name, _)| name.as_str());
-        let names = names.chain([self.z_label.as_str()]).map(|name| text::width(name, TEXT));
+        let names = names.chain([self.z_label.as_str()]).map(|name| text_width(name, TEXT));
         let left = LEFT + names.fold(0.0, f64::max) + 10.0;
         let field =
-            self.columns.iter().map(|name| text::width(name, TEXT) + 8.0).fold(FIELD, f64::max);
+            self.columns.iter().map(|name| text_width(name, TEXT) + 8.0).fold(FIELD, f64::max);
         let across = field * self.columns.len() as f64;
         let width = (left + across).max(left + BAR_WIDTH) + LEFT;
         let heading = Heading::new(&self.title, width);
         let head = heading.bottom() + 34.0;
         let (places, bottom) = self.places(head);
         let height = bottom + 62.0;
-        let mut svg = canvas((width, height), &self.title);
+        let mut svg = canvas(width, height, &self.title);
         heading.draw(&mut svg);
         let middle = left + across / 2.0;
         svg.add(&SvgElement::text((middle, head - 22.0), "middle", &self.x_label));
@@ -72,7 +71,7 @@ impl Map {
         let fields = self.rows.iter().flat_map(|(_, fields)| fields);
         let scale = ColourScale::of(fields.filter_map(|field| field.value));
         for ((name, fields), y) in self.rows.iter().zip(places) {
-            svg.add(&row(name, fields, (left, y, field), scale));
+            svg.add(&row(name, fields, RowPlace { left, top: y, field }, scale));
         }
         svg.add(&scale.bar((left, bottom + 16.0), &self.z_label));
         svg.render() + "\n"
@@ -95,12 +94,17 @@ impl Map {
     }
 }
 
-fn row(
-    name: &str,
-    fields: &[MapField],
-    (x, y, width): (f64, f64, f64),
-    scale: ColourScale,
-) -> SvgElement {
+/// Place of a row of fields on the canvas (px).
+#[derive(Clone, Copy)]
+struct RowPlace {
+    left: f64,
+    top: f64,
+    /// Width of one field.
+    field: f64,
+}
+
+fn row(name: &str, fields: &[MapField], place: RowPlace, scale: ColourScale) -> SvgElement {
+    let RowPlace { left: x, top: y, field: width } = place;
     let mut group = SvgElement::new("g");
     group.add(&SvgElement::text((x - 8.0, y + ROW - 4.5), "end", name));
     for (k, field) in fields.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use crate::report::columns::cost::json_columns;
 use crate::report::columns::json_object;
-use crate::report::columns::number::number;
+use crate::report::columns::number;
 use crate::verify::Ranking;
 use serde_json::{Value, json};
 

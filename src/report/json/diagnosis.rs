@@ -1,6 +1,6 @@
 //! A diagnosis as JSON.
 
-use crate::report::columns::number::{interval, number};
+use crate::report::columns::{interval, number};
 use crate::report::text::diagnosis::paragraph;
 use crate::verify::{Cause, ChangedRun, Diagnosis};
 use serde_json::{Value, json};

@@ -3,5 +3,4 @@
 pub(crate) mod cost;
 pub(crate) mod diagnosis;
 pub(crate) mod schema;
-pub(crate) mod stability;
 pub(crate) mod timed_suite;

@@ -20,7 +20,7 @@
 use super::cost::rankings;
 use crate::report::columns::cost::{model, models};
 use crate::report::columns::json_object;
-use crate::report::columns::number::number;
+use crate::report::columns::number;
 use crate::report::columns::timed_level::{json_columns, rows, timing};
 use crate::verify::{BestCandidate, CaseOutcome, Machine, TimedSuite};
 use serde_json::{Value, json};

@@ -8,26 +8,18 @@
 //! A section shows all that a suite reports: every figure of [`svg()`](super::svg()) and the whole
 //! of [`text()`](super::text()). What is added to either is on the page.
 
-mod cells;
-mod figure_list;
 mod html;
-mod inline;
-mod links;
 mod section;
-mod source;
-mod suites;
-mod verdicts;
+mod tables;
 
 #[cfg(test)]
 mod tests;
-
-pub use source::SuiteSource;
 
 use crate::report::figure::plot::style::style_sheet;
 use crate::report::figure::study::thumbnail;
 use crate::report::matrix::by_group;
 use crate::report::suite::json::commit;
-use crate::verify::CaseOutcome;
+use crate::verify::{CaseOutcome, SuiteOutcome};
 use html::Html;
 
 const STYLE: &str = include_str!("style.css");
@@ -37,14 +29,27 @@ const SCRIPT: &str = include_str!("script.js");
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
+/// A suite that has run, and the file that it came from.
+#[derive(Debug, Clone, Copy)]
+pub struct SuiteSource<'a> {
+    /// Results.
+    pub outcome: &'a SuiteOutcome,
+    /// Name of the file, without folders: these are the machine's.
+    pub file: &'a str,
+    /// Text of the file.
+    pub yaml: &'a str,
+    /// SVG sketch of the scene, where the suite has one.
+    pub sketch: Option<&'a str>,
+}
+
 /// The page, which says too how many suites could not be run. Names of suites must differ: they
 /// become the ids of sections.
 pub fn page(sources: &[SuiteSource<'_>], refused: usize) -> String {
     let mut body = vec![
         head(sources, refused),
-        suites::topics(sources),
-        suites::matrix(sources),
-        verdicts::table(sources),
+        tables::topics(sources),
+        tables::matrix(sources),
+        tables::verdicts(sources),
     ];
     let groups = by_group(sources, |source| source.outcome);
     body.extend(groups.into_iter().flat_map(|(_, of_group)| of_group).map(section::section));
@@ -98,7 +103,7 @@ fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
     let mut parts = vec![Html::tag("h1", &[], "MPM verification"), finding];
     if failed > 0 {
         let item = |(source, case): (&SuiteSource<'_>, &CaseOutcome)| {
-            let link = links::case_link(source.outcome, case, true);
+            let link = tables::case_link(source.outcome, case, true);
             let why = Html::text(&format!(": {}", case.unmet.join("; ")));
             let figure = thumbnail(source.outcome).map(Html::trusted);
             Html::tag("li", &[], [link, why].into_iter().chain(figure).collect::<Vec<_>>())

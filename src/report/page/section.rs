@@ -1,17 +1,16 @@
 //! Section of a suite: text, verdicts, figures, the whole report, and the file itself.
 
-use super::cells::scrolled;
+use super::SuiteSource;
 use super::html::Html;
-use super::links::{case_id, id};
-use super::source::SuiteSource;
-use super::{cells, figure_list};
-use crate::report::text;
+use super::tables::{case_id, figure_cells, result, scrolled, suite_id};
+use crate::report::figure::plot::style::{SUPERSCRIPT, WIDTH};
+use crate::report::{svg, text};
 use crate::verify::{CaseOutcome, SuiteOutcome};
 
 /// The section of a suite.
 pub(super) fn section(source: &SuiteSource<'_>) -> Html {
     let outcome = source.outcome;
-    let (id, suite) = (id(outcome), outcome.suite.as_str());
+    let (id, suite) = (suite_id(outcome), outcome.suite.as_str());
     let heading = vec![
         Html::tag("a", &[("href", &format!("#{id}"))], suite),
         Html::text(&format!(": {}", outcome.title)),
@@ -24,7 +23,7 @@ pub(super) fn section(source: &SuiteSource<'_>) -> Html {
         &[("class", "muted")],
         format!("Source: {}. Fingerprint of the problem: {:016x}", outcome.source, outcome.meaning),
     ));
-    parts.extend(figure_list::figures(source));
+    parts.extend(figures(source));
     parts.push(cases(outcome));
     parts.push(report(outcome));
     parts.push(file(source));
@@ -73,11 +72,11 @@ fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Ht
         found.extend(unmet.map(|unmet| Html::tag("p", &[("class", "bad")], unmet.as_str())));
         let mut cells = vec![
             Html::tag("td", &[("class", "name")], case.case.as_str()),
-            Html::tag("td", &[], cells::result(case)),
+            Html::tag("td", &[], result(case)),
             Html::tag("td", &[("class", "name")], case.verdict.as_str()),
         ];
         if measured {
-            cells.extend(cells::figures(case));
+            cells.extend(figure_cells(case));
         }
         cells.push(Html::tag("td", &[("class", "prose")], found));
         if k == 0 {
@@ -114,4 +113,108 @@ fn folded(id: &str, words: &str, label: &str, text: Html) -> Html {
     let summary = Html::tag("summary", &[], words);
     let text = scrolled(label, Html::tag("pre", &[], text));
     Html::tag("details", &[("id", id)], vec![summary, text])
+}
+
+/// Smallest size of a text on the screen (px).
+const LEGIBLE: f64 = 9.0;
+
+/// All figures, the scene first; nothing where there are none.
+fn figures(source: &SuiteSource<'_>) -> Option<Html> {
+    let outcome = source.outcome;
+    let scene = source.sketch.map(|svg| {
+        let id = format!("scene-{}", outcome.suite);
+        figure(&id, svg, "Scene and grid of the coarsest level")
+    });
+    let drawn = svg(outcome).into_iter().enumerate();
+    let drawn = drawn.map(|(number, drawn)| {
+        let id = format!("figure-{}.{}", outcome.suite, number + 1);
+        figure(&id, &drawn.svg, &drawn.file)
+    });
+    let figures: Vec<Html> = scene.into_iter().chain(drawn).collect();
+    (!figures.is_empty()).then(|| Html::block("div", &[("class", "figures")], &figures))
+}
+
+/// A figure; one that is wider than others scrolls where its texts would become too small.
+fn figure(id: &str, svg: &str, name: &str) -> Html {
+    let caption = Html::tag("figcaption", &[("class", "muted")], name);
+    let width = svg_width(svg).unwrap_or(WIDTH);
+    if width <= WIDTH {
+        return Html::block("figure", &[("id", id)], &[inline_svg(svg, id), caption]);
+    }
+    let least = width * LEGIBLE / SUPERSCRIPT;
+    let style = format!("<svg style=\"min-width:{least:.0}px;max-width:{width:.0}px\"");
+    let figure = inline_svg(svg, id).into_string().replacen("<svg", &style, 1);
+    let figure = scrolled(&format!("Figure {name}"), Html::trusted(figure));
+    Html::block("figure", &[("id", id), ("class", "broad")], &[figure, caption])
+}
+
+/// A standalone SVG document as an element of the page, with `prefix` before each of its ids.
+///
+/// An `id` must be unique on the page, which contains many figures; references to an id get the
+/// same prefix. The page has the style sheet of figures once, so the copy in the document is
+/// removed. The style sheet of the page sets the size; the `viewBox` keeps the shape.
+pub(super) fn inline_svg(document: &str, prefix: &str) -> Html {
+    let ids = ids(document);
+    let mut inline = document.trim().to_owned();
+    if let Some(start) = inline.find("<svg") {
+        inline.drain(..start);
+    }
+    while let Some(start) = inline.find("<style") {
+        let end = inline[start..].find("</style>").map_or(inline.len(), |at| start + at + 8);
+        inline.drain(start..end);
+    }
+    for id in &ids {
+        let new = format!("{prefix}-{id}");
+        for (before, after) in [("id=\"", "\""), ("url(#", ")"), ("href=\"#", "\"")] {
+            let old = format!("{before}{id}{after}");
+            inline = inline.replace(&old, &format!("{before}{new}{after}"));
+        }
+    }
+    Html::trusted(inline)
+}
+
+/// Width of an SVG document according to its `viewBox` (px).
+fn svg_width(document: &str) -> Option<f64> {
+    let (_, view) = document.split_once(" viewBox=\"")?;
+    view.split([' ', '"']).nth(2)?.parse().ok()
+}
+
+/// The ids of a document, each once.
+fn ids(document: &str) -> Vec<&str> {
+    let mut ids: Vec<&str> = document
+        .match_indices(" id=\"")
+        .filter_map(|(at, key)| document[at + key.len()..].split('"').next())
+        .collect();
+    ids.sort_unstable();
+    ids.dedup();
+    ids
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_and_what_refers_to_them_get_the_prefix() {
+        let figure = "<?xml version=\"1.0\"?>\n<svg viewBox=\"0 0 1 1\"><defs><clipPath id=\"a\"/>\
+            <path id=\"ab\"/></defs><g clip-path=\"url(#a)\"/><use href=\"#ab\"/></svg>\n";
+        let inline = inline_svg(figure, "bar-1").into_string();
+        assert_eq!(
+            inline,
+            "<svg viewBox=\"0 0 1 1\"><defs><clipPath id=\"bar-1-a\"/><path id=\"bar-1-ab\"/></defs>\
+             <g clip-path=\"url(#bar-1-a)\"/><use href=\"#bar-1-ab\"/></svg>"
+        );
+    }
+
+    #[test]
+    fn style_sheets_stay_behind() {
+        let figure = "<svg><style>a{}</style><g/><style>b{}</style></svg>";
+        assert_eq!(inline_svg(figure, "x").into_string(), "<svg><g/></svg>");
+    }
+
+    #[test]
+    fn a_figure_without_ids_stays_as_it_is() {
+        let figure = "<svg viewBox=\"0 0 1 1\"><text>id=\"no\"</text></svg>";
+        assert_eq!(inline_svg(figure, "x").into_string(), figure);
+    }
 }

@@ -116,7 +116,7 @@ fn whatever_a_suite_reports_is_on_the_page() {
     assert_eq!(page.matches("<figure ").count(), figures.len());
     for figure in figures {
         let caption = format!(">{}</figcaption>", figure.file);
-        let drawn = inline::svg(&figure.svg, "").into_string();
+        let drawn = section::inline_svg(&figure.svg, "").into_string();
         assert!(page.contains(&caption) && page.contains(&drawn), "{}", figure.file);
     }
 }

@@ -56,7 +56,7 @@
 
 use crate::report::json::cost;
 use crate::report::study::KINDS;
-use crate::report::study::kind::members;
+use crate::report::study::members;
 use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, Exemption, SuiteOutcome};
 use serde_json::{Value, json};

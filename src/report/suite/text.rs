@@ -6,10 +6,10 @@
 use super::verdicts;
 use crate::report::columns::TableColumn;
 use crate::report::study::KINDS;
-use crate::report::text::merged::shared;
 use crate::report::text::profile::effects;
 use crate::report::text::prose::{paragraph_lines, row};
 use crate::report::text::table::Table;
+use crate::report::text::table::shared;
 use crate::verify::{CaseOutcome, SuiteOutcome};
 
 /// The whole report of a suite.

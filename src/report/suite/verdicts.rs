@@ -4,9 +4,9 @@ use crate::report::columns::{TableColumn, decimals, scientific};
 use crate::report::grouping::{distinct, grouped};
 use crate::report::study::KINDS;
 use crate::report::text::cost::cheapest;
-use crate::report::text::merged::together;
 use crate::report::text::prose::{hanging, row};
 use crate::report::text::table::Table;
+use crate::report::text::table::together;
 use crate::verify::{CaseOutcome, Ranking};
 
 /// The target error whose cost stands beside each verdict.

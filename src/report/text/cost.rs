@@ -1,13 +1,14 @@
-//! Tables of cost: the work of each method for an error, and of one more digit, beside theory.
+//! Tables of cost: the work of each method for an error and for one more digit, next to theory; and
+//! the reports of timed suites, whose figures depend on the machine and are in no snapshot.
 //!
 //! In snapshots work is counted in particle-node transfers, which are the same on every machine.
 
 use super::table::Table;
-use crate::report::columns::{cost as columns, short};
-use crate::verify::{Ranked, Ranking};
+use crate::report::columns::{TableColumn, cost as columns, short, timed_level};
+use crate::verify::{BestCandidate, Interval, Machine, Model, Ranked, Ranking, TimedSuite};
 
 /// The unit of work that is counted.
-pub(crate) const TRANSFERS: &str = "particle-node transfers";
+const TRANSFERS: &str = "particle-node transfers";
 
 /// The tables of a ranking, `work` being its unit.
 pub fn cost(ranking: &Ranking, work: &str) -> String {
@@ -47,4 +48,130 @@ fn relative(ranking: &Ranking) -> String {
         return "as judged, relative to the scale of the suite".to_owned();
     }
     format!("relative to {}, the largest exact value", short(ranking.size))
+}
+
+/// The report of a suite whose levels have been timed.
+pub fn timed(timed: &TimedSuite) -> String {
+    let mut text = format!("{}: {}\n\n", timed.outcome.suite, timed.outcome.title);
+    text += &machine(&timed.machine);
+    text += &row("seconds", SECONDS);
+    text += &format!("\n{}", lines(&levels(timed)));
+    if let Some(models) = models(timed) {
+        text += &format!("\n{}", lines(&models));
+    }
+    let (by_seconds, by_transfers) = (timed.by_seconds(), timed.by_transfers());
+    for (seconds, transfers) in by_seconds.iter().zip(&by_transfers) {
+        text += &format!("\n{}", cost(seconds, "seconds"));
+        // A solver of another program has none to count.
+        if timed.levels.iter().flatten().any(|(load, _)| load.transfers > 0.0) {
+            text += &format!("\n{}", cost(transfers, TRANSFERS));
+        }
+    }
+    if by_seconds.is_empty() {
+        text += "\n  no case has levels enough, and an exact size, to rank\n";
+    }
+    text
+}
+
+const SECONDS: &str = "of the steps alone, one thread, median of repeats that take turns";
+
+fn row(key: &str, value: &str) -> String {
+    format!("  {key:18}{value}\n")
+}
+
+fn lines(lines: &[String]) -> String {
+    lines.join("\n") + "\n"
+}
+
+/// Cores, load, and noise.
+pub(crate) fn machine(machine: &Machine) -> String {
+    let cores = if machine.cores == 1 { "core" } else { "cores" };
+    let load = machine.load.map_or("load not known".to_owned(), |[before, after]| {
+        format!("load {before:.2} before, {after:.2} after")
+    });
+    let noise = machine.fixed_loop.map_or(String::new(), |timing| {
+        let (spread, looks) = (100.0 * timing.spread(), timing.repeats);
+        format!("; a fixed loop spreads by {spread:.1} % between quartiles ({looks} looks)")
+    });
+    let waited = machine.waited.map_or("waiting for a core counts".to_owned(), |share| {
+        format!("{:.0} % of the time waiting for a core, left out", 100.0 * share)
+    });
+    row("machine", &format!("{} {cores}, {load}", machine.cores))
+        + &row("noise", &format!("{waited}{noise}"))
+}
+
+/// Every level of every case: its error and its time.
+fn levels(timed: &TimedSuite) -> Vec<String> {
+    let cases = 0..timed.outcome.cases.len();
+    let rows = cases.flat_map(|case| timed_level::rows(timed, case));
+    Table::new(&timed_level::columns(), rows).without_empty_columns().lines()
+}
+
+/// The cost model of each case, and how well it predicts the finest level before that runs.
+fn models(timed: &TimedSuite) -> Option<Vec<String>> {
+    let cases = timed.outcome.cases.iter().enumerate();
+    let rows = cases.filter_map(|(index, case)| {
+        let (model, off) = timed.model(index)?;
+        Some((case.case.clone(), model, off))
+    });
+    let table = Table::new(&columns::models(), rows);
+    (!table.is_empty()).then(|| table.lines())
+}
+
+/// The best setting within a budget.
+pub fn best_candidate(suite: &str, best: &BestCandidate) -> String {
+    let BestCandidate { budget, case, cells, dt, ppc, seconds, error, .. } = best;
+    let mut text = format!("{suite}: the most accurate setting predicted within {budget} s\n\n");
+    text += &row("case", case);
+    let ppc = ppc.map_or(String::new(), |ppc| format!(", {ppc} particles per cell"));
+    let beyond = if best.beyond { ", finer than all levels of the suite" } else { "" };
+    text += &row("setting", &format!("{cells} cells, dt = {} s{ppc}{beyond}", short(*dt)));
+    let (interval, found) = *error;
+    let rows = [
+        ("seconds", [seconds[0], seconds[1]], None),
+        ("error", [interval.value, found], Some(interval)),
+    ];
+    text += &format!("\n{}\n", lines(&Table::new(&predictions(), rows).lines()));
+    text += &row("share of budget", &format!("{:.0} %", 100.0 * seconds[1] / budget));
+    text += &row("model", &model(&best.model, best.fitted));
+    if let Some(limit) = &best.limit {
+        text += &row("nothing finer", limit);
+    }
+    if let Some(failure) = &best.failure {
+        text += &row("failure", failure);
+    }
+    text
+}
+
+type Predicted = (&'static str, [f64; 2], Option<Interval>);
+
+fn predictions() -> [TableColumn<'static, Predicted>; 5] {
+    [
+        TableColumn::<Predicted>::text("", "figure", |(name, ..)| *name).flush_left(),
+        TableColumn::<Predicted>::text("predicted", "by the models", |(_, [predicted, _], _)| {
+            short(*predicted)
+        }),
+        TableColumn::<Predicted>::text("95 %", "interval of the prediction", |(.., interval)| {
+            let ends = |one: &Interval| format!("[{}, {}]", short(one.low), short(one.high));
+            interval.as_ref().map_or("-".to_owned(), ends)
+        }),
+        TableColumn::<Predicted>::text("measured", "by the run", |(_, [_, measured], _)| {
+            short(*measured)
+        }),
+        TableColumn::<Predicted>::text(
+            "off",
+            "relative difference",
+            |(_, [predicted, measured], _)| {
+                format!("{:+.0} %", 100.0 * (predicted / measured - 1.0))
+            },
+        ),
+    ]
+}
+
+fn model(model: &Model, fitted: usize) -> String {
+    let terms = columns::model();
+    let parts = terms.iter().zip(model.seconds).filter(|(_, seconds)| *seconds > 0.0);
+    let parts: Vec<String> =
+        parts.map(|(term, _)| format!("{} ns {}", term.cell(model).text, term.heading)).collect();
+    format!("{}, fitted to {fitted} shorter runs", parts.join(", "))
 }

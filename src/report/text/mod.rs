@@ -3,13 +3,9 @@
 pub(crate) mod cost;
 pub(crate) mod diagnosis;
 pub mod drift;
-pub(crate) mod extrapolation;
 pub(crate) mod levels;
-pub(crate) mod merged;
 pub(crate) mod profile;
-pub(crate) mod profiles;
 pub(crate) mod proposal;
 pub(crate) mod prose;
 pub(crate) mod stability;
 pub(crate) mod table;
-pub(crate) mod timed_suite;

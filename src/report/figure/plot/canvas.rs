@@ -1,19 +1,19 @@
-//! The canvas of a figure: the SVG document with its paper, and a title of several lines.
+//! The canvas of a figure: the SVG document with its paper, a title of several lines, and estimated
+//! widths of texts.
 
 use super::style::{FONT, INK, PAPER, TEXT, TITLE, style_sheet};
 use super::svg::{SvgElement, number};
-use super::text;
 
 /// Room at both ends of a title, and above it.
 const LEFT: f64 = 14.0;
 const TOP: f64 = 18.0;
 /// Height of a line of a title.
 const LEADING: f64 = 17.0;
-/// Most lines of a title.
+/// Maximum number of lines of a title.
 const LINES: usize = 3;
 
-/// A document of this size (px) with nothing but paper on it. Screen readers read `title`.
-pub(crate) fn canvas((width, height): (f64, f64), title: &str) -> SvgElement {
+/// An empty document of this size (px), with the colour of paper. Screen readers read `title`.
+pub(crate) fn canvas(width: f64, height: f64, title: &str) -> SvgElement {
     let mut svg = SvgElement::new("svg")
         .set("xmlns", "http://www.w3.org/2000/svg")
         .set("viewBox", &format!("0 0 {} {}", number(width), number(height)))
@@ -39,7 +39,7 @@ pub(crate) struct Heading {
 impl Heading {
     /// `title` in as many lines as it takes.
     pub(crate) fn new(title: &str, width: f64) -> Self {
-        Self { lines: text::wrap(title, 1.12 * TITLE, width - 2.0 * LEFT, LINES), width }
+        Self { lines: wrap(title, 1.12 * TITLE, width - 2.0 * LEFT, LINES), width }
     }
 
     /// Where the figure below may begin (px).
@@ -54,5 +54,84 @@ impl Heading {
             let line = SvgElement::text(at, "middle", line).at("font-size", TITLE);
             svg.add(&line.set("font-weight", "bold"));
         }
+    }
+}
+
+/// Estimated width of `text` in pixels at font size `size`; SVG leaves text widths to the viewer.
+///
+/// The estimate follows `DejaVu Sans`, the widest face of the font stack: what fits there fits
+/// in Helvetica too.
+pub(crate) fn text_width(text: &str, size: f64) -> f64 {
+    text.chars().map(advance).sum::<f64>() * size
+}
+
+/// Advance width of one character in units of the font size.
+fn advance(c: char) -> f64 {
+    match c {
+        'i' | 'j' | 'l' | '\'' | ' ' | '.' | ',' | '|' => 0.32,
+        'I' | ':' | ';' | '/' | '-' | '(' | ')' | '[' | ']' | 'f' | 't' | 'r' => 0.4,
+        'm' | 'w' | 'M' | 'W' | '@' | '%' => 0.99,
+        'A'..='Z' | '=' | '+' | '<' | '>' | '~' | '\u{2212}' | '×' | '&' | '#' => 0.8,
+        // Beyond Latin and Greek the glyphs may be as wide as they are high.
+        '\u{0}'..='\u{3ff}' => 0.63,
+        _ => 1.0,
+    }
+}
+
+/// Cuts `text` to `limit` pixels, with an ellipsis where something is missing.
+pub(crate) fn shorten(text: &str, size: f64, limit: f64) -> String {
+    if text_width(text, size) <= limit {
+        return text.to_owned();
+    }
+    let mut used = size;
+    let mut short: String = text
+        .chars()
+        .take_while(|&c| {
+            used += advance(c) * size;
+            used <= limit
+        })
+        .collect();
+    short.truncate(short.trim_end().len());
+    short.push('…');
+    short
+}
+
+/// Breaks `text` into lines of at most `limit` pixels; a line beyond `lines` is not begun, the
+/// last one is shortened instead.
+pub(crate) fn wrap(text: &str, size: f64, limit: f64, lines: usize) -> Vec<String> {
+    let mut wrapped: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let full = wrapped.len() >= lines;
+        match wrapped.last_mut() {
+            Some(line) if full || text_width(&format!("{line} {word}"), size) <= limit => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => wrapped.push(word.to_owned()),
+        }
+    }
+    wrapped.iter().map(|line| shorten(line, size, limit)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case("short", 100.0, "short")]
+    #[case("cut at a blank and marked", 65.0, "cut at a…")]
+    #[case("", 0.0, "")]
+    #[case("nothing fits", 1.0, "…")]
+    fn shortening(#[case] text: &str, #[case] limit: f64, #[case] short: &str) {
+        assert_eq!(shorten(text, 12.0, limit), short);
+    }
+
+    #[rstest]
+    #[case("one two three four", 2, &["one two", "three f…"])]
+    #[case("one two three four", 3, &["one two", "three", "four"])]
+    #[case("  ", 2, &[])]
+    fn wrapping(#[case] text: &str, #[case] lines: usize, #[case] expected: &[&str]) {
+        assert_eq!(wrap(text, 10.0, 46.0, lines), expected);
     }
 }

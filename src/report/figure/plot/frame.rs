@@ -1,13 +1,10 @@
-//! The frame of a figure: title, axes, grid, and the document around them.
+//! The frame of a figure: title, axes, grid, legend, and the document around them.
 
-use super::canvas::{Heading, canvas};
-use super::label::Label;
-use super::legend::Legend;
-use super::scale::Scale;
+use super::canvas::{Heading, canvas, shorten, text_width, wrap};
+use super::scale::{Label, Scale};
 use super::style::{FRAME_HEIGHT, GRID, INK, NEUTRAL, TEXT, WIDTH};
 use super::svg::{Pt, Rect, SvgElement, number};
-use super::ticks::Tick;
-use super::{text, ticks};
+use super::ticks::{self, Tick};
 
 /// The texts around a frame.
 #[derive(Clone, Copy, Debug)]
@@ -107,11 +104,11 @@ impl<'a> Plot<'a> {
     ) -> String {
         let below = self.frame.bottom() + FOOT;
         let notes: Vec<String> =
-            notes.iter().flat_map(|note| text::wrap(note, TEXT, WIDTH - 2.0 * MARGIN, 4)).collect();
+            notes.iter().flat_map(|note| wrap(note, TEXT, WIDTH - 2.0 * MARGIN, 4)).collect();
         let first_note = below + legend.height() + NOTE_LEADING - 4.0;
         let height = below + legend.height() + NOTE_LEADING * notes.len() as f64;
         let height = if notes.is_empty() { height } else { height + NOTE_GAP };
-        let mut svg = canvas((WIDTH, height), self.titles.title);
+        let mut svg = canvas(WIDTH, height, self.titles.title);
         svg.add(&self.grid());
         for layer in layers {
             svg.add(layer);
@@ -184,12 +181,115 @@ impl<'a> Plot<'a> {
         if let Some(factor) = &self.y.factor {
             group.add(&factor.draw((x, y - 5.0), "start"));
         }
-        let x_label = text::shorten(self.titles.x_label, TEXT, room);
+        let x_label = shorten(self.titles.x_label, TEXT, room);
         group.add(&SvgElement::text((x + w / 2.0, foot), "middle", &x_label));
-        let y_label = text::shorten(self.titles.y_label, TEXT, h + FOOT);
+        let y_label = shorten(self.titles.y_label, TEXT, h + FOOT);
         let turn =
             format!("translate({} {}) rotate(-90)", number(MARGIN + 2.0), number(y + h / 2.0));
         group.add(&SvgElement::text((0.0, 0.0), "middle", &y_label).set("transform", &turn));
         group
+    }
+}
+
+/// Width of the sample of line and marker in front of a text.
+pub(crate) const KEY: f64 = 30.0;
+
+const KEY_GAP: f64 = 7.0;
+const LEGEND_ROW: f64 = 17.0;
+const COLUMN_GAP: f64 = 16.0;
+/// Distance of the legend from the edges of the figure (px).
+const LEGEND_MARGIN: f64 = 10.0;
+/// Maximum number of columns of a legend.
+const MAX_COLUMNS: usize = 4;
+
+/// One line of the legend.
+#[derive(Clone, Debug)]
+pub(crate) struct LegendEntry {
+    key: SvgElement,
+    text: String,
+}
+
+impl LegendEntry {
+    /// An entry whose `key` is drawn from (0, 0) to ([`KEY`], 0).
+    pub(crate) fn new(key: SvgElement, text: &str) -> Self {
+        let text = shorten(text, TEXT, WIDTH - 2.0 * LEGEND_MARGIN - KEY - KEY_GAP);
+        Self { key, text }
+    }
+
+    fn width(&self) -> f64 {
+        KEY + KEY_GAP + text_width(&self.text, TEXT)
+    }
+}
+
+/// All entries, in as many columns as fit into the width of the figure.
+#[derive(Clone, Debug)]
+pub(crate) struct Legend {
+    entries: Vec<LegendEntry>,
+    rows: usize,
+}
+
+impl Legend {
+    /// A legend of `entries`.
+    pub(crate) fn new(entries: Vec<LegendEntry>) -> Self {
+        let rows = |columns: usize| entries.len().div_ceil(columns).max(1);
+        let fits = |rows: &usize| legend_width(&entries, *rows) <= WIDTH - 2.0 * LEGEND_MARGIN;
+        let rows = (1..=MAX_COLUMNS).rev().map(rows).find(fits).unwrap_or(rows(1));
+        Self { entries, rows }
+    }
+
+    /// Height (px), with the distance from what is below; zero if there are no entries.
+    pub(crate) fn height(&self) -> f64 {
+        if self.entries.is_empty() { 0.0 } else { LEGEND_ROW * self.rows as f64 + LEGEND_MARGIN }
+    }
+
+    /// The legend in the middle of the figure, its upper edge at `top`.
+    pub(crate) fn draw(&self, top: f64) -> SvgElement {
+        let mut group = SvgElement::new("g").set("class", "legend");
+        let mut left = (WIDTH - legend_width(&self.entries, self.rows)) / 2.0;
+        for column in self.entries.chunks(self.rows) {
+            for (i, entry) in column.iter().enumerate() {
+                let middle = top + LEGEND_ROW * (i as f64 + 0.5);
+                let mut key = SvgElement::group_at((left, middle));
+                key.add(&entry.key);
+                group.add(&key);
+                let at = (left + KEY + KEY_GAP, middle + 4.0);
+                group.add(&SvgElement::text(at, "start", &entry.text));
+            }
+            left += column_width(column) + COLUMN_GAP;
+        }
+        group
+    }
+}
+
+/// Width (px) of entries in columns of `rows` each.
+fn legend_width(entries: &[LegendEntry], rows: usize) -> f64 {
+    let columns = entries.chunks(rows).map(|column| column_width(column) + COLUMN_GAP);
+    columns.sum::<f64>() - COLUMN_GAP
+}
+
+fn column_width(column: &[LegendEntry]) -> f64 {
+    column.iter().map(LegendEntry::width).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case("short", 3, 1)]
+    #[case("short", 9, 3)]
+    #[case("a name of about thirty letters", 3, 3)]
+    #[case(&"long ".repeat(40), 2, 2)]
+    #[case("none", 0, 1)]
+    fn entries_fill_as_many_columns_as_fit(
+        #[case] text: &str,
+        #[case] count: usize,
+        #[case] rows: usize,
+    ) {
+        let entries = vec![LegendEntry::new(SvgElement::new("g"), text); count];
+        let legend = Legend::new(entries);
+        assert_eq!(legend.rows, rows);
+        assert!(legend_width(&legend.entries, rows) <= WIDTH - 2.0 * LEGEND_MARGIN);
     }
 }

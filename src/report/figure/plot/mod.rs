@@ -2,13 +2,9 @@
 
 pub(crate) mod canvas;
 pub(crate) mod frame;
-pub(crate) mod label;
-pub(crate) mod legend;
 pub(crate) mod marker;
 pub(crate) mod scale;
 pub(crate) mod style;
 pub(crate) mod svg;
-pub(crate) mod text;
-pub(crate) mod thinning;
 pub(crate) mod ticks;
 pub(crate) mod triangle;

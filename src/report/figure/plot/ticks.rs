@@ -1,6 +1,6 @@
 //! Where an axis is ticked, and what the ticks say.
 
-use super::label::Label;
+use super::scale::Label;
 use super::scale::{Scale, ScaleKind};
 
 /// One tick; a tick with a label is a major one.

@@ -1,10 +1,10 @@
 //! Slope triangles: reference orders in the lower right corner of a frame.
 
+use super::canvas::text_width;
 use super::frame::Plot;
 use super::scale::Pad;
 use super::style::{FRAME_HEIGHT, NEUTRAL, SHADE, TEXT};
 use super::svg::{Pt, SvgElement};
-use super::text;
 
 /// A slope triangle by the length of its sides (px).
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +56,7 @@ impl TriangleRow {
         let mut widest = 0.0;
         let triangle = |&order: &f64| {
             let slope = order * up / across;
-            let captions = CAPTION_GAP + text::width(&name(order), TEXT) + GAP;
+            let captions = CAPTION_GAP + text_width(&name(order), TEXT) + GAP;
             let longest = f64::min(LONGEST, slot - captions);
             widest += longest + captions;
             let run = (SIDE / libm::sqrt(slope)).min(LONGEST / slope).min(longest);

@@ -2,10 +2,9 @@
 
 use super::view::View;
 use super::{shape, symbols};
-use crate::report::figure::plot::canvas::canvas;
+use crate::report::figure::plot::canvas::{canvas, wrap};
 use crate::report::figure::plot::style::{GRID, INK, NEUTRAL, TEXT, WIDTH};
 use crate::report::figure::plot::svg::{Pt, SvgElement};
-use crate::report::figure::plot::text::wrap;
 use crate::study::describe::statement::{self, stated};
 use crate::subject::PlaneState;
 use crate::suite::model::Suite;
@@ -31,7 +30,7 @@ pub fn sketch_svg(suite: &Suite) -> Option<String> {
     let lines: usize = words.iter().map(Row::lines).sum();
     let height = view.height() + 8.0 + LINE * lines as f64;
     let title = format!("Scene of {}", suite.name);
-    let mut svg = canvas((WIDTH, height), &title);
+    let mut svg = canvas(WIDTH, height, &title);
     svg.add(&grid(&view));
     for (k, (body, colour)) in view.scene.each().iter().zip(&colours).enumerate() {
         svg.add(&shape::draw(&view, body, k + 1, colour));

@@ -1,0 +1,232 @@
+//! Tables of the page: the matrix of problems and methods, and the verdicts of all cases.
+//!
+//! Cells that are numbers carry the plain value for the script that sorts; a cell without a value is
+//! sorted last in both directions.
+
+use super::SuiteSource;
+use super::html::Html;
+use crate::report::columns::scientific;
+use crate::report::figure::study::thumbnail;
+use crate::report::matrix::{COLUMNS, FindingClass, LEGEND, by_group, classes, findings, shares};
+use crate::verify::{CaseOutcome, SuiteOutcome};
+
+/// Cases with the expected order, for each group of suites and each basis.
+pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
+    let head = |name: &str| Html::tag("th", &[("scope", "col"), ("class", "word")], name);
+    let heads: Vec<Html> = ["Topic"].iter().chain(&COLUMNS).map(|name| head(name)).collect();
+    let row = |(group, sources): (&str, Vec<&SuiteSource<'_>>)| {
+        let link = Html::tag("a", &[("href", &format!("#group-{}", plain(group)))], group);
+        let mut cells = vec![Html::tag("th", &[("scope", "row")], link)];
+        cells.extend(shares(sources.iter().map(|source| source.outcome)).map(share));
+        Html::tag("tr", &[], cells)
+    };
+    let rows: Vec<Html> = by_group(sources, |source| source.outcome).into_iter().map(row).collect();
+    let about = "Cases with the expected order, of all cases of a convergence study, by basis \
+                 function. Many suites show a weakness on purpose.";
+    let table =
+        [Html::tag("thead", &[], Html::tag("tr", &[], heads)), Html::block("tbody", &[], &rows)];
+    Html::block(
+        "section",
+        &[("id", "methods"), ("aria-labelledby", "methods-head")],
+        &[
+            Html::tag("h2", &[("id", "methods-head")], "Methods by topic"),
+            Html::tag("p", &[("class", "muted")], about),
+            scrolled("Methods by topic", Html::block("table", &[("class", "matrix")], &table)),
+        ],
+    )
+}
+
+/// How many cases have the expected order; a colour for all, most, some and none.
+fn share((kept, all): (usize, usize)) -> Html {
+    if all == 0 {
+        return Html::tag("td", &[], "-");
+    }
+    let class = match kept {
+        _ if kept == all => FindingClass::Order,
+        _ if 2 * kept >= all => FindingClass::LowOrder,
+        0 => FindingClass::Fails,
+        _ => FindingClass::NoOrder,
+    };
+    Html::tag("td", &[("class", class.name())], format!("{kept} of {all}"))
+}
+
+/// A name as part of an id.
+fn plain(name: &str) -> String {
+    name.chars().map(|c| if c.is_whitespace() { '_' } else { c }).collect()
+}
+
+/// Every suite with what came of it, below the name of its group.
+pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
+    let head = |name: &str| Html::tag("th", &[("scope", "col"), ("class", "word")], name);
+    let heads = Html::tag(
+        "tr",
+        &[],
+        ["Suite"].iter().chain(&COLUMNS).map(|name| head(name)).collect::<Vec<_>>(),
+    );
+    let columns = (COLUMNS.len() + 1).to_string();
+    let group = |(group, sources): (&str, Vec<&SuiteSource<'_>>)| {
+        let name = Html::tag("th", &[("scope", "rowgroup"), ("colspan", &columns)], group);
+        let id = format!("group-{}", plain(group));
+        let mut rows = vec![Html::tag("tr", &[("class", "group"), ("id", &id)], name)];
+        rows.extend(sources.into_iter().map(suite_row));
+        Html::block("tbody", &[], &rows)
+    };
+    let mut table = vec![Html::tag("thead", &[], heads)];
+    table.extend(by_group(sources, |source| source.outcome).into_iter().map(group));
+    let parts = [
+        Html::tag("h2", &[], "Suites"),
+        Html::tag("p", &[("class", "muted")], legend()),
+        key(),
+        scrolled("Suites and bases", Html::block("table", &[("class", "matrix")], &table)),
+    ];
+    Html::block("nav", &[("id", "suites"), ("aria-label", "Suites")], &parts)
+}
+
+/// The legend, its words for findings as code.
+fn legend() -> Html {
+    let part = |(k, part): (usize, &str)| match k % 2 {
+        0 => Html::text(part),
+        _ => Html::tag("code", &[], part),
+    };
+    LEGEND.split('`').enumerate().map(part).collect()
+}
+
+/// Meaning of the colours; the texts of cells say the same.
+fn key() -> Html {
+    let item = |class: FindingClass| Html::tag("span", &[("class", class.name())], class.meaning());
+    Html::tag("p", &[("class", "key")], FindingClass::SHOWN.map(item).to_vec())
+}
+
+fn suite_row(source: &SuiteSource<'_>) -> Html {
+    let outcome = source.outcome;
+    let link =
+        Html::tag("a", &[("href", &format!("#{}", suite_id(outcome)))], outcome.suite.as_str());
+    let title = Html::tag("span", &[("class", "muted title")], format!(" {}", outcome.title));
+    let mut name = vec![link, title];
+    name.extend(thumbnail(outcome).map(Html::trusted));
+    if !outcome.passed() {
+        name.push(Html::tag("b", &[("class", "bad")], " FAIL"));
+    }
+    let mut cells = vec![Html::tag("th", &[("scope", "row")], name)];
+    let found = findings(outcome).into_iter().zip(classes(outcome));
+    cells.extend(found.map(|(finding, class)| match class {
+        Some(class) => Html::tag("td", &[("class", class.name())], finding),
+        None => Html::tag("td", &[], finding),
+    }));
+    Html::tag("tr", &[], cells)
+}
+
+/// Headings of the table of verdicts, and whether the cells of the column are numbers.
+const VERDICT_COLUMNS: [(&str, bool); 8] = [
+    ("Suite", false),
+    ("Case", false),
+    ("Result", false),
+    ("Verdict", false),
+    ("Order", true),
+    ("Finest error", true),
+    ("Transfers", true),
+    ("Expected", false),
+];
+
+/// The table of all verdicts: one row for each case of each suite.
+pub(super) fn verdicts(sources: &[SuiteSource<'_>]) -> Html {
+    let cases = sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |case| (s, case)));
+    let rows: Vec<Html> = cases.map(|(source, case)| case_row(source, case)).collect();
+    let head = |(name, number): (&str, bool)| {
+        let class = if number { "number" } else { "word" };
+        Html::tag("th", &[("scope", "col"), ("class", class)], name)
+    };
+    let heads = Html::tag("tr", &[], VERDICT_COLUMNS.map(head).to_vec());
+    let legend = "Order: observed, with its 95 % interval. Finest error and transfers between \
+                   particles and nodes: on the finest level; what an error is of, a suite says.";
+    let table = [Html::tag("thead", &[], heads), Html::block("tbody", &[], &rows)];
+    Html::block(
+        "section",
+        &[("id", "verdicts"), ("aria-labelledby", "verdicts-head")],
+        &[
+            Html::tag("h2", &[("id", "verdicts-head")], "Verdicts"),
+            Html::tag("p", &[("class", "muted")], legend),
+            scrolled("All verdicts", Html::block("table", &[], &table)),
+        ],
+    )
+}
+
+fn case_row(source: &SuiteSource<'_>, case: &CaseOutcome) -> Html {
+    let outcome = source.outcome;
+    let suite =
+        Html::tag("a", &[("href", &format!("#{}", suite_id(outcome)))], outcome.suite.as_str());
+    let name = |content: Html| Html::tag("td", &[("class", "name")], content);
+    let [order, error, transfers] = figure_cells(case);
+    let basis = case.setting("basis").unwrap_or(case.subject);
+    let transfer = case.setting("transfer").unwrap_or("-");
+    Html::tag(
+        "tr",
+        &[("data-basis", basis), ("data-transfer", transfer), ("data-verdict", &case.verdict)],
+        vec![
+            name(suite),
+            name(case_link(outcome, case, false)),
+            Html::tag("td", &[], result(case)),
+            name(case.verdict.as_str().into()),
+            order,
+            error,
+            transfers,
+            Html::tag("td", &[("class", "prose")], case.expected.as_deref().unwrap_or("nothing")),
+        ],
+    )
+}
+
+/// A region that scrolls by itself where it is wider than the screen; by keyboard too.
+pub(super) fn scrolled(label: &str, content: Html) -> Html {
+    let attributes =
+        [("class", "wide"), ("role", "region"), ("tabindex", "0"), ("aria-label", label)];
+    Html::tag("div", &attributes, content)
+}
+
+/// Whether the case is as expected: in words, not by colour alone.
+pub(super) fn result(case: &CaseOutcome) -> Html {
+    match (case.result(), case.passed()) {
+        (word, true) => Html::tag("span", &[("class", "ok")], word),
+        (word, false) => Html::tag("b", &[("class", "bad")], word),
+    }
+}
+
+/// Cells of the order with its interval, of the judged error on the finest level and of its
+/// transfers.
+pub(super) fn figure_cells(case: &CaseOutcome) -> [Html; 3] {
+    let study = case.convergence();
+    let order = study.and_then(|study| study.judgement.order);
+    let order = order.map(|o| (o.value, o.shown()));
+    let finest = study.and_then(|study| study.levels.last());
+    let error = finest.filter(|_| study.is_some_and(|study| study.compared)).map(|level| {
+        let failed = level.run.failure.is_some() || !level.error.is_finite();
+        let text = if failed { "failed".to_owned() } else { scientific(level.error) };
+        (if failed { f64::INFINITY } else { level.error }, text)
+    });
+    let transfers = finest.map(|level| level.run.counters.transfers);
+    let transfers = transfers.map(|count| (count as f64, count.to_string()));
+    [order, error, transfers].map(number)
+}
+
+fn number(figure: Option<(f64, String)>) -> Html {
+    let Some((value, text)) = figure else {
+        return Html::tag("td", &[("class", "number")], "-");
+    };
+    let value = if value.is_finite() { value.to_string() } else { "Infinity".to_owned() };
+    Html::tag("td", &[("class", "number"), ("data-value", &value)], text)
+}
+
+/// The id of a suite's section.
+pub(super) fn suite_id(outcome: &SuiteOutcome) -> String {
+    format!("suite-{}", outcome.suite)
+}
+
+/// The id of a case's row in the section of its suite. Names of suites have no dot.
+pub(super) fn case_id(outcome: &SuiteOutcome, case: &CaseOutcome) -> String {
+    format!("case-{}.{}", outcome.suite, plain(&case.case))
+}
+
+/// A link to the row of a case, with the suite's name or without.
+pub(super) fn case_link(outcome: &SuiteOutcome, case: &CaseOutcome, full: bool) -> Html {
+    let name = if full { format!("{}::{}", outcome.suite, case.case) } else { case.case.clone() };
+    Html::tag("a", &[("href", &format!("#{}", case_id(outcome, case)))], name)
+}

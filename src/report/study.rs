@@ -1,0 +1,178 @@
+//! Tables, remarks, JSON and figures of each kind of study.
+
+use crate::report::columns::stability::json_columns;
+use crate::report::columns::{force, json_object, level};
+use crate::report::columns::{interval, number};
+use crate::report::figure::drawing::Figure;
+use crate::report::figure::{study, sweep};
+use crate::report::text::table::Table;
+use crate::report::text::{levels, stability};
+use crate::verify::{
+    Axis, CaseOutcome, Convergence, Floor, FloorCause, InternalForce, LevelOutcome, Probe,
+    StabilityStudy, StudyResults, SuiteOutcome,
+};
+use serde_json::{Map, Value, json};
+
+/// Every kind of study.
+pub(crate) const KINDS: [&dyn StudyReport; 3] =
+    [&ConvergenceReport, &InternalForceReport, &StabilityReport];
+
+/// How the results of one kind of study are shown; cases of other kinds add nothing.
+pub(crate) trait StudyReport: Sync {
+    /// Tables of all cases of a suite.
+    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]);
+
+    /// Remarks on one case that no table has.
+    fn remarks(&self, _case: &CaseOutcome) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Keys of one case in JSON, null where the case is of another kind.
+    fn json(&self, case: &CaseOutcome) -> Map<String, Value>;
+
+    /// Figures of a suite.
+    fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure>;
+}
+
+/// Studies of one kind, with the names of their cases.
+pub(crate) fn studies<R: StudyResults>(cases: &[CaseOutcome]) -> Vec<(&str, &R)> {
+    cases.iter().filter_map(|case| Some((case.case.as_str(), case.results()?))).collect()
+}
+
+/// The members of an object that `json!` makes.
+pub(crate) fn members(object: Value) -> Map<String, Value> {
+    match object {
+        Value::Object(members) => members,
+        _ => Map::new(),
+    }
+}
+
+/// Shows [`Convergence`].
+pub(crate) struct ConvergenceReport;
+
+impl StudyReport for ConvergenceReport {
+    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+        levels::tables(lines, &studies(cases));
+    }
+
+    fn remarks(&self, case: &CaseOutcome) -> Vec<String> {
+        case.convergence().map_or(Vec::new(), remarks)
+    }
+
+    fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
+        let study = case.convergence();
+        let columns = level::json_columns();
+        let levels = study.into_iter().flat_map(level::rows);
+        members(json!({
+            "axis": study.map(|study| study.axis.name()),
+            "formal_order": study
+                .filter(|study| study.axis != Axis::Particles)
+                .map(|study| number(study.formal_order)),
+            "judge": study.filter(|study| study.compared).map(judge),
+            "observed_order": study.and_then(|study| study.judgement.order).map(interval),
+            "floor": study.and_then(|study| study.floor.as_ref()).map(floor),
+            "levels": levels.map(|row| json_object(&columns, &row)).collect::<Vec<_>>(),
+        }))
+    }
+
+    fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure> {
+        study::figures(outcome)
+    }
+}
+
+/// Steps that are too long, runs that broke, and whose error a floor is.
+fn remarks(study: &Convergence) -> Vec<String> {
+    let too_long = study.levels.iter().filter(|level| level.is_too_long());
+    let too_long: Vec<String> = too_long.map(|level| level.name(study.axis)).collect();
+    let too_long = (!too_long.is_empty())
+        .then(|| format!("steps are longer than the stable time step: {}", too_long.join(", ")));
+    let failure = |level: &LevelOutcome| {
+        Some(format!("{}: {}", level.name(study.axis), level.run.failure.clone()?))
+    };
+    let failures = study.levels.iter().filter_map(failure);
+    let floor = study.floor.iter().filter(|floor| !floor.probes.is_empty()).map(Floor::sentence);
+    too_long.into_iter().chain(failures).chain(floor).collect()
+}
+
+/// Quantity and norm of the judged errors, and what they are divided by.
+fn judge(study: &Convergence) -> Value {
+    json!({"of": study.of.name(), "norm": study.norm.name(), "scale": study.scale.map(number)})
+}
+
+fn floor(floor: &Floor) -> Value {
+    let probe = |probe: &Probe| {
+        json!({
+            "axis": probe.axis.name(),
+            "error": probe.error.as_ref().ok().copied().map(number),
+            "failure": probe.error.as_ref().err(),
+        })
+    };
+    json!({
+        "cause": floor.cause().map(FloorCause::name),
+        "error": number(floor.error),
+        "probes": floor.probes.iter().map(probe).collect::<Vec<_>>(),
+    })
+}
+
+/// Shows [`InternalForce`].
+pub(crate) struct InternalForceReport;
+
+impl StudyReport for InternalForceReport {
+    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+        for case in cases {
+            if let Some(InternalForce { rows }) = case.results() {
+                lines.extend([String::new(), format!("  {}", case.case)]);
+                lines.extend(Table::new(&force::columns(), rows).lines());
+            }
+        }
+    }
+
+    fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
+        let study: Option<&InternalForce> = case.results();
+        let columns = force::columns();
+        let objects = |study: &InternalForce| -> Value {
+            study.rows.iter().map(|row| json_object(&columns, row)).collect()
+        };
+        members(json!({"forces": study.map(objects)}))
+    }
+
+    fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure> {
+        study::forces(outcome).into_iter().collect()
+    }
+}
+
+/// Shows [`StabilityStudy`](crate::verify::StabilityStudy).
+pub(crate) struct StabilityReport;
+
+impl StudyReport for StabilityReport {
+    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+        stability::tables(lines, &studies(cases));
+    }
+
+    fn remarks(&self, case: &CaseOutcome) -> Vec<String> {
+        case.results().map_or(Vec::new(), stability::remarks)
+    }
+
+    fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
+        members(json!({"stability": case.results().map(stability_json)}))
+    }
+
+    fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure> {
+        let limits = stability::map(outcome).map(|map| Figure {
+            file: format!("{}.svg", outcome.suite),
+            svg: map.to_svg(),
+            pgfplots: map.to_pgfplots(),
+        });
+        limits.into_iter().chain(sweep::figures(outcome)).collect()
+    }
+}
+
+/// The rows of a stability study in JSON.
+fn stability_json(study: &StabilityStudy) -> Value {
+    let columns = json_columns(study);
+    json!({
+        "swept": study.swept,
+        "sought": study.sought,
+        "rows": study.rows.iter().map(|row| json_object(&columns, row)).collect::<Vec<_>>(),
+    })
+}
