@@ -87,11 +87,9 @@ pub(crate) fn classes(outcome: &SuiteOutcome) -> [Option<FindingClass>; COLUMNS.
 
 /// Cases of suites in each of [`COLUMNS`] that have the expected order, and all that have an order
 /// or none.
-pub(crate) fn shares<'a>(
-    outcomes: impl Iterator<Item = &'a SuiteOutcome> + Clone,
-) -> [(usize, usize); COLUMNS.len()] {
+pub(crate) fn shares(outcomes: &[&SuiteOutcome]) -> [(usize, usize); COLUMNS.len()] {
     std::array::from_fn(|column| {
-        let cases = outcomes.clone().flat_map(|outcome| &outcome.cases);
+        let cases = outcomes.iter().flat_map(|outcome| &outcome.cases);
         let cases = cases.filter(|case| case.convergence().is_some());
         let classes = cases.filter(|case| column_of(case) == column).map(FindingClass::of);
         let counted = classes.filter(|class| *class != FindingClass::Other);

@@ -71,8 +71,8 @@ pub trait Basis: Sized + Sync + Send + 'static {
 
     /// Stores the patches of the four particles of `lanes`. Returns a mask, bit k for particle
     /// `lanes.particle + k`, of those whose only patch is stored; the others are left to
-    /// [`Basis::patches`], which has the same bits. A basis overrides this to compute the weights of
-    /// four particles at once.
+    /// [`Basis::patches`], which has the same bits. A basis overrides this to compute the weights
+    /// of four particles at once.
     #[inline(always)]
     fn patches_x4<S: Simd, const D: usize>(
         _width: S,

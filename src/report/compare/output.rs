@@ -127,8 +127,8 @@ fn table<R>(columns: &[TableColumn<'_, R>], rows: &[&R]) -> String {
     table
 }
 
-/// A comparison as one JSON document: suites whose problem is another one; cases that moved, the most important first;
-/// and targets whose least work moved.
+/// A comparison as one JSON document: suites whose problem is another one; cases that moved, the
+/// most important first; and targets whose least work moved.
 pub fn json(comparison: &ReportComparison) -> String {
     let document = json!({
         "worse": comparison.is_worse(),

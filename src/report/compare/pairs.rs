@@ -254,8 +254,8 @@ fn shortened(old: &str, new: &str) -> Option<[String; 2]> {
     is_list.then(|| [old.join(", "), new.join(", ")])
 }
 
-/// Target errors whose least work moved, the more expensive first; a target that no method reaches any
-/// more before all. Suites of another problem are left out.
+/// Target errors whose least work moved, the more expensive first; a target that no method reaches
+/// any more before all. Suites of another problem are left out.
 ///
 /// Documents list under `cost` what each method takes for each target of its problem. Documents
 /// without that key are not compared in this respect.

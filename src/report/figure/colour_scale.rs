@@ -36,8 +36,8 @@ impl ColourScale {
         self.0.fraction(value)
     }
 
-    /// A bar of all colours with numbers below, its upper left corner at `corner`, and `label` on its
-    /// left.
+    /// A bar of all colours with numbers below, its upper left corner at `corner`, and `label` on
+    /// its left.
     pub(super) fn bar(self, corner: Pt, label: &str) -> SvgElement {
         let (x, y) = corner;
         let mut group = SvgElement::new("g");

@@ -53,8 +53,8 @@ fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
 /// Width and height of a thumbnail (px).
 const THUMBNAIL: (f64, f64) = (96.0, 40.0);
 
-/// The lines of all convergence plots of a suite, without axes and texts; none if there is nothing to
-/// draw.
+/// The lines of all convergence plots of a suite, without axes and texts; none if there is nothing
+/// to draw.
 pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
     let line = |(name, study): &(&str, &Convergence)| {
         let drawn = |value: f64| value.is_finite() && value > 0.0;

@@ -15,11 +15,13 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
+pub use tables::SuiteSource;
+
 use crate::report::figure::plot::style::style_sheet;
 use crate::report::figure::study::thumbnail;
 use crate::report::matrix::by_group;
 use crate::report::suite::json::commit;
-use crate::verify::{CaseOutcome, SuiteOutcome};
+use crate::verify::CaseOutcome;
 use html::Html;
 
 const STYLE: &str = include_str!("style.css");
@@ -28,19 +30,6 @@ const SCRIPT: &str = include_str!("script.js");
 /// Nothing may be fetched from anywhere, whatever a suite says.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
-
-/// A suite that has run, and the file that it came from.
-#[derive(Debug, Clone, Copy)]
-pub struct SuiteSource<'a> {
-    /// Results.
-    pub outcome: &'a SuiteOutcome,
-    /// Name of the file, without folders: these are the machine's.
-    pub file: &'a str,
-    /// Text of the file.
-    pub yaml: &'a str,
-    /// SVG sketch of the scene, where the suite has one.
-    pub sketch: Option<&'a str>,
-}
 
 /// The page, which says too how many suites could not be run. Names of suites must differ: they
 /// become the ids of sections.

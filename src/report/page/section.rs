@@ -1,7 +1,7 @@
 //! Section of a suite: text, verdicts, figures, the whole report, and the file itself.
 
-use super::SuiteSource;
 use super::html::Html;
+use super::tables::SuiteSource;
 use super::tables::{case_id, figure_cells, result, scrolled, suite_id};
 use crate::report::figure::plot::style::{SUPERSCRIPT, WIDTH};
 use crate::report::{svg, text};

@@ -1,14 +1,26 @@
 //! Tables of the page: the matrix of problems and methods, and the verdicts of all cases.
 //!
-//! Cells that are numbers carry the plain value for the script that sorts; a cell without a value is
-//! sorted last in both directions.
+//! Cells that are numbers carry the plain value for the script that sorts; a cell without a value
+//! is sorted last in both directions.
 
-use super::SuiteSource;
 use super::html::Html;
 use crate::report::columns::scientific;
 use crate::report::figure::study::thumbnail;
 use crate::report::matrix::{COLUMNS, FindingClass, LEGEND, by_group, classes, findings, shares};
 use crate::verify::{CaseOutcome, SuiteOutcome};
+
+/// A suite that has run, and the file that it came from.
+#[derive(Debug, Clone, Copy)]
+pub struct SuiteSource<'a> {
+    /// Results.
+    pub outcome: &'a SuiteOutcome,
+    /// Name of the file, without folders: these are the machine's.
+    pub file: &'a str,
+    /// Text of the file.
+    pub yaml: &'a str,
+    /// SVG sketch of the scene, where the suite has one.
+    pub sketch: Option<&'a str>,
+}
 
 /// Cases with the expected order, for each group of suites and each basis.
 pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
@@ -17,7 +29,8 @@ pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
     let row = |(group, sources): (&str, Vec<&SuiteSource<'_>>)| {
         let link = Html::tag("a", &[("href", &format!("#group-{}", plain(group)))], group);
         let mut cells = vec![Html::tag("th", &[("scope", "row")], link)];
-        cells.extend(shares(sources.iter().map(|source| source.outcome)).map(share));
+        let outcomes: Vec<_> = sources.iter().map(|source| source.outcome).collect();
+        cells.extend(shares(&outcomes).map(share));
         Html::tag("tr", &[], cells)
     };
     let rows: Vec<Html> = by_group(sources, |source| source.outcome).into_iter().map(row).collect();

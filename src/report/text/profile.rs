@@ -1,5 +1,5 @@
-//! Cost of a step: effects, passes, visits and memory, in rows for reports and `explain`, and in tables
-//! of all methods.
+//! Cost of a step: effects, passes, visits and memory, in rows for reports and `explain`, and in
+//! tables of all methods.
 
 use super::prose::{hanging, paragraph_lines};
 use super::table::Table;

@@ -3,11 +3,12 @@
 //! `Reference` is a FEM solution on a mesh much finer than any level. `FineGrid` serves studies in
 //! space, in any dimension: the method itself on a grid much finer than any level. The reference
 //! configuration of its particles is a lattice, on which the motion is interpolated wherever the
-//! particles have moved. `FineSteps` serves studies in time: the method itself on the same grid, with
-//! steps so short that the result is the limit dt -> 0 of the equations that are discrete in space.
+//! particles have moved. `FineSteps` serves studies in time: the method itself on the same grid,
+//! with steps so short that the result is the limit dt -> 0 of the equations that are discrete in
+//! space.
 //!
-//! `FineSteps` separates the error of the time step from that of the grid. At the Courant limit of a
-//! body the error of the grid is larger and would hide that of the step. Methods that filter the
+//! `FineSteps` separates the error of the time step from that of the grid. At the Courant limit of
+//! a body the error of the grid is larger and would hide that of the step. Methods that filter the
 //! velocity in every step (PIC, APIC) have no such limit. Neither `FineGrid` nor `FineSteps` checks
 //! that the limit of the method is right: suites with exact solutions do.
 

@@ -2,9 +2,9 @@
 //!
 //! The stable step comes from [`crate::mpm::Solver::stable_time_step`], for the solver's own stages
 //! and the state at the start, and is at most `h/(c + |v|)`: neither a wave nor a particle crosses
-//! more than a cell. It is predicted before a run and holds for all of it, so that each level has one
-//! step and its order has a meaning. Where particles with linear functions move, later steps may have
-//! shorter limits (`tiny-nodal-mass`). The share of the rule is a margin for these.
+//! more than a cell. It is predicted before a run and holds for all of it, so that each level has
+//! one step and its order has a meaning. Where particles with linear functions move, later steps
+//! may have shorter limits (`tiny-nodal-mass`). The share of the rule is a margin for these.
 
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;

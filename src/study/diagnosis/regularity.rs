@@ -1,7 +1,7 @@
 //! Jumps of the exact displacement and its derivatives, and the order that they allow.
 //!
-//! The derivatives are taken from the formulas, piece by piece. So a jump between two points remains
-//! when the points approach each other, and the change across a steep slope vanishes.
+//! The derivatives are taken from the formulas, piece by piece. So a jump between two points
+//! remains when the points approach each other, and the change across a steep slope vanishes.
 
 use super::session::Known;
 use crate::exact::{Derivatives, Problem};

@@ -1,8 +1,9 @@
 //! Errors that no refinement lowers, and the level from which they show.
 //!
-//! `small_strain` concerns a solution of small strain or of a linearised law, run by a solver without
-//! that simplification. `single_precision` concerns an external solver that computes in single
-//! precision. `loose_tolerance` concerns a linearised solution with a tolerance larger than it needs.
+//! `small_strain` concerns a solution of small strain or of a linearised law, run by a solver
+//! without that simplification. `single_precision` concerns an external solver that computes in
+//! single precision. `loose_tolerance` concerns a linearised solution with a tolerance larger than
+//! it needs.
 
 use super::subject::Preflight;
 use crate::study::exact_motion::Linearisation;

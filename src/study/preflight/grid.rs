@@ -2,8 +2,8 @@
 //!
 //! `few_levels` concerns levels that can count for an order, `leaves_grid` a motion that leaves the
 //! grid. `end_on_node` concerns boxes whose last particles start exactly on nodes, with linear
-//! functions: a particle on a node belongs to the cell above, and the node at the far end of that cell
-//! has no mass, so it keeps neither velocity nor force.
+//! functions: a particle on a node belongs to the cell above, and the node at the far end of that
+//! cell has no mass, so it keeps neither velocity nor force.
 
 use super::subject::{Preflight, moves_on_grid};
 use crate::mpm::BasisName;

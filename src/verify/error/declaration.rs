@@ -1,7 +1,7 @@
 //! Declarations of the judged quantities: values at labels, and sums over the body and its walls.
 //!
-//! Errors of sums are relative to a size that is zero only for a body at rest: an energy to itself, a
-//! vector to the sum of the lengths of its terms. An energy is the first of three components.
+//! Errors of sums are relative to a size that is zero only for a body at rest: an energy to itself,
+//! a vector to the sum of the lengths of its terms. An energy is the first of three components.
 
 use crate::exact::{SumDensity, SumPoint, Truth};
 use crate::subject::{Samples, Totals};

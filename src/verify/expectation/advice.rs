@@ -1,5 +1,5 @@
-//! Comparison of an observed order with the range that a suite could claim, and advice on what keeps
-//! a claim from being stronger.
+//! Comparison of an observed order with the range that a suite could claim, and advice on what
+//! keeps a claim from being stronger.
 
 use crate::verify::convergence::{Convergence, LevelOutcome};
 use crate::verify::error::norm::NormName;
