@@ -30,6 +30,29 @@ fn a_page_has_verdicts_figures_reports_and_the_suites() {
 }
 
 #[test]
+fn a_page_begins_with_the_achievements_of_each_method() {
+    let folder = Folder::new();
+    folder.accepted(&["run", "vibrating-bar", "grid-crossing", "--html", "page.html"]);
+    let page = folder.read("page.html");
+    let topics = page.find("<section id=\"methods\"").expect("a table of topics");
+    assert!(topics < page.find("<nav id=\"suites\"").expect("the matrix"));
+    assert_contains(
+        &page,
+        &[
+            // Two of three time schemes have the expected order, the third has a lower one.
+            "<a href=\"#group-the-talk\">the-talk</a></th><td class=\"low-order\">2 of 3</td>",
+            "<td class=\"low-order\">1.75..1.96</td>",
+            // A study of internal forces has no order.
+            "<td class=\"other\">see report</td>",
+            "data-basis=\"linear\" data-transfer=\"flip\" data-verdict=\"too low\"",
+        ],
+    );
+    let (_, thumbnail) = page.split_once("<svg class=\"thumbnail\"").expect("a thumbnail");
+    let (thumbnail, _) = thumbnail.split_once("</svg>").expect("its end");
+    assert_eq!(thumbnail.matches("<polyline ").count(), 3, "{thumbnail}");
+}
+
+#[test]
 fn a_page_says_what_is_not_as_expected() {
     let folder = Folder::with("bar.yaml", ambitious());
     folder.write("bad.yaml", mistaken());
