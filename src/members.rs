@@ -30,6 +30,11 @@ macro_rules! each_material {
                 young: YOUNG, poisson: POISSON, friction_angle: FRICTION_ANGLE,
                 dilation_angle: DILATION_ANGLE, cohesion: COHESION
             }, truth mohr_coulomb::MohrCoulombLaw;
+            "cam_clay" => cam_clay::CamClay {
+                critical_state_slope: CRITICAL_SLOPE, swelling_slope: SWELLING,
+                compression_slope: COMPRESSION, poisson: POISSON,
+                initial_pressure: INITIAL_PRESSURE, preconsolidation: PRECONSOLIDATION
+            }, truth cam_clay::CamClayLaw;
             "newtonian" => newtonian::Newtonian { bulk: BULK, viscosity: VISCOSITY },
                 truth tait::TaitLaw;
             "linear_fluid" => linear_fluid::LinearFluid { bulk: BULK },

@@ -78,6 +78,10 @@ impl<const D: usize> Material<D> for Axisymmetric {
         self.law.reads_rate()
     }
 
+    fn is_stressed_at_rest(&self) -> bool {
+        self.law.is_stressed_at_rest()
+    }
+
     fn columns(&self) -> Vec<Column<'_>> {
         let Particles { x, vol0, vol, sigma, def_grad, grad_v, .. } = &self.space;
         let mut columns = self.law.columns();

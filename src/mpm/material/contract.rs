@@ -39,8 +39,8 @@ pub trait MaterialProperties {
         false
     }
 
-    /// A parameter that contradicts another one: its key, and the reason.
-    fn contradiction(&self) -> Option<(&'static str, &'static str)> {
+    /// A parameter that contradicts another one.
+    fn contradiction(&self) -> Option<Contradiction> {
         None
     }
 
@@ -57,6 +57,17 @@ pub trait MaterialProperties {
         let _ = dimension;
         Ok(())
     }
+}
+
+/// A parameter of a material that contradicts another one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Contradiction {
+    /// The key of the parameter.
+    pub key: &'static str,
+    /// The message of the error.
+    pub reason: &'static str,
+    /// Why the two do not go together.
+    pub explanation: &'static str,
 }
 
 /// Closed forms of a law, which the tests of the family hold its stress to. Laws that flow or heat
@@ -78,6 +89,11 @@ pub(super) trait ClosedForms {
     fn rounding(&self) -> f64 {
         0.0
     }
+
+    /// Mean stress (Pa) of a body at rest, positive in compression.
+    fn pressure_at_rest(&self) -> f64 {
+        0.0
+    }
 }
 
 /// A constitutive law, with the state that only it reads. It meets the solver between stages: one
@@ -94,6 +110,11 @@ pub trait Material<const D: usize>: Send {
     /// Whether stress depends on the velocity gradient itself: a body that starts in motion then
     /// starts under stress.
     fn reads_rate(&self) -> bool {
+        false
+    }
+
+    /// Whether a body at rest that is not deformed has a stress: `start_deformed` then sets it.
+    fn is_stressed_at_rest(&self) -> bool {
         false
     }
 

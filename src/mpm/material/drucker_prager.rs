@@ -8,6 +8,7 @@
 //! Without dilation the flow cannot lower a tension beyond the apex: the return to the apex is then
 //! a tension cut-off, which is no part of the flow rule.
 
+use super::contract::Contradiction;
 use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
 use crate::mpm::foundation::algebra::Vector;
 
@@ -37,9 +38,12 @@ impl YieldSurface for Cone {
         &self.elasticity
     }
 
-    fn contradiction(&self) -> Option<(&'static str, &'static str)> {
-        (self.dilation > self.friction)
-            .then_some(("dilation", "the coefficient of dilation is above that of friction"))
+    fn contradiction(&self) -> Option<Contradiction> {
+        (self.dilation > self.friction).then_some(Contradiction {
+            key: "dilation",
+            reason: "the coefficient of dilation is above that of friction",
+            explanation: "a flow that dilates more than friction allows does negative work",
+        })
     }
 
     fn return_from(&self, trial: &PrincipalStrain, _: f64) -> Option<(PrincipalStrain, f64)> {

@@ -2,6 +2,8 @@
 //! material has is one line at the end of this file.
 
 mod axisymmetric;
+#[cfg(test)]
+mod clay_paths;
 mod contract;
 mod hyperelastic;
 #[cfg(test)]
@@ -10,6 +12,8 @@ mod plane_stress;
 mod plastic_flow;
 mod prestressed;
 mod registry;
+#[cfg(test)]
+mod soil_paths;
 #[cfg(test)]
 mod specimen;
 mod spectral;
@@ -20,7 +24,7 @@ use crate::subject::PlaneState;
 use axisymmetric::Axisymmetric;
 #[cfg(test)]
 use contract::ClosedForms;
-pub use contract::{Material, MaterialProperties};
+pub use contract::{Contradiction, Material, MaterialProperties};
 pub use plastic_flow::ElastoPlastic;
 pub use prestressed::Prestressed;
 use registry::materials;
@@ -96,6 +100,16 @@ const FRICTION_ANGLE: MaterialParameter =
 const DILATION_ANGLE: MaterialParameter =
     parameter("the dilation angle", "psi", "degrees", Range::Angle);
 const COHESION: MaterialParameter = parameter("the cohesion", "c", "Pa", Range::NotNegative);
+const CRITICAL_SLOPE: MaterialParameter =
+    parameter("the slope of the critical-state line", "M", "", Range::Positive);
+const SWELLING: MaterialParameter =
+    parameter("the slope of swelling", "kappa", "", Range::Positive);
+const COMPRESSION: MaterialParameter =
+    parameter("the slope of compression", "lambda", "", Range::Positive);
+const INITIAL_PRESSURE: MaterialParameter =
+    parameter("the initial pressure", "p0", "Pa", Range::Positive);
+const PRECONSOLIDATION: MaterialParameter =
+    parameter("the preconsolidation pressure", "pc", "Pa", Range::Positive);
 const BULK: MaterialParameter = parameter("the bulk modulus", "K", "Pa", Range::Positive);
 const VISCOSITY: MaterialParameter = parameter("the viscosity", "eta", "Pa s", Range::NotNegative);
 const DENSITY: MaterialParameter = parameter("the density", "rho0", "kg/m3", Range::Positive);

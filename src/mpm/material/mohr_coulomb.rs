@@ -10,6 +10,7 @@
 //! Without dilation the flow cannot lower a tension beyond the apex: the return to the apex is then
 //! a tension cut-off, which is no part of the flow rule.
 
+use super::contract::Contradiction;
 use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
 use crate::mpm::foundation::algebra::Vector;
 
@@ -122,9 +123,12 @@ impl YieldSurface for Pyramid {
         &self.elasticity
     }
 
-    fn contradiction(&self) -> Option<(&'static str, &'static str)> {
-        (self.sines[1] > self.sines[0])
-            .then_some(("dilation_angle", "the dilation angle is above the friction angle"))
+    fn contradiction(&self) -> Option<Contradiction> {
+        (self.sines[1] > self.sines[0]).then_some(Contradiction {
+            key: "dilation_angle",
+            reason: "the dilation angle is above the friction angle",
+            explanation: "a flow that dilates more than friction allows does negative work",
+        })
     }
 
     fn return_from(&self, trial: &PrincipalStrain, _: f64) -> Option<(PrincipalStrain, f64)> {

@@ -10,7 +10,7 @@
 //!
 //! Plane and uniaxial strain have elastic strain out of the plane: the state is 3-D whatever D.
 
-use super::contract::{Material, MaterialProperties};
+use super::contract::{Contradiction, Material, MaterialProperties};
 use super::linear_elastic::LinearElastic;
 use super::spectral::{
     MatrixBatch, VectorBatch, assembled, half_log, half_log_batch, spectral, spectral_batch,
@@ -74,8 +74,8 @@ pub trait YieldSurface: Send + Sync {
     /// The elasticity inside the surface.
     fn elasticity(&self) -> &LogElasticity;
 
-    /// A parameter that contradicts another one: its key, and the reason.
-    fn contradiction(&self) -> Option<(&'static str, &'static str)> {
+    /// A parameter that contradicts another one.
+    fn contradiction(&self) -> Option<Contradiction> {
         None
     }
 
@@ -169,7 +169,7 @@ impl<S: YieldSurface> MaterialProperties for ElastoPlastic<S> {
         lambda + 2.0 * mu
     }
 
-    fn contradiction(&self) -> Option<(&'static str, &'static str)> {
+    fn contradiction(&self) -> Option<Contradiction> {
         self.surface.contradiction()
     }
 

@@ -2,8 +2,8 @@
 
 use super::stress_update::StressUpdate;
 use super::{
-    COHESION, DILATION, DILATION_ANGLE, FRICTION, FRICTION_ANGLE, Material, MaterialPlan, POISSON,
-    STRENGTH, VISCOSITY, YIELD, YOUNG,
+    COHESION, COMPRESSION, CRITICAL_SLOPE, DILATION, DILATION_ANGLE, FRICTION, FRICTION_ANGLE,
+    Material, MaterialPlan, POISSON, PRECONSOLIDATION, STRENGTH, SWELLING, VISCOSITY, YIELD, YOUNG,
 };
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::{Block, Particles};
@@ -24,6 +24,10 @@ pub(super) fn every() -> Vec<MaterialPlan> {
         FRICTION_ANGLE => 20.0,
         DILATION_ANGLE => 0.0,
         VISCOSITY => 0.7,
+        CRITICAL_SLOPE => 1.2,
+        SWELLING => 0.5,
+        COMPRESSION => 1.0,
+        PRECONSOLIDATION => 80.0,
         _ => 40.0,
     })
 }

@@ -65,6 +65,11 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
         self.dt
     }
 
+    /// Number of particles.
+    pub fn count(&self) -> usize {
+        self.particles.len()
+    }
+
     /// The whole body, with F of the end of the step.
     pub fn particles(&mut self) -> &mut Particles<D> {
         if std::mem::take(&mut self.awaits_strain) {

@@ -61,6 +61,26 @@ const ELASTIC: &str = "{linear_elastic: {young: E, poisson: 0, density: rho}}";
     &[(ELASTIC, "{mohr_coulomb: {young: E, poisson: 0, friction_angle: 30, dilation_angle: 0, cohesion: ▸-1, density: rho}}")],
     &["the cohesion is -1, and must not be below zero"]
 )]
+#[case::clay_that_swells_more_than_it_compacts(
+    &[(ELASTIC, "{cam_clay: {critical_state_slope: 1.2,\n      swelling_slope: ▸0.1, compression_slope: 0.1, poisson: 0.25,\n      initial_pressure: 100, preconsolidation: 150, density: rho}}")],
+    &["the slope of swelling is not below that of compression", "plastic compaction"]
+)]
+#[case::clay_outside_its_yield_surface(
+    &[(ELASTIC, "{cam_clay: {critical_state_slope: 1.2,\n      swelling_slope: 0.02, compression_slope: 0.1, poisson: 0.25,\n      initial_pressure: 100, preconsolidation: ▸50, density: rho}}")],
+    &["the preconsolidation pressure is below the initial pressure", "outside its yield surface"]
+)]
+#[case::clay_without_pressure(
+    &[(ELASTIC, "{cam_clay: {critical_state_slope: 1.2,\n      swelling_slope: 0.02, compression_slope: 0.1, poisson: 0.25,\n      initial_pressure: ▸0, preconsolidation: 150, density: rho}}")],
+    &["the initial pressure is 0, and must be above zero"]
+)]
+#[case::clay_under_tension(
+    &[(ELASTIC, "{cam_clay: {critical_state_slope: 1.2,\n      swelling_slope: 0.02, compression_slope: 0.1, poisson: 0.25,\n      initial_pressure: ▸-100, preconsolidation: 150, density: rho}}")],
+    &["the initial pressure is -100, and must be above zero"]
+)]
+#[case::clay_that_is_incompressible(
+    &[(ELASTIC, "{cam_clay: {critical_state_slope: 1.2,\n      swelling_slope: 0.02, compression_slope: 0.1, poisson: ▸0.5,\n      initial_pressure: 100, preconsolidation: 150, density: rho}}")],
+    &["Poisson's ratio is 0.5"]
+)]
 #[case::a_small_strain_truth_for_plastic_flow(
     &[(ELASTIC, "{j2: {young: E, poisson: 0, yield: 1, density: rho}}"), ("small_strain", "▸small_strain")],
     &["`small_strain` is not the problem of a `j2` material"]

@@ -3,7 +3,7 @@
 use super::bodies::Listed;
 use crate::exact::InitialStress;
 use crate::exact::formula::Formula;
-use crate::mpm::{MaterialPlan, MaterialSpec, Range};
+use crate::mpm::{Contradiction, MaterialPlan, MaterialSpec, Range};
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time, shown};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
@@ -24,10 +24,10 @@ pub(crate) fn material(
         };
         value.map_err(uniform)
     })?;
-    if let Some((key, reason)) = material.0.properties().contradiction() {
-        let diagnostic = evaluator.diagnostic(&path.then(key), reason);
-        return Err(diagnostic
-            .with_label("a flow that dilates more than friction allows does negative work"));
+    if let Some(Contradiction { key, reason, explanation }) =
+        material.0.properties().contradiction()
+    {
+        return Err(evaluator.diagnostic(&path.then(key), reason).with_label(explanation));
     }
     Ok(material)
 }

@@ -1,0 +1,322 @@
+//! Modified Cam-clay in uniaxial compression, under loading that never reverses.
+//!
+//! The mean stress p and the compaction `eps = -ln(stretch)` are positive in compression, and q is
+//! `tau22 - tau11`, so that `-tau11 = p + 2/3 q`. The clay starts at p0 without
+//! shear and is elastic first: `p = p0 exp(eps/kappa)` and `q = 2 r (p - p0)` with `r = G/K`. With
+//! the ratio `eta = q/p`, `a = kappa/(3 r)` and `D = lambda - kappa`, associated flow beyond yield
+//! has
+//!
+//! ```text
+//! d ln p/d eta = -N/(C (M^2 + eta^2))
+//! N = a (M^4 - eta^4) + 2 D eta (2 eta - 2/3 (M^2 - eta^2))
+//! C = a eta (M^2 - eta^2) + 2 D eta - 2/3 lambda (M^2 - eta^2)
+//! eps = eps_y + lambda ln(p/p_y) + D ln((M^2 + eta^2)/(M^2 + eta_y^2))
+//! ```
+//!
+//! C has one root below -M, one above M, and one between: the constant ratio of the K0 line, which
+//! the path approaches. Partial fractions give `ln p`.
+
+use super::contract::ConstitutiveLaw;
+use crate::exact::formula::Number;
+use crate::exact::tensor::{Tensor, tensor};
+
+/// Modified Cam-clay in uniaxial compression.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CamClayLaw {
+    /// Slope M of the critical-state line.
+    slope: f64,
+    /// Slopes kappa of swelling and lambda of compression.
+    swelling: f64,
+    compression: f64,
+    /// `G/K`.
+    ratio: f64,
+    initial_pressure: f64,
+    /// Mean stress at yield (Pa) in compression and in extension.
+    yields: [f64; 2],
+    /// Roots of C, the ratio of the K0 line first, each with its coefficient of `ln|eta - root|`.
+    poles: [[f64; 2]; 3],
+    /// Coefficients of `ln(M^2 + eta^2)` and of `atan(eta/M)`.
+    conjugate: [f64; 2],
+}
+
+impl CamClayLaw {
+    /// From the slope M of the critical-state line, the slopes of swelling and of compression,
+    /// Poisson's ratio, and the mean stress and the preconsolidation pressure at rest (Pa).
+    pub fn new(
+        critical_state_slope: f64,
+        swelling_slope: f64,
+        compression_slope: f64,
+        poisson: f64,
+        initial_pressure: f64,
+        preconsolidation: f64,
+    ) -> Self {
+        let slope = critical_state_slope;
+        let ratio = 3.0 * (1.0 - 2.0 * poisson) / (2.0 * (1.0 + poisson));
+        // q = 2 r (p - p0) meets q^2 = M^2 p (pc - p).
+        let square = 4.0 * ratio * ratio / (slope * slope);
+        let half = square * initial_pressure + 0.5 * preconsolidation;
+        let constant = square * initial_pressure * initial_pressure;
+        let width = libm::sqrt((half * half - (1.0 + square) * constant).max(0.0));
+        let far = (half + width) / (1.0 + square);
+        let mut law = Self {
+            slope,
+            swelling: swelling_slope,
+            compression: compression_slope,
+            ratio,
+            initial_pressure,
+            yields: [far, constant / ((1.0 + square) * far)],
+            poles: [[0.0; 2]; 3],
+            conjugate: [0.0; 2],
+        };
+        law.poles = [[0.0, slope], [-bound(&law), -slope], [slope, bound(&law)]].map(|between| {
+            let root = law.root(between);
+            let near = slope * slope + root * root;
+            [root, -law.numerator(root) / (near * law.slope_of_cubic(root))]
+        });
+        law.conjugate = law.at_the_imaginary_slope();
+        law
+    }
+
+    /// `a` and `D`.
+    fn weights(&self) -> [f64; 2] {
+        [self.swelling / (3.0 * self.ratio), self.compression - self.swelling]
+    }
+
+    /// N.
+    fn numerator(&self, eta: f64) -> f64 {
+        let ([a, d], m2, e2) = (self.weights(), self.slope * self.slope, eta * eta);
+        a * (m2 - e2) * (m2 + e2) + 2.0 * d * eta * (2.0 * eta - 2.0 / 3.0 * (m2 - e2))
+    }
+
+    /// C.
+    fn cubic(&self, eta: f64) -> f64 {
+        let ([a, d], inside) = (self.weights(), self.slope * self.slope - eta * eta);
+        a * eta * inside + 2.0 * d * eta - 2.0 / 3.0 * self.compression * inside
+    }
+
+    /// `dC/d eta`.
+    fn slope_of_cubic(&self, eta: f64) -> f64 {
+        let ([a, d], m2) = (self.weights(), self.slope * self.slope);
+        a * (m2 - 3.0 * eta * eta) + 2.0 * d + 4.0 / 3.0 * self.compression * eta
+    }
+
+    /// The root of C between two ratios where its signs differ.
+    fn root(&self, [mut low, mut high]: [f64; 2]) -> f64 {
+        let rises = self.cubic(high) > 0.0;
+        loop {
+            let middle = 0.5 * (low + high);
+            if !(low < middle && middle < high) {
+                return middle;
+            }
+            if (self.cubic(middle) > 0.0) == rises { high = middle } else { low = middle }
+        }
+    }
+
+    /// `b` and `e` of the part `(b eta + e M)/(M^2 + eta^2)` of the partial fractions, as `b/2` and
+    /// `e`: its value at `eta = i M` is that of `-N/C`.
+    fn at_the_imaginary_slope(&self) -> [f64; 2] {
+        let ([a, d], m) = (self.weights(), self.slope);
+        let numerator = [4.0 * d * m * m, 8.0 / 3.0 * d * m * m * m];
+        let cubic = [-4.0 / 3.0 * self.compression * m * m, 2.0 * a * m * m * m + 2.0 * d * m];
+        let norm = cubic[0] * cubic[0] + cubic[1] * cubic[1];
+        let real = (numerator[0] * cubic[0] + numerator[1] * cubic[1]) / norm;
+        let imaginary = (numerator[1] * cubic[0] - numerator[0] * cubic[1]) / norm;
+        [0.5 * imaginary / m, real / m]
+    }
+
+    /// The ratio at yield in compression.
+    fn ratio_at_yield(&self) -> f64 {
+        2.0 * self.ratio * (1.0 - self.initial_pressure / self.yields[0])
+    }
+
+    /// `ln(p/p_y)` and the compaction beyond yield at the ratio that has come nearer to the K0 line
+    /// by the factor `exp(-u)`, and that ratio.
+    fn beyond_yield(&self, u: f64) -> [f64; 3] {
+        let (start, m2, [limit, weight]) =
+            (self.ratio_at_yield(), self.slope * self.slope, self.poles[0]);
+        let eta = limit + (start - limit) * libm::exp(-u);
+        let growth = libm::log((m2 + eta * eta) / (m2 + start * start));
+        let turn = libm::atan(eta / self.slope) - libm::atan(start / self.slope);
+        let far: f64 = self.poles[1..]
+            .iter()
+            .map(|[root, weight]| weight * libm::log((eta - root) / (start - root)))
+            .sum();
+        let pressure = far - weight * u + self.conjugate[0] * growth + self.conjugate[1] * turn;
+        let [_, hardening] = self.weights();
+        [pressure, self.compression * pressure + hardening * growth, eta]
+    }
+
+    /// `ln(p/p_y)` and the ratio at a compaction beyond yield; no numbers where the clay softens.
+    fn flowed(&self, beyond: f64) -> [f64; 2] {
+        let start = self.ratio_at_yield();
+        if !(start < self.slope) {
+            return [f64::NAN; 2];
+        }
+        if start == self.poles[0][0] {
+            return [beyond / self.compression, start];
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        while self.beyond_yield(high)[1] < beyond {
+            high *= 2.0;
+        }
+        loop {
+            let middle = 0.5 * (low + high);
+            let [pressure, compaction, eta] = self.beyond_yield(middle);
+            if !(low < middle && middle < high) {
+                return [pressure, eta];
+            }
+            if compaction < beyond { low = middle } else { high = middle }
+        }
+    }
+
+    /// `tau11` (Pa) at the logarithmic strain `strain`; no number where the clay softens.
+    fn kirchhoff<T: Number>(&self, strain: T) -> T {
+        let elastic = Number::exp(T::from(-1.0 / self.swelling) * strain);
+        let pressure = self.initial_pressure * elastic.value();
+        if self.yields[1] <= pressure && pressure <= self.yields[0] {
+            let growth = T::from(1.0 + 4.0 / 3.0 * self.ratio) * (elastic - T::from(1.0));
+            return T::from(-self.initial_pressure) * (growth + T::from(1.0));
+        }
+        if !(pressure > self.yields[0]) {
+            return T::from(f64::NAN);
+        }
+        let at_yield = self.swelling * libm::log(self.yields[0] / self.initial_pressure);
+        let [growth, eta] = self.flowed(-strain.value() - at_yield);
+        let pressure = self.yields[0] * libm::exp(growth);
+        let ([_, hardening], m2) = (self.weights(), self.slope * self.slope + eta * eta);
+        // d ln p and d eta, over a common factor.
+        let [log, ratio] = [-self.numerator(eta) / m2, self.cubic(eta)];
+        let compaction = self.compression * log + 2.0 * hardening * eta / m2 * ratio;
+        let slope = pressure * ((1.0 + 2.0 / 3.0 * eta) * log + 2.0 / 3.0 * ratio) / compaction;
+        let value = -pressure * (1.0 + 2.0 / 3.0 * eta);
+        T::from(value) + T::from(slope) * (strain - T::from(strain.value()))
+    }
+}
+
+/// A ratio beyond all roots of C: Cauchy's bound.
+fn bound(law: &CamClayLaw) -> f64 {
+    let ([a, d], m2) = (law.weights(), law.slope * law.slope);
+    let largest = (2.0 / 3.0 * law.compression * m2.max(1.0)).max(a * m2 + 2.0 * d);
+    (1.0 + largest / a).max(2.0 * law.slope)
+}
+
+impl ConstitutiveLaw for CamClayLaw {
+    const NAME: &'static str = "cam_clay";
+    const EQUATION: &'static str = "modified Cam-clay in uniaxial compression that never reverses, \
+                                    rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
+                                    q^2/M^2 + p (p - pc) <= 0, d eps_e = kappa dp/p";
+    const HAS_HISTORY: bool = true;
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        let stretch = T::from(1.0) + grad[0][0];
+        let along = self.kirchhoff(Number::ln(stretch)) / stretch;
+        tensor(|i, j| if i + j == 0 { along } else { T::from(0.0) })
+    }
+
+    fn modulus(&self) -> f64 {
+        self.initial_pressure / self.swelling * (1.0 + 4.0 / 3.0 * self.ratio)
+    }
+
+    fn flows(&self, grad: f64) -> bool {
+        let growth = -libm::log1p(grad) / self.swelling;
+        let [far, near] = self.yields.map(|pressure| libm::log(pressure / self.initial_pressure));
+        !(near <= growth && growth <= far)
+    }
+
+    fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
+        if dimension == 1 {
+            return Ok(());
+        }
+        Err([
+            "the stress is a function of the deformation in uniaxial strain only",
+            "make it a scene of dimension 1",
+        ])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::contract::ConstitutiveLaw;
+    use super::*;
+    use crate::exact::formula::Slope;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    fn clay(preconsolidation: f64) -> CamClayLaw {
+        CamClayLaw::new(1.2, 0.02, 0.1, 0.25, 100.0, preconsolidation)
+    }
+
+    fn tau(law: &CamClayLaw, strain: f64) -> f64 {
+        let [[piola]] = law.piola(&[[libm::expm1(strain)]]);
+        piola * libm::exp(strain)
+    }
+
+    /// Values of an independent program: the constant ratio of the K0 line, and the mean stress of
+    /// a path that starts at its pressure without shear.
+    #[test]
+    fn a_path_from_an_isotropic_state_approaches_the_k0_line() {
+        let law = clay(100.0);
+        assert_relative_eq!(law.poles[0][0], 0.468_732_574_577, max_relative = 1e-11);
+        let [growth, eta] = law.flowed(0.1);
+        assert_relative_eq!(100.0 * libm::exp(growth), 242.638_169, max_relative = 1e-8);
+        assert!(eta > 0.46 && eta < law.poles[0][0]);
+    }
+
+    /// The rates of the plastic strain along the path, by central differences: the flow rule, the
+    /// elastic law, the hardening rule, and no lateral strain.
+    #[rstest]
+    fn the_path_obeys_the_rates_of_the_law(
+        #[values(100.0, 150.0, 400.0)] preconsolidation: f64,
+        #[values(0.001, 0.02, 0.1, 0.3)] beyond: f64,
+    ) {
+        let law = clay(preconsolidation);
+        let step = 1e-5;
+        let at = |beyond: f64| {
+            let [growth, eta] = law.flowed(beyond);
+            let p = law.yields[0] * libm::exp(growth);
+            [libm::log(p), eta * p, libm::log(p * (1.0 + eta * eta / 1.44))]
+        };
+        let ([_, q, _], [low, high]) = (at(beyond), [at(beyond - step), at(beyond + step)]);
+        let rate = |i: usize| (high[i] - low[i]) / (2.0 * step);
+        let p = libm::exp(at(beyond)[0]);
+        let (volume, shear) = (0.02 * rate(0), 0.02 / (1.8 * p) * rate(1));
+        let eta = q / p;
+        let [plastic_volume, plastic_shear] = [1.0 - volume, 2.0 / 3.0 - shear];
+        assert_relative_eq!(plastic_volume, 0.08 * rate(2), max_relative = 1e-5);
+        let flow = 2.0 * eta / (1.44 - eta * eta);
+        assert_relative_eq!(plastic_shear, flow * plastic_volume, max_relative = 1e-5);
+    }
+
+    /// Elastic up to yield, continuous there, and without a stress where the clay would soften.
+    #[test]
+    fn yield_is_on_the_elastic_path() {
+        let law = clay(150.0);
+        let p = law.yields[0];
+        let q = 1.2 * (p - 100.0);
+        assert_relative_eq!(q * q / 1.44, p * (150.0 - p), max_relative = 1e-13);
+        let strain = -0.02 * libm::log(p / 100.0);
+        assert_relative_eq!(
+            tau(&law, strain * (1.0 - 1e-12)),
+            -p - 2.0 / 3.0 * q,
+            max_relative = 1e-9
+        );
+        assert_relative_eq!(
+            tau(&law, strain * (1.0 + 1e-9)),
+            -p - 2.0 / 3.0 * q,
+            max_relative = 1e-7
+        );
+        assert!(!law.flows(libm::expm1(0.99 * strain)) && law.flows(libm::expm1(1.01 * strain)));
+        assert!(tau(&law, 0.1).is_nan() && law.flows(0.1));
+    }
+
+    /// The slope of the stress is the difference of its values.
+    #[rstest]
+    fn stress_has_its_slope(#[values(-0.005, -0.05, -0.2)] strain: f64) {
+        let (law, step) = (clay(150.0), 1e-6);
+        let grad = Slope::<1>::variable(libm::expm1(strain), 0);
+        let [[piola]] = law.piola(&[[grad]]);
+        let along = |change: f64| law.piola(&[[libm::expm1(strain) + change]])[0][0];
+        let slope = (along(step) - along(-step)) / (2.0 * step);
+        assert_relative_eq!(piola.d(0), slope, max_relative = 1e-5);
+    }
+}

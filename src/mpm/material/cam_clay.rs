@@ -1,0 +1,448 @@
+//! Modified Cam-clay: a yield surface that hardens with plastic compaction.
+//!
+//! With the mean stress `p`, positive in compression, and `q = sqrt(3 J2)` of the Kirchhoff stress,
+//! the clay yields where `q^2/M^2 + p (p - pc) > 0`; the flow is associated (Roscoe & Burland 1968;
+//! Borja & Lee 1990). Swelling has `d eps_v = kappa dp/p`, and plastic compaction hardens by `d
+//! pc/pc = d eps_v/(lambda - kappa)`. The shear modulus `G = r p/kappa` has a constant Poisson's
+//! ratio; the elastic law is in rate form and has no energy.
+//!
+//! The state is the Kirchhoff stress and `pc`. A step changes the deformation by `I + grad v dt`,
+//! which is `v R`: R turns the stress, and `ln v` is the strain increment. This is exact under any
+//! rotation, and the rate of Jaumann to the second order in the step. Along fixed axes, logarithmic
+//! strains add up without error. The return is implicit: exact at a constant stress ratio, and of
+//! the first order in the number of steps otherwise. It solves one equation for the stress ratio,
+//! whose root lies between the critical state and the yield surface before the step.
+
+use super::contract::{Contradiction, Material, MaterialProperties};
+use super::spectral::{MatrixBatch, VectorBatch, assembled, half_log_batch, spectral_batch};
+use super::stress_update::{StressBlock, StressUpdate};
+use crate::mpm::foundation::algebra::{Matrix, det, product};
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::foundation::simd::{BATCH, vectorized};
+use crate::subject::{Checkpoint, Column, Entry, Failure, Memory};
+
+/// Modified Cam-clay at finite strain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CamClay {
+    /// Slope M of the critical-state line in the plane of p and q.
+    slope: f64,
+    /// Slope kappa of swelling.
+    swelling: f64,
+    /// `lambda - kappa`, the slope of plastic compaction.
+    hardening: f64,
+    /// `G/K`.
+    ratio: f64,
+    /// The state at rest.
+    start: Clay,
+    /// One for each particle, from the start on.
+    states: Vec<Clay>,
+}
+
+/// State of a particle.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Clay {
+    /// Kirchhoff stress (Pa).
+    tau: Matrix<3>,
+    /// Preconsolidation pressure `pc` (Pa).
+    consolidation: f64,
+}
+
+/// The preconsolidation pressure alone.
+impl Entry for Clay {
+    fn write(&self, numbers: &mut Vec<f64>) {
+        numbers.push(self.consolidation);
+    }
+}
+
+impl Memory for Clay {
+    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        let Self { tau, consolidation } = self;
+        checkpoint.visit(tau);
+        checkpoint.visit(consolidation);
+    }
+}
+
+/// The trial state of a step: the stress before it, and the strain that it adds.
+struct ClayTrial {
+    /// Mean stress before the step (Pa), positive in compression.
+    pressure: f64,
+    consolidation: f64,
+    /// Deviator of the stress before the step (Pa).
+    deviator: Matrix<3>,
+    /// Logarithmic volume strain, positive in compression.
+    compaction: f64,
+    /// Deviator of the logarithmic strain.
+    shear: Matrix<3>,
+}
+
+/// Maximum number of iterations of a return; about ten suffice.
+const MAX_ITERATIONS: usize = 100;
+
+impl CamClay {
+    /// From the slope M of the critical-state line, the slopes of swelling and of compression in
+    /// logarithmic strain over the logarithm of p, Poisson's ratio, and the mean stress and the
+    /// preconsolidation pressure at rest (Pa), both positive in compression.
+    pub fn new(
+        critical_state_slope: f64,
+        swelling_slope: f64,
+        compression_slope: f64,
+        poisson: f64,
+        initial_pressure: f64,
+        preconsolidation: f64,
+    ) -> Self {
+        let tau = Matrix::from_diagonal_element(-initial_pressure);
+        Self {
+            slope: critical_state_slope,
+            swelling: swelling_slope,
+            hardening: compression_slope - swelling_slope,
+            ratio: 1.5 * (1.0 - 2.0 * poisson) / (1.0 + poisson),
+            start: Clay { tau, consolidation: preconsolidation },
+            states: Vec::new(),
+        }
+    }
+
+    /// Mean stress at rest (Pa), positive in compression.
+    fn initial_pressure(&self) -> f64 {
+        -self.start.tau[(0, 0)]
+    }
+
+    /// The state after a step with the rotation `turn` and then the logarithmic `strain`.
+    fn after(&self, before: &Clay, turn: &Matrix<3>, strain: &Matrix<3>) -> Clay {
+        let tau = product(&product(turn, &before.tau), &turn.transpose());
+        let (pressure, compaction) = (-tau.trace() / 3.0, -strain.trace());
+        let trial = ClayTrial {
+            pressure,
+            consolidation: before.consolidation,
+            deviator: tau + Matrix::from_diagonal_element(pressure),
+            compaction,
+            shear: strain + Matrix::from_diagonal_element(compaction / 3.0),
+        };
+        let (pressure, deviator) = self.swollen(&trial, compaction);
+        let q = equivalent(&deviator);
+        let excess = square(q / self.slope) + pressure * (pressure - trial.consolidation);
+        let (pressure, deviator, consolidation) = if excess > 0.0 {
+            self.returned(&trial)
+        } else {
+            (pressure, deviator, trial.consolidation)
+        };
+        Clay { tau: deviator - Matrix::from_diagonal_element(pressure), consolidation }
+    }
+
+    /// Mean stress (Pa) and deviator of the stress after the elastic volume strain `compaction`,
+    /// if all shear is elastic. The two elastic strains are in proportion, for which this is the
+    /// integral of the rate.
+    fn swollen(&self, trial: &ClayTrial, compaction: f64) -> (f64, Matrix<3>) {
+        let t = compaction / self.swelling;
+        let pressure = trial.pressure * libm::exp(t);
+        let modulus = self.ratio / self.swelling * trial.pressure * mean_growth(t);
+        (pressure, trial.deviator + trial.shear * (2.0 * modulus))
+    }
+
+    /// Mean stress, deviator and preconsolidation pressure (Pa) on the yield surface, from a trial
+    /// state outside.
+    ///
+    /// The unknown is `m = q/(M p)`. On the surface `pc = p (1 + m^2)`, which gives the plastic
+    /// compaction; the flow rule is left, `6 G x m/M = (q_trial - q) (1 - m^2)` over p, with the
+    /// plastic compaction x. At the critical state, m = 1, the sides have the signs of a root
+    /// between there and the surface.
+    fn returned(&self, trial: &ClayTrial) -> (f64, Matrix<3>, f64) {
+        let Self { slope, swelling, hardening, ratio, .. } = *self;
+        // ln(p/pc) of the trial state.
+        let depth = trial.compaction / swelling + libm::log(trial.pressure / trial.consolidation);
+        let flow = |m: f64| (libm::log1p(m * m) + depth) / (1.0 / swelling + 1.0 / hardening);
+        let residual = |m: f64| {
+            let flow = flow(m);
+            let (p, deviator) = self.swollen(trial, trial.compaction - flow);
+            let t = (trial.compaction - flow) / swelling;
+            let modulus = ratio / swelling * trial.pressure * mean_growth(t);
+            let beyond = equivalent(&deviator) - slope * m * p;
+            6.0 * modulus / slope * flow * m - beyond * (1.0 - m * m)
+        };
+        // The stress ratio on the surface at the consolidation before the step.
+        let m = libm::sqrt(libm::expm1(-depth).max(0.0));
+        let m = root(residual, m.min(1.0), m.max(1.0));
+        let flow = flow(m);
+        let (p, deviator) = self.swollen(trial, trial.compaction - flow);
+        let q = equivalent(&deviator);
+        let share = if q > 0.0 { slope * m * p / q } else { 0.0 };
+        (p, deviator * share, trial.consolidation * libm::exp(flow / hardening))
+    }
+}
+
+fn square(x: f64) -> f64 {
+    x * x
+}
+
+/// `(e^t - 1)/t`, the mean of `e^s` for s from 0 to t.
+fn mean_growth(t: f64) -> f64 {
+    if t == 0.0 { 1.0 } else { libm::expm1(t) / t }
+}
+
+/// `sqrt(3/2) |s|` of a deviator s.
+fn equivalent(deviator: &Matrix<3>) -> f64 {
+    libm::sqrt(1.5 * deviator.norm_squared())
+}
+
+/// The root of a function that is negative at `low` and positive at `high`; an end where it has not
+/// that sign. By false position with the step of Illinois (Dowell & Jarratt 1971).
+fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let (mut at_low, mut at_high) = (f(low), f(high));
+    if !(at_low < 0.0) {
+        return low;
+    }
+    if !(at_high > 0.0) {
+        return high;
+    }
+    let (mut x, mut last) = (low, 0.0);
+    for _ in 0..MAX_ITERATIONS {
+        let next = (low * at_high - high * at_low) / (at_high - at_low);
+        let is_settled = (next - x).abs() <= f64::EPSILON * next;
+        x = next;
+        let value = f(x);
+        if is_settled || value == 0.0 || value.is_nan() {
+            break;
+        }
+        if value < 0.0 {
+            (low, at_low) = (x, value);
+            at_high *= if last < 0.0 { 0.5 } else { 1.0 };
+        } else {
+            (high, at_high) = (x, value);
+            at_low *= if last > 0.0 { 0.5 } else { 1.0 };
+        }
+        last = value;
+    }
+    x
+}
+
+impl MaterialProperties for CamClay {
+    /// The modulus `K + 4/3 G` of the clay at rest and the stress along the wave, if the clay is
+    /// inside the yield surface.
+    fn wave_modulus(&self) -> f64 {
+        let pressure = self.initial_pressure();
+        pressure / self.swelling * (1.0 + 4.0 / 3.0 * self.ratio) + pressure
+    }
+
+    fn contradiction(&self) -> Option<Contradiction> {
+        if !(self.hardening > 0.0) {
+            return Some(Contradiction {
+                key: "swelling_slope",
+                reason: "the slope of swelling is not below that of compression",
+                explanation: "plastic compaction has the difference of the two slopes",
+            });
+        }
+        (self.start.consolidation < self.initial_pressure()).then_some(Contradiction {
+            key: "preconsolidation",
+            reason: "the preconsolidation pressure is below the initial pressure",
+            explanation: "the clay would start outside its yield surface",
+        })
+    }
+
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        Err("plastic flow depends on the whole history of the motion")
+    }
+
+    fn starts_stressed(&self) -> Result<(), &'static str> {
+        Err("the clay starts under its `initial_pressure`")
+    }
+
+    fn has_energy(&self, _: usize) -> Result<(), &'static str> {
+        Err("is integrated in rate form, and has no energy")
+    }
+}
+
+impl<const D: usize> Material<D> for CamClay {
+    fn reads_deformation(&self) -> bool {
+        false
+    }
+
+    fn is_stressed_at_rest(&self) -> bool {
+        true
+    }
+
+    fn columns(&self) -> Vec<Column<'_>> {
+        vec![Column::of_particles("preconsolidation", &self.states)]
+    }
+
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
+        checkpoint.visit(&mut self.states);
+    }
+
+    /// The initial pressure; a body that starts deformed is refused.
+    fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
+        if particles.is_deformed() {
+            return Err(Failure::NotOfDeformation);
+        }
+        particles.sigma.fill(Matrix::from_diagonal_element(-self.initial_pressure()));
+        Ok(())
+    }
+
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        let dt = body.dt();
+        let mut states = std::mem::take(&mut self.states);
+        states.resize(body.count(), self.start);
+        body.by_block_with(&mut states, &|StressBlock { grad_v, vol, vol0, sigma, .. }, states| {
+            let columns = grad_v.chunks(BATCH).zip(states.chunks_mut(BATCH));
+            let volumes = vol.chunks_mut(BATCH).zip(vol0.chunks(BATCH));
+            let results = volumes.zip(sigma.chunks_mut(BATCH));
+            for ((grad_v, states), ((vol, vol0), sigma)) in columns.zip(results) {
+                let (squares, strains, axes) = stretch(grad_v, dt);
+                let results = vol.iter_mut().zip(vol0).zip(sigma);
+                let particles = grad_v.iter().zip(states).zip(results).enumerate();
+                for (lane, ((grad_v, state), ((vol, vol0), sigma))) in particles {
+                    let axes = axes.get(lane);
+                    let inverses = squares.get(lane).map(|square| 1.0 / square.sqrt());
+                    let turn = product(&assembled(&inverses, &axes), &increment(grad_v, dt));
+                    let strain = assembled(&strains.get(lane), &axes);
+                    *state = self.after(state, &turn, &strain);
+                    *vol *= det(&(Matrix::<D>::identity() + grad_v * dt));
+                    let j = *vol / vol0;
+                    *sigma = Matrix::from_fn(|i, k| state.tau[(i, k)] / j);
+                }
+            }
+        });
+        self.states = states;
+    }
+}
+
+/// `I + grad v dt` in three dimensions.
+#[inline(always)]
+fn increment<const D: usize>(grad_v: &Matrix<D>, dt: f64) -> Matrix<3> {
+    let mut step = Matrix::identity();
+    for j in 0..D {
+        for i in 0..D {
+            step[(i, j)] += grad_v[(i, j)] * dt;
+        }
+    }
+    step
+}
+
+/// The left stretch of the increments of a batch of particles: its squares, its logarithms, and
+/// their axes.
+fn stretch<const D: usize>(
+    grad_v: &[Matrix<D>],
+    dt: f64,
+) -> (VectorBatch<3>, VectorBatch<3>, MatrixBatch<3>) {
+    vectorized(
+        #[inline(always)]
+        || {
+            let mut squares = MatrixBatch::identity();
+            for (lane, grad_v) in grad_v.iter().enumerate() {
+                let step = increment(grad_v, dt);
+                squares.set(lane, &product(&step, &step.transpose()));
+            }
+            let (squares, axes) = spectral_batch(squares);
+            (squares, squares.map(half_log_batch), axes)
+        },
+    )
+}
+
+#[cfg(test)]
+impl super::contract::ClosedForms for CamClay {
+    /// Elastic, with axes that stretch by exp(e) and exp(-e).
+    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
+        let e = libm::asinh(0.5 * gamma);
+        let pressure = self.initial_pressure();
+        let shear = 2.0 * self.ratio / self.swelling * pressure * e;
+        let normal = shear * libm::tanh(e);
+        [normal - pressure, shear / libm::cosh(e), -normal - pressure]
+    }
+
+    fn uniaxial_stretch(&self, _: f64) -> Option<[f64; 2]> {
+        None
+    }
+
+    fn energy_density(&self, _: &Matrix<3>) -> Option<f64> {
+        None
+    }
+
+    fn pressure_at_rest(&self) -> f64 {
+        self.initial_pressure()
+    }
+}
+
+#[cfg(test)]
+impl CamClay {
+    /// The clay with each particle under the stress `tau` (Pa) at this preconsolidation pressure.
+    pub(super) fn starting_at(mut self, tau: Matrix<3>, consolidation: f64) -> Self {
+        self.start = Clay { tau, consolidation };
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::specimen::{SLOW, Specimen};
+    use super::*;
+    use crate::mpm::foundation::algebra::Vector;
+    use approx::assert_abs_diff_eq;
+    use proptest::prelude::*;
+
+    /// Clay with M = 1.2, kappa = 0.02, lambda = 0.1 and nu = 0.25, under 100 Pa.
+    fn clay(preconsolidation: f64) -> CamClay {
+        CamClay::new(1.2, 0.02, 0.1, 0.25, 100.0, preconsolidation)
+    }
+
+    proptest! {
+        /// After a return the yield function is zero, the flow is associated and the hardening that
+        /// of the plastic compaction, on both sides of the critical state.
+        #[test]
+        fn a_return_obeys_flow_rule_and_hardening(
+            overconsolidation in 1.0..20.0_f64,
+            compaction in -0.05..0.05_f64,
+            shear in proptest::array::uniform3(-0.05..0.05_f64),
+        ) {
+            let law = clay(100.0 * overconsolidation);
+            let e = Vector::<3>::from(shear);
+            let shear = e.add_scalar(-e.sum() / 3.0);
+            let strain = Matrix::from_diagonal(&shear.add_scalar(-compaction / 3.0));
+            let after = law.after(&law.start, &Matrix::identity(), &strain);
+            let (p, pc) = (-after.tau.trace() / 3.0, after.consolidation);
+            let deviator = after.tau + Matrix::from_diagonal_element(p);
+            let q = equivalent(&deviator);
+            let excess = square(q / 1.2) + p * (p - pc);
+            if pc == law.start.consolidation {
+                prop_assert!(excess <= 1e-12 * pc * pc);
+            } else {
+                assert_abs_diff_eq!(excess, 0.0, epsilon = 1e-11 * pc * pc);
+                let elastic = 0.02 * libm::log(p / 100.0);
+                let flow = 0.08 * libm::log(pc / law.start.consolidation);
+                assert_abs_diff_eq!(elastic + flow, compaction, epsilon = 1e-12);
+                // The plastic shear over the gradient of q^2/M^2, and the compaction over that of
+                // p (p - pc), are one multiplier.
+                let modulus = 0.6 * (p - 100.0) / elastic;
+                let plastic = Matrix::from_diagonal(&shear) - deviator / (2.0 * modulus);
+                let flowed = plastic.dot(&deviator) / deviator.norm_squared();
+                let direction = (2.0 * p - pc) * flowed - flow * 3.0 / 1.44;
+                prop_assert!(flowed >= -1e-12);
+                if elastic.abs() > 1e-4 && q > 1e-3 * p {
+                    assert_abs_diff_eq!(direction, 0.0, epsilon = 1e-8);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_body_at_rest_is_under_its_initial_pressure() {
+        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+        let block = crate::mpm::foundation::particles::Block { from, to, density: 1.0 };
+        let mut body = Particles::<2>::fill(&block, 1.0, 1);
+        assert_eq!(clay(150.0).start_deformed(&mut body), Ok(()));
+        assert_eq!(body.sigma[0], Matrix::<2>::from_diagonal_element(-100.0));
+        body.deform(|_| (Vector::zeros(), Matrix::<2>::from_diagonal_element(1.1)));
+        assert_eq!(clay(150.0).start_deformed(&mut body), Err(Failure::NotOfDeformation));
+    }
+
+    #[test]
+    fn a_large_rotation_in_a_step_only_turns_the_stress() {
+        let step = Matrix::<3>::new(1.02, 0.05, 0.0, -0.01, 0.93, 0.02, 0.0, 0.03, 0.97);
+        let (c, s) = (libm::cos(2.5), libm::sin(2.5));
+        let turn = Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
+        let run = |turn: &Matrix<3>| {
+            let mut clay = Specimen::<3>::with(Box::new(clay(120.0)));
+            clay.deform(&step, SLOW);
+            clay.deform(&(turn * step), SLOW)
+        };
+        let (turned, plain) = (run(&turn), run(&Matrix::identity()));
+        assert_abs_diff_eq!(turned, turn * plain * turn.transpose(), epsilon = 1e-9);
+    }
+}

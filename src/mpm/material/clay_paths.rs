@@ -1,0 +1,163 @@
+//! Modified Cam-clay along paths of deformation with fixed axes, against closed forms.
+
+use super::CamClay;
+use super::specimen::{SLOW, Specimen};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use approx::{assert_abs_diff_eq, assert_relative_eq};
+use rstest::rstest;
+
+/// Clay with M = 1.2, kappa = 0.02, lambda = 0.1 and nu = 0.25, under 100 Pa.
+fn clay(preconsolidation: f64) -> CamClay {
+    CamClay::new(1.2, 0.02, 0.1, 0.25, 100.0, preconsolidation)
+}
+
+/// A specimen whose first axis is under the axial stress, at this state.
+fn specimen(law: CamClay) -> Specimen<3> {
+    Specimen::with(Box::new(law))
+}
+
+/// p and q after `steps` equal steps that add these axial and lateral logarithmic strains,
+/// positive in compression; J is the volume ratio then.
+fn squeeze(specimen: &mut Specimen<3>, [axial, lateral]: [f64; 2], steps: u32) -> [f64; 2] {
+    let stretch = |strain: f64| libm::exp(-strain / f64::from(steps));
+    let [along, across] = [axial, lateral].map(stretch);
+    let step = Matrix::from_diagonal(&Vector::<3>::new(along, across, across));
+    let mut sigma = Matrix::zeros();
+    for _ in 0..steps {
+        sigma = specimen.deform(&step, SLOW);
+    }
+    let tau = sigma * specimen.j();
+    assert_eq!(tau[(1, 1)], tau[(2, 2)]);
+    [-tau.trace() / 3.0, tau[(1, 1)] - tau[(0, 0)]]
+}
+
+/// Shear at constant volume with this deviatoric strain.
+fn undrained(strain: f64) -> [f64; 2] {
+    [strain, -0.5 * strain]
+}
+
+/// The limits of p and q in infinitely many steps, by Richardson's extrapolation in powers of
+/// the step, and the observed order of p.
+fn limit(run: impl Fn(u32) -> [f64; 2]) -> ([f64; 2], f64) {
+    let mut rows: Vec<Vector<2>> = (6..=13).map(|k| Vector::from(run(1 << k))).collect();
+    let (coarse, fine) = (rows[6] - rows[5], rows[7] - rows[6]);
+    for k in 1..rows.len() as i32 {
+        let weight = f64::from(2_i32.pow(k.unsigned_abs()) - 1);
+        rows = rows.windows(2).map(|pair| pair[1] + (pair[1] - pair[0]) / weight).collect();
+    }
+    (rows[0].into(), libm::log2(coarse[0] / fine[0]))
+}
+
+/// Values of closed forms by an independent program: p, q and the deviatoric strain. The
+/// return is of the first order in the number of steps.
+#[rstest]
+#[case::low([95.265_762_753, 28.579_728_826], 0.003_504_455_447)]
+#[case::middle([83.651_164_207, 50.190_698_524], 0.008_175_376_601)]
+#[case::high([69.975_172_732, 62.977_655_459], 0.016_513_462_741)]
+#[case::near_the_critical_state([61.389_386_681, 67.528_325_350], 0.030_516_204_116)]
+fn undrained_shear_has_its_closed_form(#[case] expected: [f64; 2], #[case] strain: f64) {
+    let run = |steps| squeeze(&mut specimen(clay(100.0)), undrained(strain), steps);
+    let (found, order) = limit(run);
+    for i in 0..2 {
+        assert_relative_eq!(found[i], expected[i], max_relative = 2e-9);
+    }
+    assert!((0.97..1.03).contains(&order), "order {order}");
+}
+
+/// Elastic at constant p up to `q_y = M sqrt(p0 (pc - p0))`, then as a closed form says.
+#[test]
+fn undrained_shear_of_overconsolidated_clay_has_its_closed_form() {
+    let at_yield = 84.852_813_742 * 0.02 / (3.0 * 0.6 * 100.0);
+    let run = |steps| {
+        let mut clay = specimen(clay(150.0));
+        let [p, q] = squeeze(&mut clay, undrained(at_yield), 3);
+        assert_relative_eq!(p, 100.0, max_relative = 1e-12);
+        assert_relative_eq!(q, 84.852_813_742, max_relative = 1e-10);
+        squeeze(&mut clay, undrained(0.016_464_206_955 - at_yield), steps)
+    };
+    let ([p, q], order) = limit(run);
+    assert_relative_eq!(p, 90.709_158_875, max_relative = 2e-9);
+    assert_relative_eq!(q, 90.709_158_875, max_relative = 2e-9);
+    assert!((0.97..1.03).contains(&order), "order {order}");
+}
+
+/// `p = p0/2^(1 - kappa/lambda)` and `q = M p`, whatever the number of steps.
+#[rstest]
+fn undrained_shear_ends_at_a_critical_state(#[values(4, 300)] steps: u32) {
+    let mut clay = specimen(clay(100.0));
+    let [p, q] = squeeze(&mut clay, undrained(30.0), steps);
+    assert_relative_eq!(p, 57.434_917_749_9, max_relative = 1e-10);
+    assert_relative_eq!(q, 68.921_901_299_8, max_relative = 1e-10);
+}
+
+/// Isotropic compression: swelling below `pc`, the line of compression above, and swelling
+/// again; exact in any number of steps.
+#[rstest]
+fn isotropic_compression_follows_its_two_lines(#[values(1, 7)] steps: u32) {
+    let mut clay = specimen(clay(150.0));
+    let to_yield = 0.02 * libm::log(1.5);
+    let [p, q] = squeeze(&mut clay, [0.5 * to_yield / 3.0; 2], steps);
+    assert_relative_eq!(p, 100.0 * 1.5_f64.sqrt(), max_relative = 1e-12);
+    assert_abs_diff_eq!(q, 0.0, epsilon = 1e-10);
+    let [p, _] = squeeze(&mut clay, [(0.5 * to_yield + 0.1) / 3.0; 2], steps);
+    assert_relative_eq!(p, 150.0 * libm::exp(1.0), max_relative = 1e-12);
+    let [p, q] = squeeze(&mut clay, [-0.02 / 3.0; 2], steps);
+    assert_relative_eq!(p, 150.0, max_relative = 1e-12);
+    assert_abs_diff_eq!(q, 0.0, epsilon = 1e-10);
+}
+
+/// On the K0 line the stress ratio is constant, `p = p0 exp(eps/lambda)` in any number of steps.
+#[rstest]
+#[case::five_per_cent(0.05, 164.872_127_070)]
+#[case::ten_per_cent(0.1, 271.828_182_846)]
+fn compression_stays_on_the_k0_line(
+    #[case] strain: f64,
+    #[case] expected: f64,
+    #[values(1, 2, 50)] steps: u32,
+) {
+    let eta = k0_ratio();
+    let [p, q] = squeeze(&mut specimen(on_the_k0_line(eta)), [strain, 0.0], steps);
+    assert_relative_eq!(p, expected, max_relative = 1e-10);
+    assert_relative_eq!(q, eta * p, max_relative = 1e-10);
+    let ratio = (3.0 - eta) / (3.0 + 2.0 * eta);
+    assert_relative_eq!(ratio, 0.642_867_258_385, max_relative = 1e-11);
+}
+
+/// `eta (1 - L)/(3 r) + 2 eta L/(M^2 - eta^2) = 2/3` with `L = 1 - kappa/lambda`.
+fn k0_ratio() -> f64 {
+    let (mut low, mut high) = (0.0, 1.2);
+    for _ in 0..60 {
+        let eta: f64 = 0.5 * (low + high);
+        let sum = eta * 0.2 / 1.8 + 1.6 * eta / (1.44 - eta * eta);
+        if sum < 2.0 / 3.0 { low = eta } else { high = eta }
+    }
+    assert_relative_eq!(low, 0.468_732_574_577, max_relative = 1e-11);
+    low
+}
+
+/// A particle under a mean stress of 100 Pa with this stress ratio, on the yield surface.
+fn on_the_k0_line(eta: f64) -> CamClay {
+    let tau = Vector::<3>::new(-1.0 - 2.0 / 3.0 * eta, -1.0 + eta / 3.0, -1.0 + eta / 3.0);
+    let consolidation = 100.0 * (1.0 + eta * eta / 1.44);
+    clay(100.0).starting_at(Matrix::from_diagonal(&(tau * 100.0)), consolidation)
+}
+
+/// Uniaxial compression inside the yield surface has `q = 2 r (p - p0)`, and comes back the
+/// same way. A cycle of volume and shear does not: `q = 3 r (p - p0)/kappa eps_q` is left.
+#[test]
+fn elastic_strain_has_its_closed_forms() {
+    let mut soil = specimen(clay(1000.0));
+    let [p, q] = squeeze(&mut soil, [0.02, 0.0], 5);
+    assert_relative_eq!(p, 100.0 * libm::exp(1.0), max_relative = 1e-12);
+    assert_relative_eq!(q, 1.2 * (p - 100.0), max_relative = 1e-12);
+    let [p, q] = squeeze(&mut soil, [-0.02, 0.0], 3);
+    assert_relative_eq!(p, 100.0, max_relative = 1e-12);
+    assert_abs_diff_eq!(q, 0.0, epsilon = 1e-10);
+    for strain in [[0.01 / 3.0; 2], undrained(0.003), [-0.01 / 3.0; 2], undrained(-0.003)] {
+        squeeze(&mut soil, strain, 2);
+    }
+    let [p, q] = squeeze(&mut soil, [0.0; 2], 1);
+    assert_relative_eq!(p, 100.0, max_relative = 1e-12);
+    let high = 100.0 * libm::exp(0.5);
+    assert_relative_eq!(q, 1.8 / 0.02 * (high - 100.0) * 0.003, max_relative = 1e-10);
+}

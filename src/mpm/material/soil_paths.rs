@@ -1,0 +1,282 @@
+//! Plasticity of soils along paths of deformation: the stress of one particle after every step,
+//! against closed forms.
+
+use super::MaterialPlan;
+use super::plastic_flow::path::isotropic;
+use super::specimen::{SLOW, Specimen};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use rstest::rstest;
+
+/// Steps of a path.
+const STEPS: u32 = 40;
+
+/// Largest error of a component, over the largest stress of the path.
+const TOLERANCE: f64 = 1e-10;
+
+/// A path of principal logarithmic strains, with the principal Kirchhoff stresses (Pa) that a
+/// closed form has at each point.
+struct SoilPath {
+    strains: Vec<[f64; 3]>,
+    stresses: Vec<[f64; 3]>,
+}
+
+impl SoilPath {
+    /// The path over these parameters, from the strain and the stress of each.
+    fn through(
+        parameters: impl Iterator<Item = f64>,
+        strain: impl Fn(f64) -> [f64; 3],
+        stress: impl Fn(f64) -> [f64; 3],
+    ) -> Self {
+        let points = parameters.map(|e| (strain(e), stress(e)));
+        let (strains, stresses) = points.unzip();
+        Self { strains, stresses }
+    }
+
+    /// Asserts the stresses of a material along the path, on axes that turn by `angle` about the
+    /// third axis in all.
+    fn assert(&self, plan: MaterialPlan, angle: f64) {
+        let mut soil = Specimen::<3>::new(plan);
+        let largest = self.stresses.iter().flatten().fold(0.0, |m: f64, tau| m.max(tau.abs()));
+        let mut before = Matrix::<3>::identity();
+        for (step, (strain, stress)) in self.strains.iter().zip(&self.stresses).enumerate() {
+            let turn = about_third(angle * (step + 1) as f64 / self.strains.len() as f64);
+            let f = turn * Matrix::from_diagonal(&Vector::from(strain.map(libm::exp)));
+            let sigma = soil.deform(&(f * before.try_inverse().unwrap()), SLOW);
+            before = f;
+            let tau = turn.transpose() * sigma * turn * libm::exp(strain.iter().sum());
+            let error = (tau - Matrix::from_diagonal(&Vector::from(*stress))).abs().max();
+            assert!(error <= TOLERANCE * largest, "{plan:?} at {strain:?}: {tau} for {stress:?}");
+        }
+    }
+}
+
+fn about_third(angle: f64) -> Matrix<3> {
+    let (c, s) = (libm::cos(angle), libm::sin(angle));
+    Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
+}
+
+/// Equal steps up to `end`.
+fn up_to(end: f64) -> impl Iterator<Item = f64> {
+    (1..=STEPS).map(move |step| end * f64::from(step) / f64::from(STEPS))
+}
+
+fn along_first(e: f64) -> [f64; 3] {
+    [e, 0.0, 0.0]
+}
+
+fn isochoric(e: f64) -> [f64; 3] {
+    [e, -e, 0.0]
+}
+
+/// Drucker-Prager soil, K and mu (Pa): friction, dilation and strength k (Pa).
+#[derive(Clone, Copy)]
+struct Cone([f64; 2], [f64; 3]);
+
+impl Cone {
+    const SOIL: Self = Self([1e4, 6e3], [0.3, 0.1, 10.0]);
+
+    fn plan(self) -> MaterialPlan {
+        let Self([bulk, mu], [friction, dilation, strength]) = self;
+        let (young, poisson) = isotropic(bulk, mu);
+        MaterialPlan::DruckerPrager { young, poisson, friction, dilation, strength }
+    }
+
+    /// Uniaxial strain that has not turned back.
+    fn uniaxial(self, e: f64) -> [f64; 3] {
+        let Self([bulk, mu], [eta, etab, k]) = self;
+        let (sign, a) = (e.signum(), 2.0 * mu / 3.0_f64.sqrt());
+        let at_yield = k / (a + sign * eta * bulk);
+        let beyond = (e.abs() - at_yield).max(0.0);
+        let flow = (a + sign * eta * bulk) / (mu + bulk * eta * etab) * beyond;
+        let shear = a * e.abs() - mu * flow;
+        if shear < 0.0 {
+            return [k / eta; 3];
+        }
+        let mean = bulk * (e - etab * flow);
+        let lateral = mean - sign * shear / 3.0_f64.sqrt();
+        [mean + sign * 2.0 / 3.0_f64.sqrt() * shear, lateral, lateral]
+    }
+
+    /// The strain (e, -e, 0).
+    fn isochoric(self, e: f64) -> [f64; 3] {
+        let Self([bulk, mu], [eta, etab, k]) = self;
+        let beyond = (e - k / (2.0 * mu)).max(0.0);
+        let flow = 2.0 * mu / (mu + bulk * eta * etab) * beyond;
+        let (mean, shear) = (-bulk * etab * flow, 2.0 * mu * e - mu * flow);
+        [mean + shear, mean - shear, mean]
+    }
+}
+
+/// Mohr-Coulomb soil, lambda and mu (Pa): angles (degrees) and cohesion (Pa).
+#[derive(Clone, Copy)]
+struct Pyramid([f64; 2], [f64; 3]);
+
+impl Pyramid {
+    const fn soil(angles: [f64; 2]) -> Self {
+        Self([5e3, 7.5e3], [angles[0], angles[1], 10.0])
+    }
+
+    fn plan(self) -> MaterialPlan {
+        let Self([lambda, mu], [friction_angle, dilation_angle, cohesion]) = self;
+        let (young, poisson) = isotropic(lambda + 2.0 / 3.0 * mu, mu);
+        MaterialPlan::MohrCoulomb { young, poisson, friction_angle, dilation_angle, cohesion }
+    }
+
+    /// `sin(phi)`, `sin(psi)` and `2 c cos(phi)`.
+    fn surface(self) -> [f64; 3] {
+        let [phi, psi, cohesion] = self.1;
+        let sine = |angle: f64| libm::sin(angle.to_radians());
+        [sine(phi), sine(psi), 2.0 * cohesion * libm::cos(phi.to_radians())]
+    }
+
+    /// Uniaxial strain that has not turned back: on an edge beyond yield.
+    fn uniaxial(self, e: f64) -> [f64; 3] {
+        let (Self([l, mu], _), [s, sp, strength]) = (self, self.surface());
+        let m = l + 2.0 * mu;
+        // The multiplier, and the stresses that it takes from the axis and from the others.
+        let (towards, axial, lateral) = if e < 0.0 {
+            let axial = -4.0 * l * sp + 4.0 * mu * (1.0 - sp);
+            let lateral = -4.0 * l * sp - 2.0 * mu * (1.0 + sp);
+            (m * (1.0 - s) - l * (1.0 + s), -axial, -lateral)
+        } else {
+            let axial = 4.0 * l * sp + 4.0 * mu * (1.0 + sp);
+            let lateral = 4.0 * l * sp - 2.0 * mu * (1.0 - sp);
+            (m * (1.0 + s) - l * (1.0 - s), axial, lateral)
+        };
+        let slope = if e < 0.0 {
+            (1.0 + s) * lateral - (1.0 - s) * axial
+        } else {
+            (1.0 + s) * axial - (1.0 - s) * lateral
+        };
+        let flow = towards / slope * (e.abs() - strength / towards).max(0.0);
+        let [axial, lateral] = [m * e - flow * axial, l * e - flow * lateral];
+        if e > 0.0 && axial < lateral {
+            return [strength / (2.0 * s); 3];
+        }
+        [axial, lateral, lateral]
+    }
+
+    /// The strain (e, -e, 0), as long as the third stress is between the others.
+    fn isochoric(self, e: f64) -> [f64; 3] {
+        let (Self([l, mu], _), [s, sp, strength]) = (self, self.surface());
+        let high = 2.0 * mu * (1.0 + sp) + 2.0 * l * sp;
+        let low = 2.0 * mu * (1.0 - sp) - 2.0 * l * sp;
+        let flow = 4.0 * mu / ((1.0 + s) * high + (1.0 - s) * low);
+        let flow = flow * (e - strength / (4.0 * mu)).max(0.0);
+        [2.0 * mu * e - flow * high, -2.0 * mu * e + flow * low, -2.0 * l * sp * flow]
+    }
+}
+
+/// Compression, and extension to the apex, on fixed axes and on axes that turn by two radians.
+#[rstest]
+fn drucker_prager_has_its_closed_forms_along_a_path(
+    #[values(-0.05, -0.02, 0.0012, 0.005)] end: f64,
+    #[values(0.0, 2.0)] angle: f64,
+    #[values([0.3, 0.1, 10.0], [0.3, 0.3, 10.0], [0.3, 0.0, 10.0], [0.2, 0.1, 0.0])] soil: [f64; 3],
+) {
+    let soil = Cone([1e4, 6e3], soil);
+    let path = SoilPath::through(up_to(end), along_first, |e| soil.uniaxial(e));
+    path.assert(soil.plan(), angle);
+    let path = SoilPath::through(up_to(end.abs()), isochoric, |e| soil.isochoric(e));
+    path.assert(soil.plan(), angle);
+}
+
+#[rstest]
+fn mohr_coulomb_has_its_closed_forms_along_a_path(
+    #[values(-0.03, -0.01, 0.001, 0.005)] end: f64,
+    #[values(0.0, 2.0)] angle: f64,
+    #[values([30.0, 10.0], [30.0, 30.0], [20.0, 0.0], [0.0, 0.0])] angles: [f64; 2],
+) {
+    let soil = Pyramid::soil(angles);
+    let path = SoilPath::through(up_to(end), along_first, |e| soil.uniaxial(e));
+    path.assert(soil.plan(), angle);
+    // The face is left for an edge beyond.
+    let path = SoilPath::through(up_to(end.abs().min(0.01)), isochoric, |e| soil.isochoric(e));
+    path.assert(soil.plan(), angle);
+}
+
+/// Compression, unloading inside the yield surface and back, twice: a closed cycle of strain leaves
+/// no stress, and further compression has the stress of a path without unloading.
+#[rstest]
+fn unloading_is_elastic_and_leaves_no_trace(#[values(0.0, 2.0)] angle: f64) {
+    let cone = Cone::SOIL;
+    let Cone([bulk, mu], _) = cone;
+    unload(
+        cone.plan(),
+        |e| cone.uniaxial(e),
+        [bulk + 4.0 / 3.0 * mu, bulk - 2.0 / 3.0 * mu],
+        angle,
+    );
+    let pyramid = Pyramid::soil([30.0, 10.0]);
+    let Pyramid([lambda, mu], _) = pyramid;
+    unload(pyramid.plan(), |e| pyramid.uniaxial(e), [lambda + 2.0 * mu, lambda], angle);
+}
+
+/// With the moduli (Pa) of the driven axis and of the others.
+fn unload(
+    plan: MaterialPlan,
+    loading: impl Fn(f64) -> [f64; 3],
+    [axial, lateral]: [f64; 2],
+    angle: f64,
+) {
+    let (turning, back) = (-0.02, 0.003);
+    let elastic = |e: f64| {
+        let [first, second, third] = loading(turning);
+        let step = e - turning;
+        [first + axial * step, second + lateral * step, third + lateral * step]
+    };
+    let cycle = [0.5, 1.0, 0.5, 0.0].map(|share| turning + share * back);
+    let mut path = SoilPath::through(up_to(turning), along_first, &loading);
+    for part in [
+        SoilPath::through(cycle.into_iter().chain(cycle), along_first, elastic),
+        SoilPath::through(up_to(1.0).map(|share| turning * (1.0 + share)), along_first, &loading),
+    ] {
+        path.strains.extend(part.strains);
+        path.stresses.extend(part.stresses);
+    }
+    path.assert(plan, angle);
+}
+
+/// One step has the stress of many: the strain paths are straight.
+#[test]
+fn one_step_has_the_stress_of_many() {
+    let (cone, pyramid) = (Cone::SOIL, Pyramid::soil([30.0, 10.0]));
+    for e in [-0.02, 0.0012, 0.003] {
+        let once = std::iter::once(e);
+        SoilPath::through(once.clone(), along_first, |e| cone.uniaxial(e)).assert(cone.plan(), 0.0);
+        SoilPath::through(once, along_first, |e| pyramid.uniaxial(e)).assert(pyramid.plan(), 0.0);
+    }
+}
+
+/// Clay that stays at a constant stress ratio or inside the yield surface: isotropic compression
+/// through the preconsolidation pressure, uniaxial and isochoric strain of overconsolidated clay.
+#[rstest]
+fn clay_has_its_closed_forms_along_a_path(#[values(0.0, 2.0)] angle: f64) {
+    let clay = |preconsolidation| MaterialPlan::CamClay {
+        critical_state_slope: 1.2,
+        swelling_slope: 0.02,
+        compression_slope: 0.1,
+        poisson: 0.25,
+        initial_pressure: 100.0,
+        preconsolidation,
+    };
+    let to_yield = 0.02 * libm::log(1.5);
+    let isotropic = |volume: f64| {
+        let beyond = volume - to_yield;
+        let slope = if beyond > 0.0 { 0.1 } else { 0.02 };
+        [-150.0 * libm::exp(beyond / slope); 3]
+    };
+    let path = SoilPath::through(up_to(0.1), |volume| [-volume / 3.0; 3], isotropic);
+    path.assert(clay(150.0), angle);
+    let uniaxial = |e: f64| {
+        let p = 100.0 * libm::exp(-e / 0.02);
+        let q = 1.2 * (p - 100.0);
+        [-p - 2.0 / 3.0 * q, -p + q / 3.0, -p + q / 3.0]
+    };
+    for end in [-0.02, 0.005] {
+        let path = SoilPath::through(up_to(end), along_first, uniaxial);
+        path.assert(clay(1000.0), angle);
+    }
+    let shear = |e: f64| [2.0 * 3000.0 * e - 100.0, -2.0 * 3000.0 * e - 100.0, -100.0];
+    SoilPath::through(up_to(0.02), isochoric, shear).assert(clay(1000.0), angle);
+}
