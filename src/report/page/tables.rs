@@ -44,7 +44,7 @@ pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
         &[
             Html::tag("h2", &[("id", "methods-head")], "Methods by topic"),
             Html::tag("p", &[("class", "muted")], about),
-            scrolled("Methods by topic", Html::block("table", &[("class", "matrix")], &table)),
+            scrolled("Topics and bases", Html::block("table", &[("class", "matrix")], &table)),
         ],
     )
 }
@@ -60,7 +60,13 @@ fn share((kept, all): (usize, usize)) -> Html {
         0 => FindingClass::Fails,
         _ => FindingClass::NoOrder,
     };
-    Html::tag("td", &[("class", class.name())], format!("{kept} of {all}"))
+    coloured(class, format!("{kept} of {all}"))
+}
+
+/// A cell with the colour of a class. The colour is that of the text only: a cell with a background
+/// would hide the shadow that shows that a table goes on.
+fn coloured(class: FindingClass, text: String) -> Html {
+    Html::tag("td", &[], Html::tag("span", &[("class", class.name())], text))
 }
 
 /// A name as part of an id.
@@ -123,7 +129,7 @@ fn suite_row(source: &SuiteSource<'_>) -> Html {
     let mut cells = vec![Html::tag("th", &[("scope", "row")], name)];
     let found = findings(outcome).into_iter().zip(classes(outcome));
     cells.extend(found.map(|(finding, class)| match class {
-        Some(class) => Html::tag("td", &[("class", class.name())], finding),
+        Some(class) => coloured(class, finding),
         None => Html::tag("td", &[], finding),
     }));
     Html::tag("tr", &[], cells)

@@ -40,10 +40,10 @@ fn a_page_begins_with_the_achievements_of_each_method() {
         &page,
         &[
             // Two of three time schemes have the expected order, the third has a lower one.
-            "<a href=\"#group-the-talk\">the-talk</a></th><td class=\"low-order\">2 of 3</td>",
-            "<td class=\"low-order\">1.75..1.96</td>",
+            "<a href=\"#group-the-talk\">the-talk</a></th><td><span class=\"low-order\">2 of 3</span></td>",
+            "<td><span class=\"low-order\">1.75..1.96</span></td>",
             // A study of internal forces has no order.
-            "<td class=\"other\">see report</td>",
+            "<td><span class=\"other\">see report</span></td>",
             "data-basis=\"linear\" data-transfer=\"flip\" data-verdict=\"too low\"",
         ],
     );
