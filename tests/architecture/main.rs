@@ -214,6 +214,17 @@ fn old_words_of_reports_stay_away() {
 }
 
 #[test]
+fn texts_of_suites_have_no_unclear_phrase() {
+    let texts: Vec<words::Text> =
+        words::PLAIN_FILES.iter().flat_map(|(folder, end)| source::texts(folder, end)).collect();
+    hold(
+        "suites and their pages are in plain English (UNCLEAR_PHRASES in tests/architecture/words.rs)",
+        "a reader understands each sentence at the first reading",
+        &words::unclear_phrases(&texts),
+    );
+}
+
+#[test]
 fn no_two_types_have_one_name() {
     hold(
         "no two files of src/ define a type of the same name",

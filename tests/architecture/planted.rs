@@ -36,6 +36,18 @@ fn an_old_word_of_reports_is_found(#[case] text: &str, #[case] count: usize) {
 }
 
 #[rstest]
+#[case::in_a_line("because: a bar of which the end moves", &["verification/a.yaml:1"])]
+#[case::in_upper_case("# Whatever the law", &["verification/a.yaml:1"])]
+#[case::across_lines("about: |\n  the error of\n  which the cause is known\n", &["verification/a.yaml:2"])]
+#[case::across_lines_of_a_comment("# the error but\n# for rounding\n", &["verification/a.yaml:1"])]
+#[case::on_two_lines("but for a\nbut for b\n", &["verification/a.yaml:1", "verification/a.yaml:2"])]
+#[case::a_longer_word("a bar withheld to the end, beside_x", &[])]
+fn an_unclear_phrase_is_found(#[case] text: &str, #[case] expected: &[&str]) {
+    let breaches = words::unclear_phrases(&owned(&[("verification/a.yaml", text)]));
+    assert_eq!(places(&breaches), expected);
+}
+
+#[rstest]
 fn an_old_name_of_a_file_is_found() {
     let files = ["src/mpm/spots.rs", "src/pricing/mod.rs", "src/mpm/spotsy.rs"].map(str::to_owned);
     assert_eq!(places(&words::old_files(&files)), ["src/mpm/spots.rs:1", "src/pricing/mod.rs:1"]);

@@ -107,6 +107,51 @@ pub(crate) const OLD_PHRASES: &[(&str, &str)] = &[
     ("never beyond them", "interpolated, never extrapolated"),
 ];
 
+/// Folders whose prose has none of the `UNCLEAR_PHRASES`, with the end of the names of their files.
+pub(crate) const PLAIN_FILES: &[(&str, &str)] =
+    &[("verification", ".yaml"), ("verification", ".md")];
+
+/// Idioms and archaic phrases that a reader must decode, in lower case, each with a plain one.
+pub(crate) const UNCLEAR_PHRASES: &[(&str, &str)] = &[
+    ("of which", "whose, with, or two sentences"),
+    ("is told", "is determined, is reported"),
+    ("are told", "are determined, are reported"),
+    ("be told", "be determined, be reported"),
+    ("tells", "describes, reports"),
+    ("the words", "keys, arguments, names"),
+    ("words of", "keys, arguments, names"),
+    ("words for", "keys, arguments, names"),
+    ("words that", "keys, arguments, names"),
+    ("held to", "checked against, compared with"),
+    ("held against", "compared with"),
+    ("put to", "applied to, run on"),
+    ("put under", "run on"),
+    ("beside", "next to"),
+    ("besides", "in addition"),
+    ("but for", "except"),
+    ("anew", "again"),
+    ("once more", "again"),
+    ("for ever", "permanently"),
+    ("room", "module"),
+    ("rooms", "modules"),
+    ("house", "module"),
+    ("that is not of", "external, another"),
+    ("that are not of", "external, other"),
+    ("of others", "of other programs, of other methods"),
+    ("of one's own", "own"),
+    ("whatever", "any, for any"),
+    ("at a stroke", "abruptly"),
+    ("stands in for", "is used as"),
+    ("part and overlap", "separate and overlap"),
+    ("turn round", "stop converging"),
+    ("turns round", "stops converging"),
+    ("without ends", "periodic, infinite"),
+    ("by rule", "automatic"),
+    ("does not care", "does not depend on"),
+    ("do not care", "do not depend on"),
+    ("what is left", "the rest, the remaining error"),
+];
+
 /// Names that files and folders had, each with the one in its place.
 pub(crate) const OLD_FILES: &[(&str, &str)] = &[
     ("whereabouts", "cell_tracker"),
@@ -168,13 +213,6 @@ pub(crate) fn old(sources: &[Source]) -> Vec<Breach> {
 
 /// Texts with an old word of reports, as a whole word.
 pub(crate) fn old_phrases(texts: &[Text]) -> Vec<Breach> {
-    let is_word = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
-    let has = |line: &str, phrase: &str| {
-        line.match_indices(phrase).any(|(at, _)| {
-            let (before, after) = (&line[..at], &line[at + phrase.len()..]);
-            !is_word(before.chars().next_back()) && !is_word(after.chars().next())
-        })
-    };
     let of_text = |(file, text): &Text| -> Vec<Breach> {
         let lines = text.lines().enumerate();
         let of_line = |(at, line): (usize, &str)| {
@@ -185,6 +223,37 @@ pub(crate) fn old_phrases(texts: &[Text]) -> Vec<Breach> {
         lines.filter_map(of_line).collect()
     };
     texts.iter().flat_map(of_text).collect()
+}
+
+/// Texts with an unclear phrase, in any case of letters, also across the end of a line.
+pub(crate) fn unclear_phrases(texts: &[Text]) -> Vec<Breach> {
+    let of_text = |(file, text): &Text| -> Vec<Breach> {
+        let lowered = text.to_lowercase();
+        let lines: Vec<&str> =
+            lowered.lines().map(|line| line.trim().trim_start_matches(['#', ' '])).collect();
+        let of_line = |at: usize| {
+            let next = lines.get(at + 1).copied().unwrap_or_default();
+            let joined = format!("{} {next}", lines[at]);
+            let begins_here = |phrase: &str| {
+                has(lines[at], phrase) || (has(&joined, phrase) && !has(next, phrase))
+            };
+            let (phrase, better) =
+                UNCLEAR_PHRASES.iter().find(|(phrase, _)| begins_here(phrase))?;
+            let what = format!("has the unclear phrase `{phrase}`: write `{better}`");
+            Some(Breach { file: file.clone(), line: at + 1, what })
+        };
+        (0..lines.len()).filter_map(of_line).collect()
+    };
+    texts.iter().flat_map(of_text).collect()
+}
+
+/// Whether `phrase` occurs in `line` as whole words.
+fn has(line: &str, phrase: &str) -> bool {
+    let is_word = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
+    line.match_indices(phrase).any(|(at, _)| {
+        let (before, after) = (&line[..at], &line[at + phrase.len()..]);
+        !is_word(before.chars().next_back()) && !is_word(after.chars().next())
+    })
 }
 
 /// Files and folders with an old name.

@@ -13,7 +13,7 @@ fn column() -> String {
 /// The three lines that state it.
 const STATED: &str = "  linearised:
     tolerance: 5e-6
-    because: strains are 1e-6 and less, and the curvature of the law counts eightfold
+    because: strains are 1e-6 and less, and the nonlinearity of the law multiplies them by eight
 ";
 
 #[rstest]

@@ -18,7 +18,7 @@ use rstest::rstest;
      3e-13 m during the run, because strains are 1e-6",
 ])]
 #[case::one_particle("grid-crossing", &[
-    "grid-crossing: Grid crossing, the mechanism",
+    "grid-crossing: Mechanism of grid crossing",
     "prediction        -sigma*Omega*(n_left - n_right)/h N",
     "mpm-linear\n  expected: agrees with the prediction within 1e-14\n  because: the gradients",
 ])]
