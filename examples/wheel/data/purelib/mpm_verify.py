@@ -1,1 +1,0 @@
-../../../solvers/mpm_verify.py

@@ -1,0 +1,1 @@
+../../../../solvers/mpm_verify.py
