@@ -9,6 +9,8 @@ const SMALL: [&str; 4] = ["0.01 %", "0.1 %", "1 %", "+ 1"];
 
 /// Keys, or keys and names as `key: name`, with their reasons.
 const REASONS: &[(&str, &str)] = &[
+    ("scene.material.jaumann.density", "its suite has no acceleration"),
+    ("scene.material.green_naghdi.density", "its suite has no acceleration"),
     ("scene.dimension", "another dimension is another text: vectors lack components"),
     ("particles.perturb", "any place of a particle is right: errors are taken where it is"),
     ("particles.shift", "any place of a particle is right: errors are taken where it is"),
