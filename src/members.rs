@@ -14,6 +14,10 @@ macro_rules! each_material {
         $declare! {
             "linear_elastic" => linear_elastic::LinearElastic { young: YOUNG, poisson: POISSON },
                 truth small_strain::SmallStrainLaw;
+            "jaumann" => jaumann::Jaumann { young: YOUNG, poisson: POISSON },
+                truth jaumann::JaumannLaw;
+            "green_naghdi" => green_naghdi::GreenNaghdi { young: YOUNG, poisson: POISSON },
+                truth green_naghdi::GreenNaghdiLaw;
             "neo_hookean" => neo_hookean::NeoHookean { young: YOUNG, poisson: POISSON },
                 truth neo_hookean::NeoHookeanLaw;
             "hencky" => hencky::Hencky { young: YOUNG, poisson: POISSON },

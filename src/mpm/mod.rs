@@ -51,9 +51,10 @@ pub use kernel::contract::{
 pub use kernel::{kernel, kernel_with};
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
 pub use material::{
-    CamClay, Contradiction, DruckerPrager, ElastoPlastic, Hencky, J2, LinearElastic, LinearFluid,
-    Material, MaterialParameter, MaterialPlan, MaterialProperties, MaterialSpec, MohrCoulomb,
-    NeoHookean, Newtonian, Prestressed, Range, Rigid, StressBlock, StressUpdate,
+    CamClay, Contradiction, DruckerPrager, ElastoPlastic, GreenNaghdi, Hencky, J2, Jaumann,
+    LinearElastic, LinearFluid, Material, MaterialParameter, MaterialPlan, MaterialProperties,
+    MaterialSpec, MohrCoulomb, NeoHookean, Newtonian, Prestressed, Range, Rigid, StressBlock,
+    StressUpdate,
 };
 pub use multibody::Bodies;
 pub use scheme::{SchemeName, Stage};

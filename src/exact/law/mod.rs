@@ -10,6 +10,7 @@ mod registry;
 #[allow(unreachable_pub)] // public where the page puts it
 #[path = "../../../tests/exercises/st_venant_kirchhoff_law.rs"]
 mod st_venant_kirchhoff_law;
+mod simple_shear;
 mod uniaxial_flow;
 
 use super::formula::Number;

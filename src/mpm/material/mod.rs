@@ -11,6 +11,8 @@ mod laws;
 mod plane_stress;
 mod plastic_flow;
 mod prestressed;
+#[cfg(test)]
+mod rate_paths;
 mod registry;
 #[cfg(test)]
 mod soil_paths;

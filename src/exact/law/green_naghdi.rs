@@ -1,0 +1,71 @@
+//! Linear elasticity with the rate of Green and Naghdi, in simple shear.
+//!
+//! With `tan(beta) = gamma/2`, the angle by which the rotation of `F = R U` turns, the rate
+//! integrates to (Dienes 1979)
+//!
+//! ```text
+//! tau12 = 2 mu cos(2 beta) (2 beta - 2 tan(2 beta) ln(cos(beta)) - tan(beta))
+//! tau11 = -tau22 = 4 mu (cos(2 beta) ln(cos(beta)) + beta sin(2 beta) - sin(beta)^2)
+//! ```
+
+use super::contract::{ConstitutiveLaw, Lame};
+use super::simple_shear::{admit_a_plane, piola_in_simple_shear};
+use crate::exact::formula::Number;
+use crate::exact::tensor::Tensor;
+
+/// Linear elasticity with the rate of Green and Naghdi in simple shear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GreenNaghdiLaw(Lame);
+
+impl GreenNaghdiLaw {
+    /// From Young's modulus (Pa) and Poisson's ratio.
+    pub fn new(young: f64, poisson: f64) -> Self {
+        Self(Lame::new(young, poisson))
+    }
+}
+
+impl ConstitutiveLaw for GreenNaghdiLaw {
+    const NAME: &'static str = "green_naghdi";
+    const EQUATION: &'static str = "linear elasticity with the rate of Green and Naghdi in simple \
+                                    shear, rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
+                                    tau_dot = L tr(d) I + 2 mu d + W tau - tau W, W = R_dot R^T";
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        let mu = T::from(self.0.mu);
+        piola_in_simple_shear(grad, |gamma| {
+            let beta = Number::atan(gamma * T::from(0.5));
+            let double = beta + beta;
+            let (cos, sin) = (Number::cos(double), Number::sin(double));
+            let log = Number::ln(Number::cos(beta));
+            let (half, square) = (Number::tan(beta), Number::sin(beta) * Number::sin(beta));
+            // cos(2 beta) tan(2 beta) is sin(2 beta), also at a right angle.
+            let shear = T::from(2.0) * (cos * (double - half) - T::from(2.0) * sin * log);
+            [T::from(4.0) * mu * (cos * log + beta * sin - square), mu * shear]
+        })
+    }
+
+    fn modulus(&self) -> f64 {
+        self.0.modulus()
+    }
+
+    fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
+        admit_a_plane(dimension)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::simple_shear::assert_kirchhoff;
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case(1.0, [0.415_900_087_2, 0.869_783_943_7])]
+    #[case(3.0, [1.766_203_744_6, 1.817_834_265_2])]
+    fn simple_shear_has_the_values_of_an_independent_program(
+        #[case] gamma: f64,
+        #[case] tau: [f64; 2],
+    ) {
+        assert_kirchhoff(&GreenNaghdiLaw::new(2.5, 0.25), gamma, tau);
+    }
+}

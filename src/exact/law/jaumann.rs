@@ -1,0 +1,59 @@
+//! Linear elasticity with the rate of Jaumann, in simple shear.
+//!
+//! In simple shear by gamma the spin is constant in gamma, and the rate integrates to `tau12 = mu
+//! sin(gamma)`, `tau11 = -tau22 = mu (1 - cos(gamma))` (Dienes 1979): the shear stress oscillates.
+
+use super::contract::{ConstitutiveLaw, Lame};
+use super::simple_shear::{admit_a_plane, piola_in_simple_shear};
+use crate::exact::formula::Number;
+use crate::exact::tensor::Tensor;
+
+/// Linear elasticity with the rate of Jaumann in simple shear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JaumannLaw(Lame);
+
+impl JaumannLaw {
+    /// From Young's modulus (Pa) and Poisson's ratio.
+    pub fn new(young: f64, poisson: f64) -> Self {
+        Self(Lame::new(young, poisson))
+    }
+}
+
+impl ConstitutiveLaw for JaumannLaw {
+    const NAME: &'static str = "jaumann";
+    const EQUATION: &'static str = "linear elasticity with the rate of Jaumann in simple shear, \
+                                    rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
+                                    tau12 = mu sin(gamma), tau11 = -tau22 = mu (1 - cos(gamma))";
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        let mu = T::from(self.0.mu);
+        piola_in_simple_shear(grad, |gamma| {
+            [mu * (T::from(1.0) - Number::cos(gamma)), mu * Number::sin(gamma)]
+        })
+    }
+
+    fn modulus(&self) -> f64 {
+        self.0.modulus()
+    }
+
+    fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
+        admit_a_plane(dimension)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::simple_shear::assert_kirchhoff;
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case(1.0, [0.459_697_694_1, 0.841_470_984_8])]
+    #[case(3.0, [1.989_992_496_6, 0.141_120_008_1])]
+    fn simple_shear_has_the_values_of_an_independent_program(
+        #[case] gamma: f64,
+        #[case] tau: [f64; 2],
+    ) {
+        assert_kirchhoff(&JaumannLaw::new(2.5, 0.25), gamma, tau);
+    }
+}

@@ -1,0 +1,99 @@
+//! Objective rates of linear elasticity along paths with rotation: the limit of small steps, against
+//! closed forms and the values of an independent program.
+
+use super::MaterialPlan;
+use super::specimen::{SLOW, Specimen};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use approx::assert_abs_diff_eq;
+use rstest::rstest;
+
+/// A law with lambda = mu = 1 Pa.
+const JAUMANN: MaterialPlan = MaterialPlan::Jaumann { young: 2.5, poisson: 0.25 };
+const GREEN_NAGHDI: MaterialPlan = MaterialPlan::GreenNaghdi { young: 2.5, poisson: 0.25 };
+const LOGARITHMIC: MaterialPlan = MaterialPlan::Hencky { young: 2.5, poisson: 0.25 };
+
+/// Plane F with a shear `a` and a stretch `b` of the second axis.
+fn sheared([a, b]: [f64; 2]) -> Matrix<2> {
+    Matrix::<2>::new(1.0, a, 0.0, b)
+}
+
+/// Components 11 and 12 of the Kirchhoff stress (Pa) at the end of a path of shears and stretches
+/// with straight sides, and the work per reference volume (J/m3), in so many steps of each side.
+fn follow(plan: MaterialPlan, corners: &[[f64; 2]], steps: u32) -> Vector<3> {
+    let mut body = Specimen::<2>::new(plan);
+    let (mut before, mut tau, mut work) = (sheared(corners[0]), Matrix::<2>::zeros(), 0.0);
+    for side in corners.windows(2) {
+        for step in 1..=steps {
+            let share = f64::from(step) / f64::from(steps);
+            let mix = |i: usize| side[0][i] + share * (side[1][i] - side[0][i]);
+            let now = sheared([mix(0), mix(1)]);
+            let sigma = body.deform(&(now * before.try_inverse().unwrap()), SLOW);
+            let after = sigma * now.determinant();
+            // The velocity gradient of the step about its middle.
+            let rate = (now - before) * (0.5 * (now + before)).try_inverse().unwrap();
+            work += (0.5 * (tau + after)).dot(&(0.5 * (rate + rate.transpose())));
+            (before, tau) = (now, after);
+        }
+    }
+    assert_abs_diff_eq!(tau[(1, 0)], tau[(0, 1)], epsilon = 1e-14);
+    Vector::<3>::new(tau[(0, 0)], tau[(0, 1)], work)
+}
+
+/// The limit of small steps by Richardson's extrapolation in squares of the step, and the observed
+/// order of the first component.
+fn limit(plan: MaterialPlan, corners: &[[f64; 2]]) -> (Vector<3>, f64) {
+    let mut rows: Vec<Vector<3>> = (4..=9).map(|k| follow(plan, corners, 1 << k)).collect();
+    let change = |k: usize| rows[k + 1][0] - rows[k][0];
+    let order = libm::log2(change(3) / change(4));
+    for k in 1..rows.len() as i32 {
+        let weight = f64::from(4_i32.pow(k.unsigned_abs()) - 1);
+        rows = rows.windows(2).map(|pair| pair[1] + (pair[1] - pair[0]) / weight).collect();
+    }
+    (rows[0], order)
+}
+
+/// Simple shear: components 11 and 12, which the rates give in order 2.
+#[rstest]
+#[case::jaumann(JAUMANN, 1.0, [0.459_697_694_1, 0.841_470_984_8])]
+#[case::jaumann_far(JAUMANN, 3.0, [1.989_992_496_6, 0.141_120_008_1])]
+#[case::green_naghdi(GREEN_NAGHDI, 1.0, [0.415_900_087_2, 0.869_783_943_7])]
+#[case::green_naghdi_far(GREEN_NAGHDI, 3.0, [1.766_203_744_6, 1.817_834_265_2])]
+#[case::logarithmic(LOGARITHMIC, 1.0, [0.430_408_941_0, 0.860_817_881_9])]
+#[case::logarithmic_far(LOGARITHMIC, 3.0, [1.988_206_173_2, 1.325_470_782_1])]
+fn simple_shear_has_the_stress_of_its_rate(
+    #[case] plan: MaterialPlan,
+    #[case] gamma: f64,
+    #[case] expected: [f64; 2],
+) {
+    let (found, order) = limit(plan, &[[0.0, 1.0], [gamma, 1.0]]);
+    for i in 0..2 {
+        assert_abs_diff_eq!(found[i], expected[i], epsilon = 1e-10);
+    }
+    assert!(plan == LOGARITHMIC || (1.98..2.02).contains(&order), "order {order}");
+}
+
+/// A closed cycle of shear and stretch: stress and work are left, except by the logarithmic rate.
+/// The stress of the reversed cycle differs, its work does not.
+#[rstest]
+#[case::jaumann(JAUMANN, [-0.002_977_508_1, -0.003_181_719_0], [0.003_081_891_7, 0.003_080_719_7], 9.494_445e-6)]
+#[case::green_naghdi(GREEN_NAGHDI, [0.001_516_992_8, 0.001_567_942_8], [f64::NAN; 2], 2.379_856e-6)]
+#[case::logarithmic(LOGARITHMIC, [0.0; 2], [0.0; 2], 0.0)]
+fn a_closed_cycle_leaves_the_stress_of_its_rate(
+    #[case] plan: MaterialPlan,
+    #[case] expected: [f64; 2],
+    #[case] reversed: [f64; 2],
+    #[case] work: f64,
+) {
+    let mut corners = [[0.0, 1.0], [0.0, 1.2], [0.2, 1.2], [0.2, 1.0], [0.0, 1.0]];
+    for expected in [expected, reversed] {
+        let (found, order) = limit(plan, &corners);
+        for i in 0..2 {
+            if expected[i].is_finite() {
+                assert_abs_diff_eq!(found[i], expected[i], epsilon = 1e-10);
+            }
+        }
+        assert_abs_diff_eq!(found[2], work, epsilon = 1e-12);
+        assert!(plan == LOGARITHMIC || (1.95..2.05).contains(&order), "order {order}");
+        corners.reverse();
+    }
+}
