@@ -68,47 +68,31 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
         // Wrapped once for an axis, not once for a node.
         let nodes: [[usize; K]; D] =
             array([0; K], |axis| array(0, |k| grid.wrap(self.0[axis].first + k, axis)));
-        // Nested loops with constant bounds: what a caller does not read is left out, and rows and
-        // planes are numbered once.
-        for k in 0..if D > 2 { K } else { 1 } {
-            for j in 0..if D > 1 { K } else { 1 } {
-                let across = [0, j, k];
-                if (1..D).any(|axis| nodes[axis][across[axis]] >= grid.counts[axis]) {
-                    continue;
-                }
-                for i in 0..K {
-                    if nodes[0][i] >= grid.counts[0] {
-                        continue;
-                    }
-                    let at = [i, j, k];
-                    let mut weight = self.0[0].weight[i];
-                    for axis in 1..D {
-                        weight *= self.0[axis].weight[at[axis]];
-                    }
-                    let (mut gradient, mut offset) = (Vector::zeros(), Vector::zeros());
-                    for along in 0..D {
-                        let factor = |axis: usize| {
-                            let functions = &self.0[axis];
-                            let of =
-                                if axis == along { &functions.slope } else { &functions.weight };
-                            of[at[axis]]
-                        };
-                        let mut product = factor(0);
-                        for axis in 1..D {
-                            product *= factor(axis);
-                        }
-                        gradient[along] = product;
-                        offset[along] = self.0[along].offset[at[along]];
-                    }
-                    let index: [usize; D] = array(0, |axis| nodes[axis][at[axis]]);
-                    visit(NodeWeight {
-                        node: grid.node(&index),
-                        weight,
-                        gradient: &gradient,
-                        offset,
-                    });
-                }
+        for n in 0..K.pow(D as u32) {
+            let at: [usize; D] = array(0, |axis| n / K.pow(axis as u32) % K);
+            let index: [usize; D] = array(0, |axis| nodes[axis][at[axis]]);
+            if (0..D).any(|axis| index[axis] >= grid.counts[axis]) {
+                continue;
             }
+            let factor = |axis: usize, of: &[f64; K]| of[at[axis]];
+            let mut weight = factor(0, &self.0[0].weight);
+            for axis in 1..D {
+                weight *= factor(axis, &self.0[axis].weight);
+            }
+            let (mut gradient, mut offset) = (Vector::zeros(), Vector::zeros());
+            for along in 0..D {
+                let functions = |axis: usize| {
+                    let functions = &self.0[axis];
+                    if axis == along { &functions.slope } else { &functions.weight }
+                };
+                let mut product = factor(0, functions(0));
+                for axis in 1..D {
+                    product *= factor(axis, functions(axis));
+                }
+                gradient[along] = product;
+                offset[along] = self.0[along].offset[at[along]];
+            }
+            visit(NodeWeight { node: grid.node(&index), weight, gradient: &gradient, offset });
         }
     }
 }

@@ -171,11 +171,7 @@ impl<const D: usize> Grid<D> {
     /// Index of a function on `axis`, brought back into the grid on a periodic axis.
     #[inline]
     pub fn wrap(&self, index: usize, axis: usize) -> usize {
-        // Most indices are inside, and a comparison is faster than a division.
-        if index < self.counts[axis] || !self.periodic[axis] {
-            return index;
-        }
-        index % self.counts[axis]
+        if self.periodic[axis] { index % self.counts[axis] } else { index }
     }
 
     /// [`Grid::wrap`] for a whole number that may lie before the first wall.
