@@ -54,23 +54,22 @@ impl<const N: usize> Jet<N> {
         self.hessian[i][j]
     }
 
-    /// Builds a jet from its value and the formulas of its derivatives; `second` must be symmetric,
-    /// bit for bit.
+    /// Builds a jet from its value and the formulas of its derivatives; `second` is symmetric.
     #[inline]
     fn build(
         value: f64,
         first: impl Fn(usize) -> f64,
         second: impl Fn(usize, usize) -> f64,
     ) -> Self {
-        // Both halves: whole rows take fewer instructions than half of them and copies.
-        let (mut gradient, mut hessian) = ([0.0; N], [[0.0; N]; N]);
+        let mut jet = Self::from(value);
         for i in 0..N {
-            gradient[i] = first(i);
-            for j in 0..N {
-                hessian[i][j] = second(i, j);
+            jet.gradient[i] = first(i);
+            for j in 0..=i {
+                let second = second(i, j);
+                (jet.hessian[i][j], jet.hessian[j][i]) = (second, second);
             }
         }
-        Self { value, gradient, hessian }
+        jet
     }
 
     /// The chain rule for a function of one argument with derivatives `f1` and `f2` at `self`.
