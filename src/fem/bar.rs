@@ -4,9 +4,26 @@
 
 use super::Sampling;
 use super::mass::{BarMassMatrix, add_nodal_lengths};
-use super::mesh::{Mesh, dot};
+use super::mesh::{Element, Mesh, dot};
 use super::setup::{BarSetup, ScalarFunction, SetupError};
 use crate::subject::{Checkpoint, Failure, RunCounters, Samples, Site, Start, Subject};
+
+/// Evaluates `$body` with `$nodes` as the number of nodes of an element, a constant: the loops over
+/// them are unrolled.
+macro_rules! with_nodes {
+    ($element:expr, $nodes:ident => $body:expr) => {
+        match $element {
+            Element::Linear => {
+                const $nodes: usize = 2;
+                $body
+            }
+            Element::Quadratic => {
+                const $nodes: usize = 3;
+                $body
+            }
+        }
+    };
+}
 
 /// A bar, discretised by finite elements, at some instant.
 pub struct Bar {
@@ -115,42 +132,55 @@ impl Bar {
     /// F at every quadrature point. An element that is turned inside out has no physical stress,
     /// and an infinite or undefined nodal value always shows as an F that is not finite.
     fn deform(&mut self) -> Result<(), Failure> {
-        let points = self.mesh.points();
-        for (cell, def_grads) in self.def_grad.chunks_exact_mut(points.len()).enumerate() {
-            let local = self.mesh.local(cell, &self.displacement);
+        with_nodes!(self.mesh.element(), N => self.deform_elements::<N>())?;
+        self.count_visits();
+        Ok(())
+    }
+
+    /// F of elements with N nodes and as many quadrature points.
+    fn deform_elements<const N: usize>(&mut self) -> Result<(), Failure> {
+        let (points, mut least) = (self.mesh.points_of::<N>(), self.min_j);
+        let elements = self.def_grad.as_chunks_mut::<N>().0.iter_mut().enumerate();
+        for (cell, def_grads) in elements {
+            let local = self.mesh.nodes_of::<N>(cell, &self.displacement);
             for (def_grad, point) in def_grads.iter_mut().zip(points) {
                 *def_grad = 1.0 + dot(&point.gradient, local);
-                if !def_grad.is_finite() {
-                    let (quantity, site) = ("deformation gradient", Site::Element(cell));
-                    return Err(Failure::NonFinite { quantity, site });
+                if !(*def_grad > 0.0 && *def_grad < f64::INFINITY) {
+                    self.min_j = least.min(*def_grad);
+                    return Err(no_deformation(cell, *def_grad));
                 }
-                self.min_j = self.min_j.min(*def_grad);
-                if *def_grad <= 0.0 {
-                    return Err(Failure::Inverted { site: Site::Element(cell), j: *def_grad });
+                if *def_grad < least {
+                    least = *def_grad;
                 }
             }
         }
-        self.count_visits();
+        self.min_j = least;
         Ok(())
     }
 
     /// Nodal forces per unit area, in the order: inside, body force, ends.
     fn force(&mut self) -> Result<(), Failure> {
         self.acceleration.fill(0.0);
-        let points = self.mesh.points();
-        for (cell, def_grads) in self.def_grad.chunks_exact(points.len()).enumerate() {
-            let local = self.mesh.local_mut(cell, &mut self.acceleration);
-            for (point, &def_grad) in points.iter().zip(def_grads) {
-                let piola = (self.setup.law)(def_grad) * point.weight;
+        with_nodes!(self.mesh.element(), N => self.add_stress::<N>());
+        self.count_visits();
+        self.add_body_force();
+        self.add_ends();
+        all_finite("force", &self.acceleration)
+    }
+
+    /// `-int P dN_i/dX dX` over elements with N nodes and as many quadrature points.
+    fn add_stress<const N: usize>(&mut self) {
+        let points = self.mesh.points_of::<N>();
+        let elements = self.def_grad.as_chunks::<N>().0.iter().enumerate();
+        for (cell, def_grads) in elements {
+            let local = self.mesh.nodes_of_mut::<N>(cell, &mut self.acceleration);
+            for (point, def_grad) in points.iter().zip(def_grads) {
+                let piola = (self.setup.law)(*def_grad) * point.weight;
                 for (force, gradient) in local.iter_mut().zip(point.gradient) {
                     *force -= piola * gradient;
                 }
             }
         }
-        self.count_visits();
-        self.add_body_force();
-        self.add_ends();
-        all_finite("force", &self.acceleration)
     }
 
     /// `int rho0 b N_i dX`.
@@ -241,6 +271,17 @@ impl Subject for Bar {
     }
 }
 
+/// Why `def_grad` is no F of the element `cell`.
+#[cold]
+fn no_deformation(cell: usize, def_grad: f64) -> Failure {
+    let site = Site::Element(cell);
+    if def_grad.is_finite() {
+        Failure::Inverted { site, j: def_grad }
+    } else {
+        Failure::NonFinite { quantity: "deformation gradient", site }
+    }
+}
+
 /// Reference positions of all quadrature points, element after element.
 fn quadrature(mesh: &Mesh) -> Vec<f64> {
     let inside = |cell| mesh.points().iter().map(move |point| mesh.position(cell, point.place));
@@ -255,6 +296,10 @@ fn interpolant(nodes: &[f64], fixed: [bool; 2], field: &ScalarFunction) -> Vec<f
 }
 
 fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
+    // Without an early end, so that the compiler checks several numbers at once.
+    if nodal.iter().fold(true, |finite, value| finite & value.is_finite()) {
+        return Ok(());
+    }
     match nodal.iter().position(|value| !value.is_finite()) {
         Some(node) => Err(Failure::NonFinite { quantity, site: Site::Node(node) }),
         None => Ok(()),

@@ -61,6 +61,34 @@ impl Mesh {
         &self.points
     }
 
+    /// Quadrature points of an element with N nodes, which has as many of them.
+    #[inline]
+    pub(super) fn points_of<const N: usize>(&self) -> &[MeshPoint; N] {
+        self.points.first_chunk().unwrap_or_else(|| unreachable!("{N} nodes"))
+    }
+
+    /// Nodal values of a cell with N nodes.
+    #[inline]
+    pub(super) fn nodes_of<'a, const N: usize>(
+        &self,
+        cell: usize,
+        nodal: &'a [f64],
+    ) -> &'a [f64; N] {
+        let local = nodal[cell * (N - 1)..].first_chunk();
+        local.unwrap_or_else(|| unreachable!("cell {cell}"))
+    }
+
+    /// Nodal values of a cell with N nodes, to be changed.
+    #[inline]
+    pub(super) fn nodes_of_mut<'a, const N: usize>(
+        &self,
+        cell: usize,
+        nodal: &'a mut [f64],
+    ) -> &'a mut [f64; N] {
+        let local = nodal[cell * (N - 1)..].first_chunk_mut();
+        local.unwrap_or_else(|| unreachable!("cell {cell}"))
+    }
+
     /// Number of nodes.
     pub(super) fn node_count(&self) -> usize {
         self.cells * self.element.degree() + 1
