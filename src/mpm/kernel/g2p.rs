@@ -210,8 +210,10 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
                     self.gather_patches(simd, patches, lanes, of_all, offsets, &mut sums);
                 },
             );
-            if seen != ALL {
-                sums.reset(simd, offsets, slopes, |lane| seen >> lane & 1 == 0);
+            // Lanes beyond the last particle are not written.
+            let unseen = !seen & ALL >> BATCH.saturating_sub(self.particles.len() - first);
+            if unseen != 0 {
+                sums.reset(simd, offsets, slopes, |lane| unseen >> lane & 1 == 1);
             }
             self.write(first - self.range.start, offsets, &sums);
         }
