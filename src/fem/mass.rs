@@ -1,6 +1,8 @@
 //! The mass matrix, and accelerations from forces.
 
-use nalgebra_sparse::CooMatrix;
+use nalgebra::DMatrixViewMut;
+use nalgebra_sparse::factorization::CscCholesky;
+use nalgebra_sparse::{CooMatrix, CscMatrix};
 
 use super::Mass;
 use super::mesh::Mesh;
@@ -10,8 +12,9 @@ use crate::subject::Failure;
 pub(super) enum BarMassMatrix {
     /// The diagonal.
     Lumped(Vec<f64>),
-    /// The factors of the matrix.
-    Consistent(BandFactor),
+    /// The Cholesky factor. It keeps the band of the matrix, so nothing is lost by a library that
+    /// does not reorder.
+    Consistent(Box<CscCholesky<f64>>),
 }
 
 impl BarMassMatrix {
@@ -25,10 +28,10 @@ impl BarMassMatrix {
         match mass {
             Mass::Lumped => Ok(Self::Lumped(lumped(mesh, density))),
             Mass::Consistent => {
-                let matrix = held(&consistent(mesh, density), fixed);
-                let factor = BandFactor::new(&matrix, mesh.element().degree());
-                let singular = "mass matrix: the matrix is not positive definite";
-                factor.map(Self::Consistent).ok_or_else(|| Failure::Solve(singular.to_owned()))
+                let matrix = CscMatrix::from(&held(&consistent(mesh, density), fixed));
+                let factor = CscCholesky::factor(&matrix)
+                    .map_err(|error| Failure::Solve(format!("mass matrix: {error}")))?;
+                Ok(Self::Consistent(Box::new(factor)))
             }
         }
     }
@@ -42,89 +45,10 @@ impl BarMassMatrix {
                     *force /= mass;
                 }
             }
-            Self::Consistent(factor) => factor.solve(force),
-        }
-    }
-}
-
-/// Largest number of diagonals below that of a matrix.
-const MOST_BELOW: usize = 2;
-
-/// Factors `L D L^T` of a symmetric, positive definite band matrix (Golub & Van Loan, *Matrix
-/// Computations*, 2013, section 4.3.6). L has a unit diagonal: only products and sums depend on the
-/// row before, and all quotients are independent of each other.
-pub(super) struct BandFactor {
-    /// D.
-    diagonal: Vec<f64>,
-    /// The entries of each column of L below its diagonal.
-    below: Vec<[f64; MOST_BELOW]>,
-    /// Number of these entries that may differ from zero.
-    width: usize,
-}
-
-impl BandFactor {
-    /// Factorises a matrix with `width` diagonals below its own, from the entries of its lower
-    /// half; entries of the same place are added. `None` if the matrix is not positive definite.
-    pub(super) fn new(matrix: &CooMatrix<f64>, width: usize) -> Option<Self> {
-        let size = matrix.nrows();
-        let (mut diagonal, mut below) = (vec![0.0; size], vec![[0.0; MOST_BELOW]; size]);
-        for (i, j, value) in matrix.triplet_iter().filter(|(i, j, _)| i >= j) {
-            if i == j {
-                diagonal[j] += value;
-            } else {
-                below[j][i - j - 1] += value;
+            Self::Consistent(factor) => {
+                let rows = force.len();
+                factor.solve_mut(DMatrixViewMut::from_slice(force, rows, 1));
             }
-        }
-        for j in 0..size {
-            let pivot = diagonal[j];
-            if !(pivot > 0.0) {
-                return None;
-            }
-            let column = below[j];
-            for (a, entry) in column.iter().enumerate().take(width.min(size - 1 - j)) {
-                let factor = entry / pivot;
-                diagonal[j + 1 + a] -= factor * entry;
-                for b in a + 1..width {
-                    below[j + 1 + a][b - a - 1] -= factor * column[b];
-                }
-                below[j][a] = factor;
-            }
-        }
-        Some(Self { diagonal, below, width })
-    }
-
-    /// Replaces the right side by the solution.
-    pub(super) fn solve(&self, side: &mut [f64]) {
-        match self.width {
-            1 => self.solve_band::<1>(side),
-            _ => self.solve_band::<MOST_BELOW>(side),
-        }
-    }
-
-    /// Solves with W entries below the diagonal of each column. The last W results are kept in
-    /// registers: each row would otherwise wait for the store of the row before.
-    fn solve_band<const W: usize>(&self, side: &mut [f64]) {
-        // What the rows above subtract from the next W rows.
-        let mut pending = [0.0; W];
-        for (value, below) in side.iter_mut().zip(&self.below) {
-            *value -= pending[0];
-            for k in 0..W {
-                let term = below[k] * *value;
-                pending[k] = if k + 1 < W { pending[k + 1] + term } else { term };
-            }
-        }
-        for (value, diagonal) in side.iter_mut().zip(&self.diagonal) {
-            *value /= diagonal;
-        }
-        let mut later = [0.0; W];
-        for (value, below) in side.iter_mut().zip(&self.below).rev() {
-            for k in (0..W).rev() {
-                *value -= below[k] * later[k];
-            }
-            for k in (1..W).rev() {
-                later[k] = later[k - 1];
-            }
-            later[0] = *value;
         }
     }
 }

@@ -1,12 +1,11 @@
 //! Shape functions, quadrature, mesh and mass matrices.
 
 use approx::assert_relative_eq;
-use nalgebra_sparse::CooMatrix;
 use proptest::prelude::*;
 use rstest::rstest;
 
 use crate::fem::Element;
-use crate::fem::mass::{BandFactor, consistent, lumped};
+use crate::fem::mass::{consistent, lumped};
 use crate::fem::mesh::Mesh;
 
 fn element() -> impl Strategy<Value = Element> {
@@ -103,43 +102,4 @@ fn lumping_sums_the_rows_and_keeps_the_mass(
         assert_relative_eq!(row, mass, max_relative = 1e-14);
     }
     assert_relative_eq!(diagonal.iter().sum::<f64>(), 2.5 * 3.0, max_relative = 1e-14);
-}
-
-proptest! {
-    /// The diagonal is larger than the other entries of a row: the matrix is positive definite.
-    #[test]
-    fn a_factor_solves_its_matrix(
-        entries in proptest::collection::vec([-1.0..1.0, -1.0..1.0, 4.5..9.0, -1.0..1.0], 1..12),
-        width in 1_usize..3,
-    ) {
-        let size = entries.len();
-        let mut matrix = CooMatrix::new(size, size);
-        let mut product = vec![0.0; size];
-        for (j, [first, second, diagonal, _]) in entries.iter().enumerate() {
-            matrix.push(j, j, *diagonal);
-            for (i, entry) in [(j + 1, *first), (j + 2, *second)].into_iter().take(width) {
-                if i < size {
-                    matrix.push(i, j, entry);
-                    matrix.push(j, i, entry);
-                }
-            }
-        }
-        for (i, j, entry) in matrix.triplet_iter() {
-            product[i] += entry * entries[j][3];
-        }
-        BandFactor::new(&matrix, width).unwrap().solve(&mut product);
-        for (solution, [.., expected]) in product.iter().zip(&entries) {
-            prop_assert!((solution - expected).abs() < 1e-13);
-        }
-    }
-}
-
-#[rstest]
-#[case(&[(0, 0, 1.0), (1, 0, 2.0), (1, 1, 1.0)])]
-#[case(&[(0, 0, 0.0), (1, 1, 1.0)])]
-#[case(&[(0, 0, f64::NAN), (1, 1, 1.0)])]
-fn a_matrix_that_is_not_positive_definite_has_no_factor(#[case] entries: &[(usize, usize, f64)]) {
-    let mut matrix = CooMatrix::new(2, 2);
-    entries.iter().for_each(|&(i, j, value)| matrix.push(i, j, value));
-    assert!(BandFactor::new(&matrix, 1).is_none());
 }
