@@ -142,7 +142,7 @@ impl Bar {
         let (points, mut least) = (self.mesh.points_of::<N>(), self.min_j);
         let elements = self.def_grad.as_chunks_mut::<N>().0.iter_mut().enumerate();
         for (cell, def_grads) in elements {
-            let local = self.mesh.nodes_of::<N>(cell, &self.displacement);
+            let local = Mesh::nodes_of::<N>(cell, &self.displacement);
             for (def_grad, point) in def_grads.iter_mut().zip(points) {
                 *def_grad = 1.0 + dot(&point.gradient, local);
                 if !(*def_grad > 0.0 && *def_grad < f64::INFINITY) {
@@ -173,7 +173,7 @@ impl Bar {
         let points = self.mesh.points_of::<N>();
         let elements = self.def_grad.as_chunks::<N>().0.iter().enumerate();
         for (cell, def_grads) in elements {
-            let local = self.mesh.nodes_of_mut::<N>(cell, &mut self.acceleration);
+            let local = Mesh::nodes_of_mut::<N>(cell, &mut self.acceleration);
             for (point, def_grad) in points.iter().zip(def_grads) {
                 let piola = (self.setup.law)(*def_grad) * point.weight;
                 for (force, gradient) in local.iter_mut().zip(point.gradient) {

@@ -69,22 +69,14 @@ impl Mesh {
 
     /// Nodal values of a cell with N nodes.
     #[inline]
-    pub(super) fn nodes_of<'a, const N: usize>(
-        &self,
-        cell: usize,
-        nodal: &'a [f64],
-    ) -> &'a [f64; N] {
+    pub(super) fn nodes_of<const N: usize>(cell: usize, nodal: &[f64]) -> &[f64; N] {
         let local = nodal[cell * (N - 1)..].first_chunk();
         local.unwrap_or_else(|| unreachable!("cell {cell}"))
     }
 
     /// Nodal values of a cell with N nodes, to be changed.
     #[inline]
-    pub(super) fn nodes_of_mut<'a, const N: usize>(
-        &self,
-        cell: usize,
-        nodal: &'a mut [f64],
-    ) -> &'a mut [f64; N] {
+    pub(super) fn nodes_of_mut<const N: usize>(cell: usize, nodal: &mut [f64]) -> &mut [f64; N] {
         let local = nodal[cell * (N - 1)..].first_chunk_mut();
         local.unwrap_or_else(|| unreachable!("cell {cell}"))
     }

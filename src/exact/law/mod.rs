@@ -5,12 +5,12 @@ mod contract;
 #[cfg(test)]
 mod energy;
 mod registry;
+mod simple_shear;
 /// The law that `docs/exercises/material.md` adds.
 #[cfg(test)]
 #[allow(unreachable_pub)] // public where the page puts it
 #[path = "../../../tests/exercises/st_venant_kirchhoff_law.rs"]
 mod st_venant_kirchhoff_law;
-mod simple_shear;
 mod uniaxial_flow;
 
 use super::formula::Number;
