@@ -54,7 +54,8 @@ const LAW: MaterialPlan = MaterialPlan::NeoHookean { young: 1.0, poisson: 0.3 };
 fn other_laws() -> Vec<MaterialPlan> {
     let mut all = MaterialPlan::every(|parameter| match parameter.symbol {
         "nu" => 0.3,
-        "Y" | "H" | "eta" => 0.1,
+        "Y" | "H" | "eta" | "kappa" => 0.1,
+        "pc" => 1e3,
         _ => 1.0,
     });
     all.retain(|plan| !plan.properties().is_at_rest() && plan.name() != LAW.name());
