@@ -14,11 +14,11 @@
 //! whose root lies between the critical state and the yield surface before the step.
 
 use super::contract::{Contradiction, Material, MaterialProperties};
-use super::spectral::{MatrixBatch, VectorBatch, assembled, half_log_batch, spectral_batch};
+use super::spectral::{MatrixBatch, assembled_batch, half_log_batch, spectral_batch};
 use super::stress_update::{StressBlock, StressUpdate};
 use crate::mpm::foundation::algebra::{Matrix, det, product};
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::foundation::simd::{BATCH, vectorized};
+use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Failure, Memory};
 
 /// Modified Cam-clay at finite strain.
@@ -285,15 +285,12 @@ impl<const D: usize> Material<D> for CamClay {
             let volumes = vol.chunks_mut(BATCH).zip(vol0.chunks(BATCH));
             let results = volumes.zip(sigma.chunks_mut(BATCH));
             for ((grad_v, states), ((vol, vol0), sigma)) in columns.zip(results) {
-                let (squares, strains, axes) = stretch(grad_v, dt);
+                let (inverses, strains) = stretch(grad_v, dt);
                 let results = vol.iter_mut().zip(vol0).zip(sigma);
                 let particles = grad_v.iter().zip(states).zip(results).enumerate();
                 for (lane, ((grad_v, state), ((vol, vol0), sigma))) in particles {
-                    let axes = axes.get(lane);
-                    let inverses = squares.get(lane).map(|square| 1.0 / square.sqrt());
-                    let turn = product(&assembled(&inverses, &axes), &increment(grad_v, dt));
-                    let strain = assembled(&strains.get(lane), &axes);
-                    *state = self.after(state, &turn, &strain);
+                    let turn = product(&inverses.get(lane), &increment(grad_v, dt));
+                    *state = self.after(state, &turn, &strains.get(lane));
                     *vol *= det(&(Matrix::<D>::identity() + grad_v * dt));
                     let j = *vol / vol0;
                     *sigma = Matrix::from_fn(|i, k| state.tau[(i, k)] / j);
@@ -316,12 +313,8 @@ fn increment<const D: usize>(grad_v: &Matrix<D>, dt: f64) -> Matrix<3> {
     step
 }
 
-/// The left stretch of the increments of a batch of particles: its squares, its logarithms, and
-/// their axes.
-fn stretch<const D: usize>(
-    grad_v: &[Matrix<D>],
-    dt: f64,
-) -> (VectorBatch<3>, VectorBatch<3>, MatrixBatch<3>) {
+/// The inverse and the logarithm of the left stretch of the increments of a batch of particles.
+fn stretch<const D: usize>(grad_v: &[Matrix<D>], dt: f64) -> (MatrixBatch<3>, MatrixBatch<3>) {
     vectorized(
         #[inline(always)]
         || {
@@ -331,7 +324,10 @@ fn stretch<const D: usize>(
                 squares.set(lane, &product(&step, &step.transpose()));
             }
             let (squares, axes) = spectral_batch(squares);
-            (squares, squares.map(half_log_batch), axes)
+            let inverses =
+                squares.map(|squares| F64Batch(squares.0.map(|square| 1.0 / square.sqrt())));
+            let strains = squares.map(half_log_batch);
+            (assembled_batch(&inverses, &axes), assembled_batch(&strains, &axes))
         },
     )
 }

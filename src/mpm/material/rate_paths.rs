@@ -1,5 +1,5 @@
-//! Objective rates of linear elasticity along paths with rotation: the limit of small steps, against
-//! closed forms and the values of an independent program.
+//! Objective rates of linear elasticity along paths with rotation: the limit of small steps,
+//! against closed forms and the values of an independent program.
 
 use super::MaterialPlan;
 use super::specimen::{SLOW, Specimen};
