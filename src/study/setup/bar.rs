@@ -172,7 +172,10 @@ mod tests {
         #[values(0.0, 40.0)] hardening: f64,
         #[values(0.7, 0.97, 1.0, 1.03, 1.4)] stretch: f64,
     ) {
-        for (plan, truth) in known(hardening) {
+        // The return of clay has order 1 in the step, so that one step is not the exact stress;
+        // `mpm::material::clay_paths` compares both.
+        let exact = known(hardening).filter(|(plan, _)| plan.name() != "cam_clay");
+        for (plan, truth) in exact.filter(|(_, truth)| truth.admits(1, true).is_ok()) {
             let mut grad = [[0.0; 3]; 3];
             grad[0][0] = stretch - 1.0;
             let expected = piola_at(&plan, stretch);

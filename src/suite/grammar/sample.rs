@@ -49,6 +49,11 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("friction_angle", "30"),
     ("dilation_angle", "0"),
     ("cohesion", "1"),
+    ("critical_state_slope", "1"),
+    ("swelling_slope", "0.02"),
+    ("compression_slope", "0.1"),
+    ("initial_pressure", "1"),
+    ("preconsolidation", "1"),
     ("density", "1"),
     // Loads.
     ("on", "right"),
