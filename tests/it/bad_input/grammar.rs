@@ -90,7 +90,7 @@ fn a_stability_study_without_a_run() {
     &["a particle's volume is -0.125, and must be above zero"]
 )]
 #[case::no_reason(
-    &[("because: >\n", "because: ▸\"\" #\n"), ("      the gradients of", "      # the gradients of"), ("      shows as", "      # shows as")],
+    &[("because: >\n", "because: ▸\"\" #\n"), ("      the gradients of", "      # the gradients of"), ("      the error that", "      # the error that")],
     &["an expectation needs its reason"]
 )]
 #[case::a_basis_twice(

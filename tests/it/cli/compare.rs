@@ -72,19 +72,28 @@ fn a_worse_run() -> Folder {
     folder
 }
 
-/// The step of the workflow that comments, with a `gh` that has the reports of the last run and keeps
-/// the comment.
+/// The steps of the action that compare and comment, with a `gh` that has the reports of the last run
+/// and keeps the comment.
 #[cfg(unix)]
 #[test]
 fn the_workflow_comments_what_moved() {
     use std::os::unix::fs::PermissionsExt;
     let folder = a_worse_run();
-    let text = include_str!("../../../examples/ci/github.yml");
-    let workflow: serde_json::Value = serde_yaml::from_str(text).expect("YAML");
-    let steps = workflow["jobs"]["suites"]["steps"].as_array().expect("steps");
-    let comments = |step: &&serde_json::Value| step["name"] == "Compare with the main branch";
-    let step = steps.iter().find(comments).expect("a step that comments");
-    folder.write("step", step["run"].as_str().expect("a script"));
+    let text = include_str!("../../../examples/ci/action.yml");
+    let action: serde_json::Value = serde_yaml::from_str(text).expect("YAML");
+    let steps = action["runs"]["steps"].as_array().expect("steps");
+    let script_of = |name: &str| {
+        let step = steps.iter().find(|step| step["name"] == name);
+        step.and_then(|step| step["run"].as_str()).expect("a script of that name")
+    };
+    let names = [
+        "Fetch the reports of the main branch",
+        "Compare with the main branch",
+        "Comment on the pull request",
+    ];
+    for (name, file) in names.into_iter().zip(["fetch", "compare", "comment"]) {
+        folder.write(file, script_of(name));
+    }
     folder.write(
         "bin/gh",
         "#!/bin/sh\ncase $1-$2 in\nrun-list) echo 7;;\n\
@@ -99,7 +108,7 @@ fn the_workflow_comments_what_moved() {
     )
     .expect("a program");
     let script = "set -e; mkdir here; cd here; mkdir reports; cp ../new.json reports/report.json; \
-        bash -eo pipefail ../step";
+        for step in fetch compare comment; do bash -eo pipefail ../$step; done";
     let path = format!(
         "{}:{}",
         folder.path().join("bin").display(),
@@ -108,7 +117,15 @@ fn the_workflow_comments_what_moved() {
     let ran = std::process::Command::new("bash")
         .args(["-c", script])
         .current_dir(folder.path())
-        .envs([("PATH", path.as_str()), ("PULL", "12")])
+        .envs([
+            ("PATH", path.as_str()),
+            ("WORKFLOW", "Accuracy"),
+            ("MAIN", "main"),
+            ("ARTIFACT", "mpm-verify-reports"),
+            ("GITHUB_STEP_SUMMARY", "summary.md"),
+            ("GITHUB_REPOSITORY", "someone/solver"),
+            ("PULL", "12"),
+        ])
         .output()
         .expect("bash");
     assert!(ran.status.success(), "{ran:?}");
