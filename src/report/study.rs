@@ -141,7 +141,7 @@ impl StudyReport for InternalForceReport {
     }
 }
 
-/// Shows [`StabilityStudy`](crate::verify::StabilityStudy).
+/// Shows [`StabilityStudy`].
 pub(crate) struct StabilityReport;
 
 impl StudyReport for StabilityReport {

@@ -1,8 +1,7 @@
 //! Quantities that can be judged, each declared once.
 //!
-//! To add one is to add its name to [`Quantity`], its [`Declaration`] to the constants of
-//! [`fields`](super::fields) (of [`sums`](super::sums), where it has no values at labels), and the
-//! line of [`Quantity::declaration`] that joins them.
+//! To add one, add its name to [`Quantity`], its [`Declaration`] to the constants of
+//! [`declaration`](super::declaration), and the line of [`Quantity::declaration`] that joins them.
 //!
 //! The error of a tensor at a label is measured by its Frobenius norm, that of a vector by its
 //! length: the square root of the sum of the squares of all components.
