@@ -29,6 +29,10 @@ const AMPLITUDE: f64 = 1e-30;
 /// Largest error of trace and determinant.
 const TOLERANCE: f64 = 1e-12;
 
+/// Largest logarithm of the factor of a step in a moving run without damping: motions of 1e-6 cells
+/// change the symbols by as much.
+const UNDAMPED: f64 = 1e-6;
+
 const BASES: [(BasisName, Spline); 3] = [
     (BasisName::Linear, Spline::Linear),
     (BasisName::QuadraticBSpline, Spline::Quadratic),
@@ -48,6 +52,47 @@ struct Row {
 /// Nodal velocities of a wave in one step: real and imaginary part.
 type Amplitude = [f64; 2];
 
+/// Phase (rad) at `x` (m) of a wave with `periods` periods in the row.
+fn phase(x: f64, periods: usize) -> f64 {
+    TAU * periods as f64 * x / (CELLS as f64 * H)
+}
+
+/// Gives the particles velocities (m/s) or stresses (Pa) of a wave with `periods` periods in the
+/// row.
+fn start(solver: &mut Solver<1>, periods: usize, starts_with_stress: bool, size: f64) {
+    let count = solver.particles().len();
+    let mut state = Vec::new();
+    solver.state(&mut state);
+    for p in 0..count {
+        let phase = phase(solver.particles().x[p][0], periods);
+        let number = if starts_with_stress { count + p } else { p };
+        state[number] = size * libm::sin(phase);
+    }
+    solver.set_state(&state);
+}
+
+/// Trace and determinant by least squares over real and imaginary parts of all series, each
+/// relative to its largest number.
+fn fit(series: &[Vec<Amplitude>]) -> (f64, f64) {
+    let mut normal = [[0.0; 3]; 2];
+    for series in series {
+        let size = series.iter().flatten().fold(0.0_f64, |most, y| most.max(y.abs()));
+        for part in 0..2 {
+            for three in series.windows(3) {
+                let [y0, y1, y2] = [0, 1, 2].map(|k| three[k][part] / size);
+                for (row, factor) in normal.iter_mut().zip([y1, -y0]) {
+                    for (entry, value) in row.iter_mut().zip([y1, -y0, y2]) {
+                        *entry += factor * value;
+                    }
+                }
+            }
+        }
+    }
+    let [[a, b, e], [c, d, f]] = normal;
+    let scale = a * d - b * c;
+    ((e * d - b * f) / scale, (a * f - e * c) / scale)
+}
+
 impl Row {
     fn solver(&self) -> Solver<1> {
         let (basis, name, mass) = self.method;
@@ -59,63 +104,47 @@ impl Row {
         }
         let setup = common::body((basis, name), self.scheme, particles, (H, CELLS));
         let grid = setup.kernel.grid(Vector::zeros(), H, [CELLS], [true]);
-        let mut solver = Solver::new(Setup {
+        let parts = Setup {
             grid,
             mass: mass_matrix(mass),
             transfer: transfer(name),
             material: Box::new(mpm_verify::mpm::LinearElastic::new(1.0, 0.0)),
             ..setup
-        })
-        .expect("a solver");
-        solver.fix_configuration();
-        solver
+        };
+        Solver::new(parts).expect("a solver")
     }
 
-    /// The wave with `periods` periods in the row, in three steps after a start with velocities
-    /// or with stresses.
-    fn series(&self, periods: usize, starts_with_stress: bool) -> [Amplitude; 3] {
-        let mut solver = self.solver();
-        let wave = |x: f64| TAU * periods as f64 * x / (CELLS as f64 * H);
-        let count = solver.particles().len();
-        let mut state = Vec::new();
-        solver.state(&mut state);
-        for p in 0..count {
-            let phase = wave(solver.particles().x[p][0]);
-            let number = if starts_with_stress { count + p } else { p };
-            state[number] = AMPLITUDE * libm::sin(phase);
-        }
-        solver.set_state(&state);
-        std::array::from_fn(|_| {
+    /// Nodal velocities of the wave, over `size`, after each of so many steps.
+    fn record(
+        &self,
+        solver: &mut Solver<1>,
+        periods: usize,
+        steps: usize,
+        size: f64,
+    ) -> Vec<Amplitude> {
+        let step = |_| {
             solver.step(self.courant * H / SPEED).expect("a step");
             let grid = solver.grid();
             let mut sum = [0.0; 2];
             for (node, v) in grid.velocity.iter().enumerate() {
-                let phase = wave(self.method.0.place(grid, node)[0]);
-                sum[0] += v[0] * libm::cos(phase) / AMPLITUDE;
-                sum[1] += v[0] * libm::sin(phase) / AMPLITUDE;
+                let phase = phase(self.method.0.place(grid, node)[0], periods);
+                sum[0] += v[0] * libm::cos(phase) / size;
+                sum[1] += v[0] * libm::sin(phase) / size;
             }
             sum
-        })
+        };
+        (0..steps).map(step).collect()
     }
 
-    /// Trace and determinant from both series, by least squares over real and imaginary parts.
+    /// Trace and determinant of a frozen run, from three steps after each of two starts.
     fn measure(&self, periods: usize) -> (f64, f64) {
-        let mut normal = [[0.0; 3]; 2];
-        for starts_with_stress in [false, true] {
-            let series = self.series(periods, starts_with_stress);
-            let size = series.iter().flatten().fold(0.0_f64, |most, y| most.max(y.abs()));
-            for part in 0..2 {
-                let [y0, y1, y2] = series.map(|y| y[part] / size);
-                for (row, factor) in normal.iter_mut().zip([y1, -y0]) {
-                    for (entry, value) in row.iter_mut().zip([y1, -y0, y2]) {
-                        *entry += factor * value;
-                    }
-                }
-            }
-        }
-        let [[a, b, e], [c, d, f]] = normal;
-        let scale = a * d - b * c;
-        ((e * d - b * f) / scale, (a * f - e * c) / scale)
+        let series = [false, true].map(|starts_with_stress| {
+            let mut solver = self.solver();
+            solver.fix_configuration();
+            start(&mut solver, periods, starts_with_stress, AMPLITUDE);
+            self.record(&mut solver, periods, 3, AMPLITUDE)
+        });
+        fit(&series)
     }
 
     /// The closed form.
@@ -188,6 +217,41 @@ fn shifted_particles_have_the_predicted_trace_and_determinant(
     #[values(1, 3)] ppc: usize,
 ) {
     all_waves(name, MassName::Lumped, wave, ppc, 0.1);
+}
+
+/// Twenty periods of a body whose particles move. The run ends earlier if damping has reduced the
+/// amplitude to a millionth.
+#[rstest]
+#[case::flip_usl(TransferName::Flip, WaveTransfer::Flip, SchemeName::Usl)]
+#[case::flip_musl(TransferName::Flip, WaveTransfer::Flip, SchemeName::Musl)]
+#[case::pic_musl(TransferName::Pic, WaveTransfer::Pic, SchemeName::Musl)]
+#[case::apic_usl(TransferName::Apic, WaveTransfer::Apic, SchemeName::Usl)]
+#[case::apic_musl(TransferName::Apic, WaveTransfer::Apic, SchemeName::Musl)]
+#[case::xpic_2_usl(TransferName::Xpic2, WaveTransfer::Xpic(2), SchemeName::Usl)]
+#[case::fmpm_2_usl(TransferName::Fmpm2, WaveTransfer::Fmpm(2), SchemeName::Usl)]
+fn moving_particles_have_the_predicted_phase_error_and_damping(
+    #[case] name: TransferName,
+    #[case] wave: WaveTransfer,
+    #[case] scheme: SchemeName,
+    #[values(0, 1, 2)] basis: usize,
+) {
+    let ((basis, spline), size) = (BASES[basis], 1e-6 * SPEED);
+    let row =
+        Row { method: (basis, name, MassName::Lumped), scheme, ppc: 2, shift: 0.0, courant: 0.4 };
+    let step = row.predict(spline, wave, 1);
+    let (angle, kept) = (TAU / CELLS as f64 * row.courant, step.largest_modulus(row.courant));
+    let least = libm::log(1e-6) / libm::log(kept);
+    let steps = if kept < 1.0 { least.min(20.0 * TAU / angle) } else { 20.0 * TAU / angle };
+    let mut solver = row.solver();
+    start(&mut solver, 1, false, size);
+    let series = row.record(&mut solver, 1, steps as usize, size);
+    let (trace, determinant) = fit(std::slice::from_ref(&series));
+    let turned = libm::atan2((4.0 * determinant - trace * trace).sqrt(), trace);
+    let (found, expected) = (turned / angle - 1.0, step.phase_error(row.courant).unwrap());
+    assert!((found / expected - 1.0).abs() <= 0.02, "phase error {found}, expected {expected}");
+    let (found, expected) = (0.5 * libm::log(determinant), libm::log(kept));
+    let error = (found - expected).abs();
+    assert!(error <= 0.02 * expected.abs() + UNDAMPED, "ln |l| is {found}, expected {expected}");
 }
 
 /// All registered transfers of velocity have a closed form, so that a new one is not forgotten.
