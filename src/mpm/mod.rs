@@ -37,7 +37,9 @@ mod seeding;
 mod step;
 mod transfer;
 
+pub use analysis::dispersion::{WaveMethod, WaveStep, WaveTransfer};
 pub use analysis::stable_time_step::simplest_with_same_response;
+pub use analysis::wave_symbols::{Spline, WaveSymbols};
 pub use basis::*;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
 pub use effect::*;

@@ -1,6 +1,7 @@
 //! The documents, held to the program: it understands the command lines that they show, and loads
 //! the suites. (`tests/architecture` holds their paths, names and JSON to the repository.)
 
+mod dispersion;
 mod figures;
 #[path = "../../architecture/markdown.rs"]
 #[allow(dead_code, reason = "links and headings are checked by tests/architecture")]

@@ -1,5 +1,6 @@
 //! Parts of the solver, by their public interfaces.
 
+mod dispersion;
 mod gimp;
 mod heat;
 mod kernel;

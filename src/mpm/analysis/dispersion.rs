@@ -1,0 +1,255 @@
+//! Dispersion and damping of one MPM step in closed form.
+//!
+//! The setting is a periodic row of cells with a linear elastic law and particles that do not
+//! move. The grid retains two numbers of each Fourier mode: the nodal velocity `w` before the
+//! update and the acceleration `f`. With the symbols of [`WaveSymbols`] a step of FLIP with a
+//! lumped mass matrix is
+//!
+//! ```text
+//! w_new = w + s dt f
+//! f_new = f - kappa (c/h)^2 dt g,   g = w + dt f (USL) or g = w_new (MUSL, USF)
+//! ```
+//!
+//! This 2 x 2 matrix has the eigenvalues `l^2 - tr l + det = 0`. Every transfer has the form
+//! `tr = 1 + b - p C^2` and `det = b - q C^2` with the Courant number `C = c dt/h`. All other
+//! eigenvalues of the particle matrix are 1, 0, or the FLIP share of a blend, and are not seen by
+//! the grid. Amplitudes change by `sqrt(det)` in each step while the eigenvalues are complex.
+//!
+//! Sources: von Neumann's analysis of the schemes of Bardenhagen (2002, J. Comput. Phys. 180), of
+//! APIC (Jiang, Schroeder & Teran 2017, J. Comput. Phys. 338), XPIC (Hammerquist & Nairn 2017,
+//! CMAME 318) and FMPM (Nairn & Hammerquist 2021, CMAME 374).
+
+use super::wave_symbols::{Spline, WaveSymbols};
+use crate::mpm::scheme::SchemeName;
+use std::f64::consts::{PI, TAU};
+
+/// Number of wave numbers at which a stability limit is computed before the least is refined.
+const WAVES: u32 = 720;
+
+/// Rounds of the golden-section search around the least of them.
+const ROUNDS: u32 = 60;
+
+/// Longest wave in a search for a phase error (cells).
+const LONGEST: f64 = 1e4;
+
+/// Ratio of neighbouring wavelengths in a search for a phase error.
+const RATIO: f64 = 1.002;
+
+/// Amount by which the part kept in a step may exceed one because of rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Transfers whose step has a closed form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum WaveTransfer {
+    /// FLIP with a lumped mass matrix.
+    Flip,
+    /// FLIP with a consistent mass matrix.
+    FlipConsistent,
+    /// PIC.
+    Pic,
+    /// APIC.
+    Apic,
+    /// A blend with this share of FLIP, from 0 to 1, and PIC for the rest.
+    Blend(f64),
+    /// XPIC with this number of terms.
+    Xpic(u32),
+    /// FMPM with this number of terms.
+    Fmpm(u32),
+}
+
+/// One step of a wave: trace and determinant are linear in the squared Courant number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WaveStep {
+    theta: f64,
+    /// Determinant of a step without stress, b.
+    kept: f64,
+    /// Coefficient p of the trace.
+    stiffness: f64,
+    /// Coefficient q of the determinant.
+    loss: f64,
+}
+
+impl WaveStep {
+    /// The step of a wave with these symbols.
+    pub fn new(transfer: WaveTransfer, scheme: SchemeName, symbols: &WaveSymbols) -> Self {
+        let WaveSymbols { theta, stiffness: kappa, mass: s, affine: a } = *symbols;
+        let uses_grid_velocity = scheme == SchemeName::Usl;
+        // A transfer that adds `dt S f` to velocities and keeps `kept` of those that the grid sees.
+        let adding = |kept: f64| {
+            if uses_grid_velocity {
+                Self { theta, kept, stiffness: kappa, loss: kappa * (kept - s) }
+            } else {
+                Self { theta, kept, stiffness: kappa * s, loss: 0.0 }
+            }
+        };
+        // A transfer that replaces velocities by those of the grid times `series`.
+        let replacing = |kept: f64, series: f64| {
+            let passed = if uses_grid_velocity { 1.0 } else { kept };
+            Self { theta, kept, stiffness: kappa * series * passed, loss: 0.0 }
+        };
+        match transfer {
+            WaveTransfer::Flip => adding(1.0),
+            WaveTransfer::FlipConsistent => {
+                Self { theta, kept: 1.0, stiffness: kappa / s, loss: 0.0 }
+            }
+            WaveTransfer::Pic => replacing(s, 1.0),
+            WaveTransfer::Apic => replacing(a, 1.0),
+            WaveTransfer::Blend(flip) => adding(flip + (1.0 - flip) * s),
+            WaveTransfer::Xpic(terms) => adding(s * neumann(s, terms)),
+            WaveTransfer::Fmpm(terms) => replacing(s * neumann(s, terms), neumann(s, terms)),
+        }
+    }
+
+    /// Trace of the step at this Courant number.
+    pub fn trace(&self, courant: f64) -> f64 {
+        1.0 + self.kept - self.stiffness * courant * courant
+    }
+
+    /// Determinant of the step at this Courant number.
+    pub fn determinant(&self, courant: f64) -> f64 {
+        self.kept - self.loss * courant * courant
+    }
+
+    /// `4 det - tr^2`, positive where the eigenvalues are complex.
+    fn discriminant(&self, courant: f64) -> f64 {
+        let x = courant * courant;
+        let lost = 1.0 - self.kept;
+        -lost * lost + (self.slope() - self.stiffness * self.stiffness * x) * x
+    }
+
+    /// Coefficient of `C^2` in the discriminant.
+    fn slope(&self) -> f64 {
+        2.0 * (1.0 + self.kept) * self.stiffness - 4.0 * self.loss
+    }
+
+    /// Courant numbers between which the eigenvalues are complex. Outside the range the wave is
+    /// overdamped or unstable and has no phase. `None` if there is no such range.
+    pub fn complex_range(&self) -> Option<(f64, f64)> {
+        let lost = (1.0 - self.kept) * (1.0 - self.kept);
+        let square = self.stiffness * self.stiffness;
+        let slope = self.slope();
+        let root = (slope * slope - 4.0 * square * lost).sqrt();
+        let end = (slope + root) / (2.0 * square);
+        // The product of both roots is lost/square; the difference would cancel.
+        let start = lost / (square * end);
+        (start < end && end.is_finite()).then(|| (start.sqrt(), end.sqrt()))
+    }
+
+    /// Relative error of the phase speed, `c_h/c - 1` with `c_h/c = arg(l)/(theta C)`. `None` if
+    /// the eigenvalues are real.
+    pub fn phase_error(&self, courant: f64) -> Option<f64> {
+        let discriminant = self.discriminant(courant);
+        let angle = libm::atan2(discriminant.max(0.0).sqrt(), self.trace(courant));
+        (discriminant > 0.0).then(|| angle / (self.theta * courant) - 1.0)
+    }
+
+    /// Largest modulus of an eigenvalue: the factor of the amplitude in one step.
+    pub fn largest_modulus(&self, courant: f64) -> f64 {
+        let discriminant = self.discriminant(courant);
+        if discriminant > 0.0 {
+            return self.determinant(courant).sqrt();
+        }
+        0.5 * (self.trace(courant).abs() + (-discriminant).sqrt())
+    }
+
+    /// Factor of the amplitude in one exact period, `2 pi h/(theta c)`.
+    pub fn kept_per_period(&self, courant: f64) -> f64 {
+        libm::pow(self.largest_modulus(courant), TAU / (self.theta * courant))
+    }
+
+    /// Largest Courant number at which the wave does not grow: `det <= 1` and
+    /// `1 + tr + det >= 0` (Jury's conditions; `1 - tr + det = (p - q) C^2` is never negative).
+    /// NaN if the symbols are NaN.
+    pub fn limit(&self) -> f64 {
+        if self.kept > 1.0 + ROUNDING {
+            return 0.0;
+        }
+        (2.0 * (1.0 + self.kept) / (self.stiffness + self.loss)).sqrt()
+    }
+}
+
+/// Sum of `(1 - s)^j` for j below `terms`, which tends to 1/s.
+fn neumann(s: f64, terms: u32) -> f64 {
+    (0..terms).fold(0.0, |sum, _| 1.0 + (1.0 - s) * sum)
+}
+
+/// A method on regular particles, for waves of any length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WaveMethod {
+    /// Basis functions.
+    pub spline: Spline,
+    /// Particles per cell, at [`WaveSymbols::regular_positions`].
+    pub ppc: u32,
+    /// Transfer and mass matrix.
+    pub transfer: WaveTransfer,
+    /// Time scheme. USF has the eigenvalues of MUSL: its step starts at another stage.
+    pub scheme: SchemeName,
+}
+
+impl WaveMethod {
+    /// The step of a wave with `theta = k h` (rad).
+    pub fn step(&self, theta: f64) -> WaveStep {
+        let positions = WaveSymbols::regular_positions(self.ppc);
+        WaveStep::new(self.transfer, self.scheme, &WaveSymbols::new(self.spline, theta, &positions))
+    }
+
+    /// Number of cells per wavelength from which on the phase error stays below `tolerance`. A
+    /// wave without a phase counts as beyond the tolerance. `None` if the error of waves of 1e4
+    /// cells is not below the tolerance, or if all waves of two cells or more are within it.
+    pub fn cells_for_phase_error(&self, courant: f64, tolerance: f64) -> Option<f64> {
+        let is_within = |cells: f64| {
+            let error = self.step(TAU / cells).phase_error(courant);
+            error.is_some_and(|error| error.abs() < tolerance)
+        };
+        if !is_within(LONGEST) {
+            return None;
+        }
+        let mut within = LONGEST;
+        let mut beyond = loop {
+            let cells = within / RATIO;
+            if cells < 2.0 {
+                return None;
+            }
+            if !is_within(cells) {
+                break cells;
+            }
+            within = cells;
+        };
+        for _ in 0..ROUNDS {
+            let middle = 0.5 * (beyond + within);
+            let end = if is_within(middle) { &mut within } else { &mut beyond };
+            *end = middle;
+        }
+        Some(0.5 * (beyond + within))
+    }
+
+    /// Largest Courant number at which no wave grows: the least limit over `0 < theta <= pi`. NaN
+    /// if there are no particles.
+    pub fn stability_limit(&self) -> f64 {
+        let limit = |theta: f64| self.step(theta).limit();
+        let spacing = PI / f64::from(WAVES);
+        let mut least = (f64::INFINITY, PI);
+        for k in 1..=WAVES {
+            let theta = if k == WAVES { PI } else { f64::from(k) * spacing };
+            let value = limit(theta);
+            // Written so that NaN remains.
+            if !(value >= least.0) {
+                least = (value, theta);
+            }
+        }
+        // Golden-section search between the neighbours of the least.
+        let share = 0.5 * (5.0_f64.sqrt() - 1.0);
+        let (mut low, mut high) =
+            ((least.1 - spacing).max(0.5 * spacing), (least.1 + spacing).min(PI));
+        for _ in 0..ROUNDS {
+            let (left, right) = (high - share * (high - low), low + share * (high - low));
+            if limit(left) < limit(right) {
+                high = right;
+            } else {
+                low = left;
+            }
+        }
+        let refined = limit(0.5 * (low + high));
+        if refined < least.0 { refined } else { least.0 }
+    }
+}

@@ -1,0 +1,110 @@
+//! Symbols of stiffness, mass and APIC: one Fourier mode of the maps between particles and grid.
+//!
+//! A periodic row of cells with the same particles in each cell is invariant under translation by
+//! a cell. A nodal field `exp(i theta x_i)` is therefore an eigenvector of every map from the grid
+//! to the particles and back, and its eigenvalue is the *symbol* of the map (von Neumann's
+//! analysis; Strang 2007, Computational Science and Engineering, section 4.1). Lengths are in units
+//! of the cell size h, so symbols have no dimension.
+//!
+//! The B-splines are written out here (de Boor 2001, A Practical Guide to Splines, chapter 9).
+//! Nothing is taken from the basis functions of the solver, which tests compare with these symbols.
+
+/// Smallest APIC inertia, in squared cell sizes, that counts as different from zero.
+const SMALLEST_INERTIA: f64 = 1e-12;
+
+/// Uniform B-spline basis functions of one axis. Their knots are at the cell corners.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spline {
+    /// Piecewise linear functions, centred at cell corners.
+    Linear,
+    /// Quadratic B-splines, centred at cell centres.
+    Quadratic,
+    /// Cubic B-splines, centred at cell corners.
+    Cubic,
+}
+
+impl Spline {
+    /// Positions, in cells, of the functions that are not zero in the cell from 0 to 1.
+    fn places(self) -> &'static [f64] {
+        match self {
+            Self::Linear => &[0.0, 1.0],
+            Self::Quadratic => &[-0.5, 0.5, 1.5],
+            Self::Cubic => &[-1.0, 0.0, 1.0, 2.0],
+        }
+    }
+
+    /// Value and derivative (per cell) at the distance `x` (in cells) from the centre of the
+    /// function. At a knot the derivative is that of the cell on the right.
+    fn at(self, x: f64) -> (f64, f64) {
+        let (r, sign) = (x.abs(), if x < 0.0 { -1.0 } else { 1.0 });
+        let (value, slope) = match self {
+            Self::Linear => (1.0 - r, -1.0),
+            Self::Quadratic if r < 0.5 => (0.75 - r * r, -2.0 * r),
+            Self::Quadratic => (0.5 * (1.5 - r) * (1.5 - r), r - 1.5),
+            Self::Cubic if r < 1.0 => (2.0 / 3.0 - r * r + 0.5 * r * r * r, 1.5 * r * r - 2.0 * r),
+            Self::Cubic => {
+                let rest = 2.0 - r;
+                (rest * rest * rest / 6.0, -0.5 * rest * rest)
+            }
+        };
+        (value, sign * slope)
+    }
+}
+
+/// Symbols of one wave number, for lengths in units of the cell size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WaveSymbols {
+    /// Wave number times cell size, theta = k h (rad). A wave of n cells has theta = 2 pi/n.
+    pub theta: f64,
+    /// Stiffness, `kappa = mean |sum N_i' exp(i theta x_i)|^2`: the nodal acceleration of a wave
+    /// is `-kappa c^2/h^2` times its displacement.
+    pub stiffness: f64,
+    /// Mass, `s = mean |sum N_i exp(i theta x_i)|^2`: the part of a nodal velocity that remains
+    /// after the map to the particles and back with a lumped mass matrix.
+    pub mass: f64,
+    /// APIC, `a = s + mean |sum N_i (x_i - xi) exp(i theta x_i)|^2/D` with
+    /// `D = sum N_i (x_i - xi)^2`: the part that remains if particles carry an affine field.
+    pub affine: f64,
+}
+
+impl WaveSymbols {
+    /// Symbols of a wave with `theta` (rad) for particles of equal mass and volume at
+    /// `positions`, from 0 to 1 in each cell. A particle with D = 0 adds no affine part. NaN if
+    /// there are no particles.
+    pub fn new(spline: Spline, theta: f64, positions: &[f64]) -> Self {
+        let [mut stiffness, mut mass, mut affine] = [0.0; 3];
+        for xi in positions {
+            let mut inertia = 0.0;
+            let [mut slopes, mut values, mut moments] = [[0.0; 2]; 3];
+            for place in spline.places() {
+                let offset = place - xi;
+                let (value, slope) = spline.at(-offset);
+                let wave = [libm::cos(theta * place), libm::sin(theta * place)];
+                for part in 0..2 {
+                    slopes[part] += slope * wave[part];
+                    values[part] += value * wave[part];
+                    moments[part] += value * offset * wave[part];
+                }
+                inertia += value * offset * offset;
+            }
+            stiffness += square(slopes);
+            mass += square(values);
+            if inertia > SMALLEST_INERTIA {
+                affine += square(moments) / inertia;
+            }
+        }
+        let count = positions.len() as f64;
+        let mass = mass / count;
+        Self { theta, stiffness: stiffness / count, mass, affine: mass + affine / count }
+    }
+
+    /// Positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell, in cells.
+    pub fn regular_positions(ppc: u32) -> Vec<f64> {
+        (0..ppc).map(|j| (f64::from(j) + 0.5) / f64::from(ppc)).collect()
+    }
+}
+
+/// Squared modulus of a complex number.
+fn square([re, im]: [f64; 2]) -> f64 {
+    re * re + im * im
+}

@@ -1,0 +1,283 @@
+//! Trace and determinant of a step of the solver, from its nodal velocities.
+//!
+//! Two starts of a frozen run, one with velocities and one with stresses, give two series of nodal
+//! velocities of one wave. Both satisfy `y(k+2) = tr y(k+1) - det y(k)`, which determines trace and
+//! determinant.
+
+use crate::common;
+use mpm_verify::mpm::{
+    BasisName, Block, FrameName, MassName, Particles, SchemeName, Setup, Solver, Spline,
+    TransferName, Vector, WaveMethod, WaveStep, WaveSymbols, WaveTransfer, combine, mass_matrix,
+    transfer,
+};
+use mpm_verify::subject::{Perturbable, Subject};
+use rstest::rstest;
+use std::f64::consts::TAU;
+
+/// Cells of the row. With an even number, a wave of two cells would make the consistent mass matrix
+/// of linear functions singular at one particle per cell.
+const CELLS: usize = 9;
+
+/// Cell size (m); Young's modulus (Pa) is 1, density (kg/m3) 4, and the wave speed 1/2 m/s.
+const H: f64 = 0.25;
+const DENSITY: f64 = 4.0;
+const SPEED: f64 = 0.5;
+
+/// Amplitude of velocities (m/s) and stresses (Pa): products of two of them vanish by rounding.
+const AMPLITUDE: f64 = 1e-30;
+
+/// Largest error of trace and determinant.
+const TOLERANCE: f64 = 1e-12;
+
+/// Largest logarithm of the factor of a step in a moving run without damping: motions of 1e-6 cells
+/// change the symbols by as much.
+const UNDAMPED: f64 = 1e-6;
+
+const BASES: [(BasisName, Spline); 3] = [
+    (BasisName::Linear, Spline::Linear),
+    (BasisName::QuadraticBSpline, Spline::Quadratic),
+    (BasisName::CubicBSpline, Spline::Cubic),
+];
+
+/// A row of cells with `ppc` particles in each.
+struct Row {
+    method: (BasisName, TransferName, MassName),
+    scheme: SchemeName,
+    ppc: usize,
+    /// Translation of all particles, in cells.
+    shift: f64,
+    courant: f64,
+}
+
+/// Nodal velocities of a wave in one step: real and imaginary part.
+type Amplitude = [f64; 2];
+
+/// Phase (rad) at `x` (m) of a wave with `periods` periods in the row.
+fn phase(x: f64, periods: usize) -> f64 {
+    TAU * periods as f64 * x / (CELLS as f64 * H)
+}
+
+/// Gives the particles velocities (m/s) or stresses (Pa) of a wave with `periods` periods in the
+/// row.
+fn start(solver: &mut Solver<1>, periods: usize, starts_with_stress: bool, size: f64) {
+    let count = solver.particles().len();
+    let mut state = Vec::new();
+    solver.state(&mut state);
+    for p in 0..count {
+        let phase = phase(solver.particles().x[p][0], periods);
+        let number = if starts_with_stress { count + p } else { p };
+        state[number] = size * libm::sin(phase);
+    }
+    solver.set_state(&state);
+}
+
+/// Trace and determinant by least squares over real and imaginary parts of all series, each
+/// relative to its largest number.
+fn fit(series: &[Vec<Amplitude>]) -> (f64, f64) {
+    let mut normal = [[0.0; 3]; 2];
+    for series in series {
+        let size = series.iter().flatten().fold(0.0_f64, |most, y| most.max(y.abs()));
+        for part in 0..2 {
+            for three in series.windows(3) {
+                let [y0, y1, y2] = [0, 1, 2].map(|k| three[k][part] / size);
+                for (row, factor) in normal.iter_mut().zip([y1, -y0]) {
+                    for (entry, value) in row.iter_mut().zip([y1, -y0, y2]) {
+                        *entry += factor * value;
+                    }
+                }
+            }
+        }
+    }
+    let [[a, b, e], [c, d, f]] = normal;
+    let scale = a * d - b * c;
+    ((e * d - b * f) / scale, (a * f - e * c) / scale)
+}
+
+impl Row {
+    fn solver(&self) -> Solver<1> {
+        let (basis, name, mass) = self.method;
+        let to = Vector::<1>::new(CELLS as f64 * H);
+        let block = Block { from: Vector::zeros(), to, density: DENSITY };
+        let mut particles = Particles::fill(&block, H, self.ppc);
+        for x in &mut particles.x {
+            x[0] += self.shift * H;
+        }
+        let setup = common::body((basis, name), self.scheme, particles, (H, CELLS));
+        let grid = setup.kernel.grid(Vector::zeros(), H, [CELLS], [true]);
+        let parts = Setup {
+            grid,
+            mass: mass_matrix(mass),
+            transfer: transfer(name),
+            material: Box::new(mpm_verify::mpm::LinearElastic::new(1.0, 0.0)),
+            ..setup
+        };
+        Solver::new(parts).expect("a solver")
+    }
+
+    /// Nodal velocities of the wave, over `size`, after each of so many steps.
+    fn record(
+        &self,
+        solver: &mut Solver<1>,
+        periods: usize,
+        steps: usize,
+        size: f64,
+    ) -> Vec<Amplitude> {
+        let step = |_| {
+            solver.step(self.courant * H / SPEED).expect("a step");
+            let grid = solver.grid();
+            let mut sum = [0.0; 2];
+            for (node, v) in grid.velocity.iter().enumerate() {
+                let phase = phase(self.method.0.place(grid, node)[0], periods);
+                sum[0] += v[0] * libm::cos(phase) / size;
+                sum[1] += v[0] * libm::sin(phase) / size;
+            }
+            sum
+        };
+        (0..steps).map(step).collect()
+    }
+
+    /// Trace and determinant of a frozen run, from three steps after each of two starts.
+    fn measure(&self, periods: usize) -> (f64, f64) {
+        let series = [false, true].map(|starts_with_stress| {
+            let mut solver = self.solver();
+            solver.fix_configuration();
+            start(&mut solver, periods, starts_with_stress, AMPLITUDE);
+            self.record(&mut solver, periods, 3, AMPLITUDE)
+        });
+        fit(&series)
+    }
+
+    /// The closed form.
+    fn predict(&self, spline: Spline, wave: WaveTransfer, periods: usize) -> WaveStep {
+        let theta = TAU * periods as f64 / CELLS as f64;
+        let regular = WaveSymbols::regular_positions(self.ppc as u32);
+        let positions: Vec<f64> = regular.iter().map(|xi| xi + self.shift).collect();
+        WaveStep::new(wave, self.scheme, &WaveSymbols::new(spline, theta, &positions))
+    }
+
+    fn assert_agrees(&self, spline: Spline, wave: WaveTransfer, periods: usize) {
+        let (trace, determinant) = self.measure(periods);
+        let step = self.predict(spline, wave, periods);
+        let errors = [
+            (trace - step.trace(self.courant)).abs(),
+            (determinant - step.determinant(self.courant)).abs(),
+        ];
+        let place = format!(
+            "{spline:?} {wave:?} {:?}, ppc {}, {periods} periods, shift {}",
+            self.scheme, self.ppc, self.shift
+        );
+        assert!(errors.iter().all(|error| *error <= TOLERANCE), "{place}: {errors:?}");
+    }
+}
+
+/// Waves of 9, 4.5 and 3 cells.
+fn all_waves(name: TransferName, mass: MassName, wave: WaveTransfer, ppc: usize, shift: f64) {
+    for (basis, spline) in BASES {
+        for scheme in SchemeName::ALL {
+            for periods in [1, 2, 3] {
+                let method = (basis, name, mass);
+                let row = Row { method, scheme: *scheme, ppc, shift, courant: 0.4 };
+                row.assert_agrees(spline, wave, periods);
+            }
+        }
+    }
+}
+
+#[rstest]
+#[case::flip(TransferName::Flip, WaveTransfer::Flip)]
+#[case::pic(TransferName::Pic, WaveTransfer::Pic)]
+#[case::apic(TransferName::Apic, WaveTransfer::Apic)]
+#[case::flip_99(TransferName::Flip99, WaveTransfer::Blend(0.99))]
+#[case::flip_95(TransferName::Flip95, WaveTransfer::Blend(0.95))]
+#[case::xpic_2(TransferName::Xpic2, WaveTransfer::Xpic(2))]
+#[case::xpic_5(TransferName::Xpic5, WaveTransfer::Xpic(5))]
+#[case::fmpm_2(TransferName::Fmpm2, WaveTransfer::Fmpm(2))]
+#[case::fmpm_4(TransferName::Fmpm4, WaveTransfer::Fmpm(4))]
+fn steps_have_the_predicted_trace_and_determinant(
+    #[case] name: TransferName,
+    #[case] wave: WaveTransfer,
+    #[values(1, 2, 3, 4)] ppc: usize,
+) {
+    all_waves(name, MassName::Lumped, wave, ppc, 0.0);
+}
+
+#[rstest]
+fn a_consistent_mass_has_the_predicted_trace_and_determinant(#[values(1, 2, 3, 4)] ppc: usize) {
+    all_waves(TransferName::Flip, MassName::Consistent, WaveTransfer::FlipConsistent, ppc, 0.0);
+}
+
+/// Particles that are moved by a part of a cell have other symbols and the same formulas.
+#[rstest]
+#[case::flip(TransferName::Flip, WaveTransfer::Flip)]
+#[case::apic(TransferName::Apic, WaveTransfer::Apic)]
+#[case::fmpm_2(TransferName::Fmpm2, WaveTransfer::Fmpm(2))]
+fn shifted_particles_have_the_predicted_trace_and_determinant(
+    #[case] name: TransferName,
+    #[case] wave: WaveTransfer,
+    #[values(1, 3)] ppc: usize,
+) {
+    all_waves(name, MassName::Lumped, wave, ppc, 0.1);
+}
+
+/// Twenty periods of a body whose particles move. The run ends earlier if damping has reduced the
+/// amplitude to a millionth.
+#[rstest]
+#[case::flip_usl(TransferName::Flip, WaveTransfer::Flip, SchemeName::Usl)]
+#[case::flip_musl(TransferName::Flip, WaveTransfer::Flip, SchemeName::Musl)]
+#[case::pic_musl(TransferName::Pic, WaveTransfer::Pic, SchemeName::Musl)]
+#[case::apic_usl(TransferName::Apic, WaveTransfer::Apic, SchemeName::Usl)]
+#[case::apic_musl(TransferName::Apic, WaveTransfer::Apic, SchemeName::Musl)]
+#[case::xpic_2_usl(TransferName::Xpic2, WaveTransfer::Xpic(2), SchemeName::Usl)]
+#[case::fmpm_2_usl(TransferName::Fmpm2, WaveTransfer::Fmpm(2), SchemeName::Usl)]
+fn moving_particles_have_the_predicted_phase_error_and_damping(
+    #[case] name: TransferName,
+    #[case] wave: WaveTransfer,
+    #[case] scheme: SchemeName,
+    #[values(0, 1, 2)] basis: usize,
+) {
+    let ((basis, spline), size) = (BASES[basis], 1e-6 * SPEED);
+    let row =
+        Row { method: (basis, name, MassName::Lumped), scheme, ppc: 2, shift: 0.0, courant: 0.4 };
+    let step = row.predict(spline, wave, 1);
+    let (angle, kept) = (TAU / CELLS as f64 * row.courant, step.largest_modulus(row.courant));
+    let least = libm::log(1e-6) / libm::log(kept);
+    let steps = if kept < 1.0 { least.min(20.0 * TAU / angle) } else { 20.0 * TAU / angle };
+    let mut solver = row.solver();
+    start(&mut solver, 1, false, size);
+    let series = row.record(&mut solver, 1, steps as usize, size);
+    let (trace, determinant) = fit(std::slice::from_ref(&series));
+    let turned = libm::atan2((4.0 * determinant - trace * trace).sqrt(), trace);
+    let (found, expected) = (turned / angle - 1.0, step.phase_error(row.courant).unwrap());
+    assert!((found / expected - 1.0).abs() <= 0.02, "phase error {found}, expected {expected}");
+    let (found, expected) = (0.5 * libm::log(determinant), libm::log(kept));
+    let error = (found - expected).abs();
+    assert!(error <= 0.02 * expected.abs() + UNDAMPED, "ln |l| is {found}, expected {expected}");
+}
+
+/// All registered transfers of velocity have a closed form, so that a new one is not forgotten.
+#[test]
+fn transfers_with_a_closed_form_are_listed() {
+    let without = [TransferName::Mls, TransferName::Tpic, TransferName::Tls];
+    let with = TransferName::ALL.iter().filter(|name| !without.contains(name)).count();
+    assert_eq!(with, 9, "a transfer was added or removed: extend the cases above");
+}
+
+/// The measurement distinguishes schemes whose determinants differ by one part in a thousand.
+#[test]
+fn a_wrong_formula_is_detected() {
+    let method = (BasisName::QuadraticBSpline, TransferName::Flip99, MassName::Lumped);
+    assert!(combine(method.0, method.1, method.2, FrameName::Updated).is_ok());
+    let row = Row { method, scheme: SchemeName::Usl, ppc: 2, shift: 0.0, courant: 0.4 };
+    let (_, determinant) = row.measure(1);
+    let wrong = row.predict(Spline::Quadratic, WaveTransfer::Flip, 1).determinant(0.4);
+    assert!((determinant - wrong).abs() > 1e-3, "{determinant} against {wrong}");
+    // The method of the figures is the one of the solver.
+    let method = WaveMethod {
+        spline: Spline::Quadratic,
+        ppc: 2,
+        transfer: WaveTransfer::Blend(0.99),
+        scheme: SchemeName::Usl,
+    };
+    let error = (determinant - method.step(TAU / CELLS as f64).determinant(0.4)).abs();
+    assert!(error <= TOLERANCE, "{error:e}");
+}
