@@ -124,7 +124,7 @@ fn side(place: &str, folder: &str) -> Result<ComparedResults, Diagnostic> {
     Ok(snapshots(&overview, |file| committed(place, &format!("{folder}/{file}")).ok()))
 }
 
-/// The results in snapshots, of which `read` gives the text of a file.
+/// The results in snapshots; `read` returns the text of a file.
 fn snapshots(overview: &str, read: impl Fn(&str) -> Option<String>) -> ComparedResults {
     let report = |group: &str, suite: &str| read(&format!("{group}/{suite}.snap"));
     ComparedResults::Snapshots(ReportDocument::of_snapshots(overview, report))

@@ -23,7 +23,7 @@ fn rule() -> [(f64, f64); POINTS] {
     })
 }
 
-/// Points and weights on the box of the intervals `axes`, each of which is cut into `panels`: one
+/// Points and weights on the box of the intervals `axes`, each cut into `panels`: one
 /// point of weight 1 without any axis.
 pub(crate) fn points(axes: &[(f64, f64)], panels: usize) -> Vec<(Vec<f64>, f64)> {
     let rule = rule();

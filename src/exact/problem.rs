@@ -32,7 +32,7 @@ pub struct Problem {
     pub to: Vec<f64>,
     /// The body, if it is no box; then there are no faces.
     pub outline: Option<Arc<dyn Outline>>,
-    /// The problems of several boxes, of which this is the whole; empty where there is one body.
+    /// The problems of the boxes that this problem consists of; empty where there is one body.
     pub bodies: Vec<Self>,
     /// State across the plane of a body in two dimensions.
     pub plane: PlaneState,

@@ -72,7 +72,7 @@ const TOLERANCE: f64 = 1e-10;
 /// Intervals of the raster of times at which a size is taken, and which the points are made for.
 const TIMES: usize = 20;
 
-/// A sum of which the exact value is known at any time of the run.
+/// A sum whose exact value is known at any time of the run.
 #[derive(Debug)]
 pub struct BodySum {
     bodies: Vec<Problem>,

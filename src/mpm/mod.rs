@@ -12,7 +12,7 @@
 //! particles --P2G--> mass, momentum, force --solve--> acceleration --G2P--> velocity, strain, x
 //! ```
 //!
-//! The layers, each of which imports only those above it:
+//! The layers; each imports only those above it:
 //!
 //! ```text
 //! foundation    vectors, registers, threads, grid, particles

@@ -23,7 +23,7 @@ pub(crate) trait Study: StudyPlan {
     /// Rows of name and value that state the study.
     fn statement(&self) -> Rows;
 
-    /// Abilities that it asks of a solver that is not of this crate; none where there is no such
+    /// Abilities that it requires of an external solver; none where there is no such
     /// study of one.
     fn needs(&self) -> Option<ProblemNeeds> {
         None

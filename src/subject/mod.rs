@@ -247,7 +247,7 @@ pub enum Failure {
     /// A linear system could not be solved.
     #[error("{0}")]
     Solve(String),
-    /// A solver that is not of this crate broke, or broke the protocol.
+    /// An external solver stopped, or violated the protocol.
     #[error("the solver {0}")]
     External(String),
 }

@@ -20,7 +20,7 @@ named! {
         AngularMomentum = "angular_momentum",
         /// Kinetic energy, which only a motion without stress keeps.
         KineticEnergy = "kinetic_energy",
-        /// The kinetic energy, of which only a gain over the start counts: what a body that stores
+        /// The kinetic energy; only a gain over the start counts: what a body that stores
         /// energy in stress and gives it back must not have.
         KineticEnergyGain = "kinetic_energy_gain",
         /// Kinetic energy and what the material stores, if its law has an energy.

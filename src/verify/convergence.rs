@@ -253,7 +253,7 @@ pub(in crate::verify) mod tests {
         assert_eq!(level.is_too_long(), is_too_long);
     }
 
-    /// At the order 2 the limit is 0.04 from the finest value 2, of which the index is 2.5 %.
+    /// At order 2 the limit is 0.04 from the finest value 2, whose index is 2.5 %.
     #[rstest]
     #[case(0.04, true)]
     #[case(0.06, false)]

@@ -134,7 +134,7 @@ impl CaseOutcome {
         Self { verdict, reason, lacks, ..self }
     }
 
-    /// The outcome of a case of which the gate requires nothing, for this reason.
+    /// The outcome of a case that the gate does not judge, for this reason.
     #[must_use]
     pub(crate) fn not_gated(self, reason: &str) -> Self {
         let reason = format!("{reason}; {}", self.reason);

@@ -42,7 +42,7 @@ pub(super) fn prepare(
 }
 
 impl SolverGate {
-    /// Suites of which every case must be tested.
+    /// Suites whose cases must all be tested.
     pub(super) fn required(&self) -> BTreeSet<String> {
         if self.allows_not_applicable { BTreeSet::new() } else { self.named.clone() }
     }

@@ -91,7 +91,7 @@ fn report(
     let (runs, judging) = choose(suites)?;
     labels::check(args, &runs)?;
     let suites: Vec<Suite> = runs.iter().map(|runs| runs.suite().clone()).collect();
-    // Suites of which no case is chosen are left out, and the others stay in their order.
+    // Suites without a selected case are left out, and the others keep their order.
     let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);
     let sources = names.into_iter().zip(sources).filter(is_chosen);
     let sources: Vec<Source> = sources.map(|(_, source)| source).collect();
@@ -201,7 +201,7 @@ impl Judging {
         Self { kept: Some(kept), solvers: Vec::new(), series: None, at_interrupt: None }
     }
 
-    /// Suites of which the gate requires every case to be tested.
+    /// Suites whose cases must all be tested by the gate.
     fn required(&self) -> BTreeSet<String> {
         let gates = self.solvers.iter().filter_map(|solver| solver.gate.as_ref());
         gates.flat_map(SolverGate::required).collect()

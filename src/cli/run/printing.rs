@@ -8,7 +8,7 @@ use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::SuiteOutcome;
 use std::path::Path;
 
-/// Most suites that are named of which the reports are printed.
+/// Largest number of named suites whose reports are printed.
 const FEW: usize = 5;
 
 /// Extent of the printed text.

@@ -1,7 +1,7 @@
 //! Coulomb friction on a face, checked at a point: the wall presses and does not pull, the face
 //! keeps to it, and what slides is resisted by mu times the pressure.
 //!
-//! Forces are those on the reference area, of which both sides of Coulomb's law have the same.
+//! Forces are those on the reference area, which is the same on both sides of Coulomb's law.
 
 use super::event::{AXES, Event};
 use crate::exact::condition::Face;

@@ -3,7 +3,7 @@
 use super::{Cut, Outline, Piece, ROUNDING};
 use crate::exact::random::Random;
 
-/// Random points of which a patch takes the one that is furthest from all sides.
+/// Number of random points; a patch takes the one that is furthest from all sides.
 const CANDIDATES: usize = 8;
 
 /// A simple polygon: sides that neither cross nor touch.
@@ -206,7 +206,7 @@ impl Outline for Polygon {
         (centre, half)
     }
 
-    /// Each triangle is a square of which one side has become the first corner.
+    /// Each triangle is a square, one side of which is collapsed to the first corner.
     fn charts(&self) -> Vec<Vec<(f64, f64)>> {
         self.triangles.iter().map(|_| vec![(0.0, 1.0); 2]).collect()
     }

@@ -150,7 +150,7 @@ proptest! {
     }
 
     /// Charts cover the body once: the integral of a quadratic polynomial over each is that of its
-    /// values at Gauss points, of which two along an axis are enough.
+    /// values at Gauss points; two along an axis are enough.
     #[test]
     fn charts_cover_the_polygon(corners in star()) {
         prop_assume!(is_around_its_centre(&corners));

@@ -168,7 +168,7 @@ impl ColumnText {
         }
     }
 
-    /// The numbers of the column `name`, of which there must be `count`, all finite.
+    /// The numbers of the column `name`: exactly `count`, all finite.
     pub(super) fn numbers(
         self,
         name: &str,

@@ -54,7 +54,7 @@ fn rms(bar: &Bar, sampling: Sampling, exact: impl Fn(f64) -> f64) -> f64 {
     libm::sqrt(square / samples.weight.iter().sum::<f64>())
 }
 
-/// Orders between neighbouring levels, each of which halves h or dt.
+/// Orders between neighbouring levels; h or dt is halved from each to the next.
 fn orders(errors: &[f64]) -> Vec<f64> {
     errors.windows(2).map(|pair| libm::log2(pair[0] / pair[1])).collect()
 }

@@ -75,7 +75,7 @@ mod tests {
     use crate::mpm::{Block, LinearElastic, Material, Matrix, StressUpdate, Vector};
     use approx::assert_relative_eq;
 
-    /// Two particles, of which one is compressed and the other stretched, by turns.
+    /// Two particles; one is compressed and the other stretched, by turns.
     #[test]
     fn compression_is_resisted_and_nothing_of_it_stays() {
         let block = Block { from: Vector::zeros(), to: Vector::<2>::new(2.0, 1.0), density: 3.0 };

@@ -11,7 +11,7 @@ use crate::subject::{Failure, Site};
 use nalgebra::SMatrix;
 
 impl<const D: usize> Particles<D> {
-    /// Names the first particle of which any number is not finite: before the first step.
+    /// Names the first particle with a number that is not finite, before the first step.
     ///
     /// # Errors
     /// [`Failure::NonFinite`].

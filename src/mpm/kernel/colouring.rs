@@ -112,7 +112,7 @@ impl Span {
         if !(low <= high) || grid.periodic[axis] && wraps {
             return 0..all;
         }
-        // The first node of a cell, of which some bases have several.
+        // The first node of a cell; some bases have several.
         let per_cell = (B::count(2, true) - B::count(1, true)) as f64;
         let node = |x: f64| libm::floor(x.clamp(0.0, cells - 1.0)) * per_cell;
         let (first, last) = (node(low) - below, node(high) + above);

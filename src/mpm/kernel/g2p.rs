@@ -51,7 +51,7 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
         }
     }
 
-    /// Clears the sums of some particles, of which matrices are only where a pass takes them.
+    /// Clears the sums of some particles; matrices exist only where a pass takes them.
     #[inline(always)]
     fn reset(&mut self, simd: S, moments: bool, gradients: bool, left_out: impl Fn(usize) -> bool) {
         let zero = simd.splat(0.0);

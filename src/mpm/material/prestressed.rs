@@ -68,7 +68,7 @@ impl<const D: usize> Material<D> for Prestressed<D> {
             return None;
         }
         let stored = |((f, s0), vol0): ((&Matrix<D>, &Matrix<D>), &f64)| {
-            // E from H = F - I, of which small strains keep their digits.
+            // E from H = F - I, which keeps the digits of small strains.
             let h = f - Matrix::identity();
             vol0 * 0.5 * s0.dot(&(h + h.transpose() + h.transpose() * h))
         };
@@ -197,7 +197,7 @@ mod tests {
         }
     }
 
-    /// Its energy is told from the stress, of which S0 is no part.
+    /// Its energy is computed from the stress without S0.
     #[test]
     fn a_law_in_rate_form_has_no_energy() {
         let rate = at(&Matrix::<1>::new(1.1));

@@ -33,7 +33,7 @@ pub struct TransferParameter {
 }
 
 impl TransferParameter {
-    /// Terms of a series, each of which takes two passes over the particles.
+    /// Terms of a series; each takes two passes over the particles.
     pub(super) const TERMS: Self = Self { range: (1, 64), words: ("a series of", "terms") };
 }
 

@@ -248,7 +248,7 @@ impl LevelRow<'_> {
         errors.at_end.linf
     }
 
-    /// A figure of which one digit says enough; a dash also on a failed level that has none.
+    /// A figure printed with one digit; a dash also on a failed level that has none.
     fn unless_failed(&self, figure: Option<f64>) -> Cell {
         let cell = Cell::number(figure, |value| format!("{value:.0e}"));
         cell.or_failed(figure.and(self.level.run.failure.as_ref()))

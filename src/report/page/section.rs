@@ -41,7 +41,7 @@ fn links(source: &SuiteSource<'_>) -> Html {
     Html::tag("p", &[("class", "links")], parts)
 }
 
-/// One row for each case; neighbours of which the same is expected share the words.
+/// One row for each case; neighbours with the same expectation share its text.
 fn cases(outcome: &SuiteOutcome) -> Html {
     let judged = outcome.cases.iter().filter_map(CaseOutcome::convergence).find(|s| s.compared);
     let measured = outcome.cases.iter().any(|case| case.convergence().is_some());

@@ -52,10 +52,9 @@ fn inside_a_cell(preflight: &Preflight<'_>, plane: &Plane) -> Option<Diagnostic>
     let message =
         format!("with {cells} cells {what} at {x:.4} m is {share:.2} cells away from a grid line");
     let found = preflight.finding(plane.severity, path, &message);
-    Some(
-        found
-            .with_help("inside a cell it may cost an order: take cells of which whole numbers fit"),
-    )
+    Some(found.with_help(
+        "inside a cell it may cost an order: choose a cell size that divides the length",
+    ))
 }
 
 fn loaded_faces(scene: &Scene) -> Vec<Plane> {

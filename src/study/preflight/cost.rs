@@ -9,7 +9,7 @@ use crate::suite::model::{Case, ConvergencePlan, Suite};
 /// it by a factor of up to three.
 const SECONDS: [f64; 3] = [2.5e-7, 6e-7, 1.8e-6];
 
-/// Time (s) of a case of which none is predicted.
+/// Time (s) of a case without a prediction.
 pub(crate) const UNKNOWN: f64 = 0.5;
 
 /// Bytes of a particle, and of a node, by dimension.

@@ -46,8 +46,10 @@ pub(super) fn subject(
     subject.sample(&mut samples);
     // Without either, an energy that grows would look like one that does not.
     match (subject.totals(), samples.stress.is_empty()) {
-        (None, _) => Err("it gives no totals, of which the kinetic energy is watched".to_owned()),
-        (_, true) => Err("it gives no stress at the start, of which energy is watched".to_owned()),
+        (None, _) => Err("it gives no totals, from which the kinetic energy is read".to_owned()),
+        (_, true) => {
+            Err("it gives no stress at the start, from which the energy is computed".to_owned())
+        }
         _ => Ok(subject),
     }
 }

@@ -68,7 +68,7 @@ impl CaseRun<'_> {
         Ok(setup)
     }
 
-    /// The stable time step (s); of a solver that is not of this crate, the time that a wave takes
+    /// The stable time step (s); of an external solver, the time that a wave takes
     /// to cross a cell.
     fn stable_time_step(&self, setup: &RunSetup) -> Result<f64, String> {
         let of_body = |body: &Body<'_>| match self.case.method {

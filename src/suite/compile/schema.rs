@@ -40,7 +40,7 @@ fn without_links(schema: &mut Schema) {
     }
 }
 
-/// Writes a choice between bare names, of which there is nothing to say, as a list.
+/// Writes a choice between bare names without descriptions as a list.
 fn names_in_one_list(schema: &mut Schema) {
     let bare = |choice: &Value| match choice.as_object() {
         Some(keys) if keys.len() == 2 && keys.get("type") == Some(&"string".into()) => {

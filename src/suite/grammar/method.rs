@@ -50,7 +50,7 @@ pub(crate) enum MethodSpec {
         /// Basis functions.
         basis: OneOrMany<BasisName>,
     },
-    /// A solver that is not of this crate, which the command line starts.
+    /// An external solver, which the command line starts.
     External {
         /// Its name, a part of the case's.
         name: String,

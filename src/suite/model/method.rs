@@ -42,7 +42,7 @@ pub enum Method {
         /// Where the error is taken.
         sampling: Sampling,
     },
-    /// A solver that is not of this crate.
+    /// An external solver.
     External {
         /// Order in h that theory gives its displacements, by its own account.
         formal_order: f64,

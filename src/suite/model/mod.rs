@@ -69,7 +69,7 @@ pub struct ConvergencePlan {
     pub instants: u64,
     /// The error that is judged.
     pub norm: NormName,
-    /// Quantity of which the error is taken.
+    /// Quantity whose error is taken.
     pub of: Quantity,
     /// Its exact value, where it is a sum over the body.
     pub sum: Option<Arc<JudgedSum>>,
@@ -94,7 +94,7 @@ pub struct Case {
     pub name: String,
     /// The method.
     pub method: Method,
-    /// Name of the solver that is not of this crate, which the method then is.
+    /// Name of the external solver, if the method is one.
     pub solver: Option<String>,
     /// End of the run (s).
     pub until: f64,

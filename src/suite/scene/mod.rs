@@ -42,7 +42,7 @@ pub struct Scene {
     pub density: f64,
     /// The 2 D faces of a box: low and high, axis by axis. A body with a free rim has none.
     pub faces: Vec<SceneFace>,
-    /// Sets of particles, on each of which one load acts.
+    /// Sets of particles; one load acts on each.
     pub sets: Vec<Region>,
     /// Loads and effects, in the order in which solvers apply them.
     pub(crate) loads: Vec<ListedLoad>,

@@ -5,7 +5,7 @@
 //! pass follows the parser's rules for where a token starts, and nothing else: it builds no
 //! values. Where a file is not YAML it stops, and the parser says why. On its way it keeps the
 //! extent of each scalar, so that a caret can underline a whole one, and it finds brackets and
-//! quotes that are never closed, of which the parser would only notice the end of the file.
+//! quotes that are never closed, which the parser would only report at the end of the file.
 
 use super::{Diagnostic, MAX_NESTING, Place};
 use std::ops::Range;

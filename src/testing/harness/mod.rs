@@ -79,7 +79,7 @@ impl SuiteFolder {
         if self.run(std::env::args_os()) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
     }
 
-    /// Runs the tests that a command line selects, of which the first word is the program, and says
+    /// Runs the tests that a command line selects (its first word is the program), and says
     /// whether none has failed.
     pub fn run<Words>(&self, words: Words) -> bool
     where

@@ -139,7 +139,7 @@ mod tests {
         assert_eq!(ErrorField::of(Quantity::Displacement, &square(1), &AtRest, 0.0), None);
     }
 
-    /// Four particles, of which two share a part: the error of the first counts, in its middle.
+    /// Four particles; two share a part: the error of the first counts, at its middle.
     #[test]
     fn a_part_shows_its_largest_error_in_its_middle() {
         let mut samples = Samples::default();

@@ -21,7 +21,7 @@ use std::ops::Range;
 use super::fit::{FittedLine, LogPoint};
 use super::variance_ratio;
 
-/// Fewest levels of which an order is claimed: two degrees of freedom remain to contradict it.
+/// Smallest number of levels for an order: two degrees of freedom remain to contradict it.
 pub(crate) const FEWEST_LEVELS: usize = 4;
 
 /// The risk that pure noise makes the window shorter, over all candidates of one step: a tenth of

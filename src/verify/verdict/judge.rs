@@ -38,7 +38,7 @@ const DRIFT: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 /// and if noise would show it only once in a thousand series.
 const DRIFT_RISK: f64 = 0.001;
 
-/// Fewest levels of which an order before a floor is reported (not claimed).
+/// Smallest number of levels before a floor whose order is reported (not claimed).
 const FEWEST_BEFORE_FLOOR: usize = 3;
 
 /// A verdict with the figures that led to it.

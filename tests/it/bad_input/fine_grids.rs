@@ -66,7 +66,7 @@ const NO_PARAMETERS: (&str, &str) = ("parameters:\n  omega: \"5*pi\"\n", "");
         ("run:", "reference: {same_method: {cells: ▸33}}\nrun:"),
         ("{left: fixed}", "{left: fixed, top: roller}"),
     ],
-    &["with 33 cells along the first axis the top face", "of which a whole number fits"]
+    &["with 33 cells along the first axis the top face", "a cell size that divides the length"]
 )]
 #[case::too_fine(
     CUBE,

@@ -188,7 +188,7 @@ fn a_body_at_rest(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 )]
 #[case::with_cells_that_do_not_fit(
     &[("to: [1, 1]}}", "to: [1, 0.9]}}"), ("cells: [4,", "cells: [▸4,"), ("+ w(X, t)*sin(Y + 1/2)", "+ 0*w(X, t)*Y")],
-    &["the top face, which is at rest", "expected cells of which a whole number fits"]
+    &["the top face, which is at rest", "expected a cell size that divides the length"]
 )]
 fn a_manufactured_plate(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     if words[0].starts_with("the top face") {

@@ -91,7 +91,7 @@ fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     &[
         "with 8 cells along the first axis the top face, which is fixed, is at 1.1",
         "the nodes next to it at 1.125",
-        "expected cells of which a whole number fits, not 0.0625 m",
+        "expected a cell size that divides the length, not 0.0625 m",
     ]
 )]
 fn a_plate_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {

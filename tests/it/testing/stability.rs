@@ -1,4 +1,4 @@
-//! Stability studies of a solver that is not of this crate.
+//! Stability studies of an external solver.
 
 use super::own_solver::solver::Bar;
 use super::own_solver::{OwnSolver, suite};

@@ -99,7 +99,7 @@ fn words(view: &View) -> Vec<Row> {
     let mut statement = statement::Rows::new();
     statement::scene(&view.scene, &mut statement);
     rows.extend(statement.into_iter().filter(|(name, _)| name != "grid"));
-    // Neighbouring faces of which the same is said share a row.
+    // Neighbouring faces with the same text share a row.
     let is_face = |name: &str| FACES.contains(&name);
     let alike = rows.chunk_by(|a, b| is_face(&a.0) && is_face(&b.0) && a.1 == b.1);
     let row = |alike: &[(String, String)]| {

@@ -202,7 +202,7 @@ fn shown(vector: Pt, largest: f64) -> Pt {
     (LONGEST * vector.0 / largest, -LONGEST * vector.1 / largest)
 }
 
-/// Times (s) of which the first is taken at which a load that grows from nothing is there.
+/// Times (s); the first is used at which a load that grows from zero is present.
 const TIMES: [f64; 4] = [0.0, 1e-6, 1e-3, 0.1];
 
 /// The direction on the canvas of what first differs from zero.

@@ -133,7 +133,7 @@ pub(crate) fn held_faces(
                  {}, and the nodes next to it at {end}",
                 shown(body)
             );
-            let label = format!("expected cells of which a whole number fits, not {h} m");
+            let label = format!("expected a cell size that divides the length, not {h} m");
             return Err(evaluator.diagnostic(path, &message).with_label(&label));
         }
     }

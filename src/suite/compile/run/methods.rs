@@ -14,7 +14,7 @@ pub(crate) struct MethodDraft {
     /// Number of its entry of `methods`.
     entry: usize,
     pub(crate) method: Method,
-    /// Name of a solver that is not of this crate.
+    /// Name of an external solver.
     solver: Option<String>,
     /// Which of its settings the name says.
     said: Vec<bool>,

@@ -197,7 +197,7 @@ fn possible(
             Err(evaluator.diagnostic(&path.then("mpm").then("frame"), message))
         }
         MethodSpec::External { .. } if plan.same_method.is_some() => {
-            let message = "a solver that is not of this crate is not run finer for its own truth";
+            let message = "an external solver is not run on a finer grid for its own truth";
             Err(evaluator.diagnostic(path, message).with_help("state `exact` or a `reference`"))
         }
         MethodSpec::Fem { .. } if plan.refine.axis == Axis::Particles => {

@@ -6,7 +6,7 @@ use crate::suite::grammar::{ConvergenceSpec, ExpectSpec};
 use crate::suite::model::{ConvergencePlan, SameMethod};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// The truth of which nothing is known.
+/// The truth of a suite that states none: only conserved sums are judged.
 pub(crate) struct Unknown;
 
 impl Truth for Unknown {

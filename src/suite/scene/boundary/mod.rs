@@ -1,6 +1,6 @@
 //! Boundary conditions on the faces of a body: the family. A member is one file and one line below
 //! (and the `mod` that Rust wants), and its condition on nodes is a file of the solver's family.
-//! No suite writes two of them: a face of which it says nothing is a [`FreeFace`], or a
+//! No suite writes two of them: a face that it does not mention is a [`FreeFace`], or a
 //! [`FaceAtRest`] of a body that does not move.
 
 mod contract;

@@ -42,7 +42,7 @@ macro_rules! names {
 each_effect!(names);
 
 impl EffectName {
-    /// Refuses a list of effects of which one needs another that is not there.
+    /// Refuses a list of effects if one needs another that is missing.
     ///
     /// # Errors
     /// The effect that is at fault, and one line that names both.

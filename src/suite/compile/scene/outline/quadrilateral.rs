@@ -48,7 +48,7 @@ pub(crate) fn faces_are_sides(
 ) -> Result<(), Diagnostic> {
     let is_side = |name: &str| {
         let number = FACES.iter().position(|face| *face == name);
-        // Others are no faces at all, of which more is said later.
+        // Others are no faces, which a later check reports.
         number.is_none_or(|i| i >= 4 || panel.has_side_at(i / 2, i % 2 == 1))
     };
     let no_side = |at: &Path, face: &str, is_key: bool| {
