@@ -104,6 +104,12 @@ impl Extremes {
         self.acceleration = self.acceleration.max(size(&now.acceleration));
     }
 
+    /// The largest absolute coordinate (m) of any point of the body during the run.
+    pub(crate) fn largest_coordinate(&self) -> f64 {
+        let ends = self.reach.iter().flat_map(|(low, high)| [low.abs(), high.abs()]);
+        ends.filter(|x| x.is_finite()).fold(0.0, f64::max)
+    }
+
     /// The largest displacement (m) along any axis.
     pub(crate) fn largest_displacement(&self) -> f64 {
         self.displacement.iter().fold(0.0, |a, b| a.max(*b))

@@ -101,6 +101,8 @@ pub(crate) struct RunContext<'a> {
     pub(crate) extent: Extent,
     /// Results of earlier runs.
     pub(crate) cache: Option<&'a ResultCache>,
+    /// Number of times that each level of a convergence study runs.
+    pub(crate) repeat: usize,
     /// The solver of cases whose method is not of this crate.
     pub(crate) solver: Option<&'a dyn SolverFactory>,
 }

@@ -26,8 +26,8 @@ impl<'a> Runner<'a> {
     /// A runner of so many levels.
     pub fn over(suite: &'a Suite, extent: Extent) -> Self {
         let (name, fingerprint) = (suite.name.as_str(), suite.fingerprint);
-        let (cache, solver) = (None, None);
-        Self::with(suite, RunContext { suite: name, fingerprint, extent, cache, solver })
+        let (cache, solver, repeat) = (None, None, 1);
+        Self::with(suite, RunContext { suite: name, fingerprint, extent, cache, repeat, solver })
     }
 
     /// The solver of the cases of [`Suite::of_external`].
@@ -40,6 +40,14 @@ impl<'a> Runner<'a> {
     #[must_use]
     pub fn keeping(self, cache: Option<&'a ResultCache>) -> Self {
         Self::with(self.suite, RunContext { cache, ..self.context })
+    }
+
+    /// Runs each level of a convergence study `count` times, in a new process if the solver is one,
+    /// and reports the spread between the runs. Results are then neither stored nor taken from a
+    /// cache. A `count` of 0 or 1 is one run, without a spread.
+    #[must_use]
+    pub fn repeating(self, count: usize) -> Self {
+        Self::with(self.suite, RunContext { repeat: count.max(1), ..self.context })
     }
 
     fn with(suite: &'a Suite, context: RunContext<'a>) -> Self {

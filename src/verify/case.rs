@@ -3,6 +3,7 @@
 
 use super::conservation::ConservationError;
 use super::convergence::{Convergence, LevelOutcome};
+use super::exclusion::leaves_too_few;
 use super::expectation::gate::{Acceptance, GateResult, Gating};
 use super::expectation::limits::{Limits, Measured};
 use super::expectation::{CaseFindings, Expectation};
@@ -40,13 +41,19 @@ pub fn judge_case<R: Reruns>(
 ) -> CaseJudgement {
     let judgement = plan.judge_levels(&levels);
     let floor = rerun::floor(plan, &judgement, &levels, reruns);
-    let exemption = plan.exemption(&levels);
-    let gate = match (&exemption, plan.gating) {
+    let mut exemption = plan.exemption(&levels);
+    let mut gate = match (&exemption, plan.gating) {
         (None, Some(Gating::Required(required))) => {
             Some(rerun::gate(plan, required, &levels, &judgement, reruns))
         }
         _ => None,
     };
+    // Errors below the rounding bound show no order, neither a sound nor a wrong one.
+    if gate.as_ref().is_some_and(|gate| gate.result.is_err()) && leaves_too_few(&levels, &judgement)
+    {
+        exemption = Some("the rounding bound leaves too few levels for an order".to_owned());
+        gate = None;
+    }
     for (level, order) in levels.iter_mut().zip(&judgement.pairwise) {
         level.order = *order;
     }

@@ -76,6 +76,14 @@ pub struct LevelOutcome {
     pub error: f64,
     /// Whether the judge may count the level.
     pub usable: bool,
+    /// Bound of the rounding error of positions (m) in the judged norm, of a solver in single
+    /// precision whose displacement is judged.
+    pub rounding_bound: Option<f64>,
+    /// Whether the displacement error (m) lies below `rounding_bound`.
+    pub is_below_rounding: bool,
+    /// Largest difference between repeated runs, in the norm and over the scale of the error; NaN
+    /// if the runs cannot be compared, and `None` if the level ran once.
+    pub spread: Option<f64>,
     /// Order between the next coarser level and this one.
     pub order: Option<f64>,
     /// The longest time step (s) that was predicted stable, where a rule asked for it, or where the
@@ -182,6 +190,9 @@ pub(in crate::verify) mod tests {
             run: result(),
             error: *error,
             usable: true,
+            rounding_bound: None,
+            is_below_rounding: false,
+            spread: None,
             order: None,
             stable_time_step: None,
         };

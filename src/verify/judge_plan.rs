@@ -6,6 +6,7 @@ use super::error::error_scale::ErrorScale;
 use super::error::norm::NormName;
 use super::error::quantity::Quantity;
 use super::error::run::RunResult;
+use super::exclusion::{rounding_bound, with_exclusions};
 use super::expectation::gate::Gating;
 use super::expectation::{Bounds, Expectation};
 use super::order::hypothesis::OrderHypothesis;
@@ -31,6 +32,9 @@ pub struct JudgePlan<'a> {
     pub is_compared: bool,
     /// Whether levels on which particles change their cell are left out.
     pub excludes_crossings: bool,
+    /// Distance (m) of neighbouring positions of a solver in single precision, if its displacement
+    /// is judged and the exact motion is known.
+    pub position_spacing: Option<f64>,
     /// Reference position that is observed (m).
     pub observed_at: Option<&'a [f64]>,
     /// Sums whose drift is shown if nothing is expected of the case.
@@ -62,6 +66,8 @@ impl JudgePlan<'_> {
         let LevelSizes { cells, h, dt, ppc, particle_spacing } = sizes;
         let is_crossed = run.counters.crossings.is_some_and(|n| n > 0);
         let error = run.errors.in_norm(self.norm);
+        let spacing = self.position_spacing;
+        let bound = spacing.map(|spacing| rounding_bound(run.steps, spacing, self.norm));
         LevelOutcome {
             cells,
             h,
@@ -74,6 +80,9 @@ impl JudgePlan<'_> {
             ppc: ppc.filter(|_| run.counters.particles.is_some()),
             error: self.scale.map_or(error, |scale| error / scale),
             usable: !(is_crossed && self.excludes_crossings),
+            rounding_bound: bound,
+            is_below_rounding: bound.is_some_and(|bound| error < bound),
+            spread: None,
             order: None,
             stable_time_step: None,
             run,
@@ -87,7 +96,8 @@ impl JudgePlan<'_> {
             return Judgement::without_comparison(levels.len());
         }
         let expected = self.expectation.and_then(|expectation| expectation.order);
-        self.judge_series(&series(levels), expected)
+        let judgement = self.judge_series(&series(levels), expected);
+        with_exclusions(judgement, levels, self.axis)
     }
 
     /// The judgement of a series of errors, whose order is expected within bounds if any are given.
@@ -100,7 +110,7 @@ impl JudgePlan<'_> {
     pub(super) fn exemption(&self, levels: &[LevelOutcome]) -> Option<String> {
         match self.gating {
             Some(Gating::NotGated(reason)) => Some(reason.clone()),
-            Some(Gating::Required(required)) => required.untestable(&series(levels)),
+            Some(Gating::Required(required)) => required.untestable(&usable_series(levels)),
             _ => None,
         }
     }
@@ -108,6 +118,16 @@ impl JudgePlan<'_> {
 
 /// The levels as the judge takes them, with those marked that do not count.
 pub(super) fn series(levels: &[LevelOutcome]) -> Vec<Level> {
+    let marked = |level: &LevelOutcome| {
+        let judged = level.to_level();
+        if level.exclusion().is_none() { judged } else { judged.unusable() }
+    };
+    levels.iter().map(marked).collect()
+}
+
+/// The levels for a comparison of their errors with a bound: those that rounding or spread exclude
+/// from the order count there.
+pub(super) fn usable_series(levels: &[LevelOutcome]) -> Vec<Level> {
     let marked = |level: &LevelOutcome| {
         let judged = level.to_level();
         if level.usable { judged } else { judged.unusable() }

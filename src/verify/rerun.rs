@@ -9,7 +9,7 @@
 
 use super::convergence::LevelOutcome;
 use super::expectation::gate::{Acceptance, GateResult, Requirement};
-use super::judge_plan::{JudgePlan, series};
+use super::judge_plan::{JudgePlan, series, usable_series};
 use super::order::level::Axis;
 use super::verdict::floor::{Floor, Probe};
 use super::verdict::judge::Judgement;
@@ -33,7 +33,7 @@ pub trait Reruns: Sync {
         axis: Axis,
     ) -> Option<Result<LevelOutcome, Self::Error>>;
 
-    /// The level with a time step of `dt` (s).
+    /// The level with a time step of `dt` (s), run as often as the levels of the case.
     ///
     /// # Errors
     /// If the level cannot be set up.
@@ -81,7 +81,8 @@ pub(super) fn floor<R: Reruns>(
 ) -> Option<Floor> {
     let expected = plan.expectation.is_some_and(|expectation| expectation.floor.is_some());
     let asked = judgement.verdict == Verdict::AtFloor || expected;
-    let finest = levels.iter().rev().find(|level| level.usable).filter(|_| asked)?;
+    let counts = |level: &&LevelOutcome| level.exclusion().is_none();
+    let finest = levels.iter().rev().find(counts).filter(|_| asked)?;
     if finest.run.failure.is_some() || !reruns.can_halve() {
         return None;
     }
@@ -105,7 +106,7 @@ pub(super) fn gate<R: Reruns>(
     reruns: &R,
 ) -> GateResult {
     let rounding = rounding(plan, levels, reruns);
-    let result = required.check(&series(levels), plan.axis, judgement, rounding);
+    let result = required.check(&usable_series(levels), plan.axis, judgement, rounding);
     let remark = match result {
         Err(_) if is_step_fixed(plan, levels) => shorten(plan, required, levels, rounding, reruns),
         _ => None,
@@ -138,9 +139,9 @@ fn shorten<R: Reruns>(
         let again: Result<Vec<LevelOutcome>, R::Error> = coarser.par_iter().map(shorter).collect();
         let mut again = again.ok()?;
         again.push(finest);
-        let series = series(&again);
-        let judgement = plan.judge_series(&series, None);
-        if let Ok(met) = required.check(&series, plan.axis, &judgement, rounding) {
+        let judgement = plan.judge_series(&series(&again), None);
+        let usable = usable_series(&again);
+        if let Ok(met) = required.check(&usable, plan.axis, &judgement, rounding) {
             let order = judgement.order.map_or("none".to_owned(), |order| order.shown());
             let remark = format!(
                 "with 1/{} of the time step, which the suite does not refine, the order is {order}",

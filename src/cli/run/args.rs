@@ -1,6 +1,6 @@
 //! Arguments of `run` and `merge`.
 
-use crate::cli::arguments::{Expected, SolverLimitArgs, Targets, count};
+use crate::cli::arguments::{Expected, SolverLimitArgs, Targets, count, whole};
 use clap::{Args, ValueEnum};
 use mpm_verify::study::Shard;
 use std::path::PathBuf;
@@ -21,6 +21,11 @@ pub(in crate::cli) struct RunArgs {
     /// run goes on with the levels that are not done
     #[arg(long, value_name = "DIR")]
     pub(super) resume: Option<PathBuf>,
+    /// Run each level N times (2 or more), in a new process if a solver of `--solver` runs it, and
+    /// report the spread between the runs: a level whose spread exceeds a tenth of its error does
+    /// not count for the order
+    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
+    pub(super) repeat: Option<usize>,
     /// Write particles and grid over time into this folder, as files for ParaView, of the cases
     /// that did not come as expected, or of those that `--case` chooses: on the first level that
     /// broke, or on the finest

@@ -40,6 +40,7 @@ pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
 
 /// The suites that `args` choose, with the cache and the solvers of the run.
 fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError> {
+    let repeat = repetitions(args)?;
     let kept = args.resume.as_deref().map(open).transpose()?;
     let all = args.case.is_some();
     let series = args.vtu.as_deref().map(|folder| Series::prepare(folder, all)).transpose()?;
@@ -70,7 +71,7 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
         }
     }
     let at_interrupt = Some(progress::interrupt_note(args.resume.is_some()));
-    Ok((runs, Judging { kept, solvers, series, at_interrupt }))
+    Ok((runs, Judging { kept, solvers, repeat, series, at_interrupt }))
 }
 
 /// Runs suites one after the other, each in parallel; whatever has been finished is printed, also
@@ -181,6 +182,25 @@ fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
     pool.build_global().map_err(|error| CommandError::option("--jobs", jobs, error))
 }
 
+/// Number of runs of each level.
+///
+/// # Errors
+/// `--repeat` has no spread to report, or would mix stored results with new ones.
+fn repetitions(args: &RunArgs) -> Result<usize, CommandError> {
+    const MOST: usize = 100;
+    let Some(repeat) = args.repeat else { return Ok(1) };
+    let reason = if args.resume.is_some() {
+        "stored levels have one run each and no spread: remove `--resume`".to_owned()
+    } else if repeat < 2 {
+        "a spread needs two runs or more".to_owned()
+    } else if repeat > MOST {
+        format!("expected a number from 2 to {MOST}")
+    } else {
+        return Ok(repeat);
+    };
+    Err(CommandError::option("--repeat", repeat, reason))
+}
+
 fn extent(args: &ReportArgs) -> Extent {
     if args.full { Extent::Full } else { Extent::Usual }
 }
@@ -189,6 +209,8 @@ fn extent(args: &ReportArgs) -> Extent {
 struct Judging {
     kept: Option<ResultCache>,
     solvers: Vec<JudgedSolver>,
+    /// Number of runs of each level.
+    repeat: usize,
     /// Cases to be shown as files for ParaView.
     series: Option<Series>,
     /// Note to who ends it by Ctrl-C.
@@ -198,7 +220,8 @@ struct Judging {
 impl Judging {
     /// Results that are there.
     fn of_kept(kept: ResultCache) -> Self {
-        Self { kept: Some(kept), solvers: Vec::new(), series: None, at_interrupt: None }
+        let (solvers, repeat) = (Vec::new(), 1);
+        Self { kept: Some(kept), solvers, repeat, series: None, at_interrupt: None }
     }
 
     /// Suites whose cases must all be tested by the gate.
@@ -218,7 +241,8 @@ fn one(
 ) -> SuiteOutcome {
     let suite = &part.suite;
     bar.start(suite, extent(args));
-    let runner = Runner::over(suite, extent(args)).keeping(judging.kept.as_ref());
+    let runner =
+        Runner::over(suite, extent(args)).keeping(judging.kept.as_ref()).repeating(judging.repeat);
     let runner = match part.solver {
         Some(number) => runner.judging(&judging.solvers[number].program),
         None => runner,

@@ -3,7 +3,8 @@
 use super::{Cell, TableColumn, decimals, json_object, scientific};
 use crate::report::columns::number;
 use crate::verify::{
-    Axis, Conserved, Convergence, History, Interval, Level, LevelOutcome, RunErrors, observed_order,
+    Axis, Conserved, Convergence, Exclusion, History, Interval, Level, LevelOutcome, RunErrors,
+    observed_order,
 };
 use serde_json::Value;
 
@@ -102,6 +103,17 @@ pub(crate) fn largest_error<'a>() -> [LevelColumn<'a>; 2] {
             order.filter(|_| row.study.compared).map(decimals(2))
         }),
     ]
+}
+
+/// The largest difference between repeated runs.
+pub(crate) fn spread<'a>() -> LevelColumn<'a> {
+    let about = "largest difference between repeated runs, in the norm and over the scale of the \
+                 error";
+    LevelColumn::new("spread", "spread", about, |row| {
+        let text = |spread| if spread == 0.0 { "0".to_owned() } else { scientific(spread) };
+        let spread = row.level.spread;
+        Cell { json: spread.map_or(Value::Null, number), ..Cell::text(spread.map(text)) }
+    })
 }
 
 /// The error of the observed velocity.
@@ -203,7 +215,7 @@ pub(crate) fn energy_rate<'a>() -> [LevelColumn<'a>; 3] {
 
 /// All columns with a JSON key.
 pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
-    let mut columns = vec![cells(), dt(), ppc(), judged(), order()];
+    let mut columns = vec![cells(), dt(), ppc(), judged(), order(), spread()];
     columns.extend(norms());
     columns.extend(counters());
     columns.extend([
@@ -213,6 +225,17 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
             |row| number(row.level.spacing),
         ),
         LevelColumn::json("counts", "whether the level counts for the verdict", LevelRow::counts),
+        LevelColumn::json(
+            "excluded_by",
+            "reason for which the level does not count for the order: `crossings`, `rounding` or \
+             `spread`",
+            |row| row.level.exclusion().filter(|_| !row.counts()).map(Exclusion::name),
+        ),
+        LevelColumn::json(
+            "rounding_bound",
+            "bound of the rounding error of positions in single precision, in the judged norm (m)",
+            |row| row.level.rounding_bound.map(number),
+        ),
         LevelColumn::json("h", "cell size (m)", |row| number(row.level.h)),
         LevelColumn::json("drift", "relative drift of each conserved sum", |row| {
             let columns: Vec<_> = Conserved::ALL.iter().map(|sum| drift(*sum)).collect();
@@ -257,6 +280,7 @@ impl LevelRow<'_> {
     /// Whether the level counts for the verdict.
     fn counts(&self) -> bool {
         let window = self.study.judgement.window.as_deref().unwrap_or_default();
-        self.level.usable && (window.contains(&self.index) || self.study.bounded)
+        let is_in_window = self.level.exclusion().is_none() && window.contains(&self.index);
+        self.level.usable && (is_in_window || self.study.bounded)
     }
 }

@@ -13,6 +13,7 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     settings(lines, studies);
     for alike in by_levels(studies) {
         errors(lines, &alike);
+        spreads(lines, &alike);
         observed_velocities(lines, &alike);
     }
     finest(lines, studies);
@@ -81,6 +82,14 @@ fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
         return row(lines, "judged", &judged);
     }
     by_level(lines, &judged, studies, &[level::judged(), level::order()]);
+}
+
+/// Differences between repeated runs.
+fn spreads(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
+    let is_repeated =
+        |(_, study): &&NamedStudy<'_>| study.levels.iter().any(|level| level.spread.is_some());
+    let repeated: Vec<NamedStudy<'_>> = studies.iter().filter(is_repeated).copied().collect();
+    by_level(lines, "spread between runs, in the norm of the error", &repeated, &[level::spread()]);
 }
 
 fn observed_velocities(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {

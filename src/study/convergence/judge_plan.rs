@@ -2,11 +2,15 @@
 
 use crate::exact::{Problem, Truth};
 use crate::mpm::SchemeName;
+use crate::study::exact_motion::Extremes;
 use crate::subject::{Precision, Start};
 use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case, ConvergencePlan};
-use crate::verify::{Axis, Conserved, ErrorScale, Expectation, JudgePlan, Quantity, RoundingSizes};
+use crate::verify::{
+    Axis, Conserved, ErrorScale, Expectation, JudgePlan, Quantity, RoundingSizes,
+    single_precision_spacing,
+};
 
 /// The plan by which a case is judged, whose errors are taken against `truth`.
 pub(super) fn judge_plan<'a>(
@@ -24,11 +28,20 @@ pub(super) fn judge_plan<'a>(
         error_scale: error_scale(plan, case, truth),
         is_compared: case.against != Against::Nothing,
         excludes_crossings: plan.crossing_levels == CrossingLevels::Excluded,
+        position_spacing: position_spacing(plan, case),
         observed_at: plan.observe.as_deref(),
         sums: sums(plan, case),
         expectation,
         gating: case.gating.as_ref(),
     }
+}
+
+/// Distance (m) of neighbouring positions that the solver of a case rounds to, if it computes in
+/// single precision, its displacement is judged and a formula gives the motion.
+fn position_spacing(plan: &ConvergencePlan, case: &Case) -> Option<f64> {
+    let is_judged = plan.of == Quantity::Displacement && case.against != Against::Nothing;
+    let exact = plan.exact.as_ref().filter(|_| is_judged && case.method.is_single_precision())?;
+    single_precision_spacing(Extremes::of(exact).largest_coordinate())
 }
 
 /// The sums over the body that a case has, for an author who has not bounded any.

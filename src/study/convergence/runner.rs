@@ -186,7 +186,7 @@ impl<'a> ConvergenceRunner<'a> {
             .map(|(index, level)| {
                 let is_shown = index + 1 == count && case.against != Against::Nothing;
                 let level = self.steps.of(plan, case, *level).and_then(|(level, limit)| {
-                    let outcome = runs.level(level, is_shown)?;
+                    let outcome = runs.repeated(level, is_shown)?;
                     Ok(LevelOutcome { stable_time_step: limit, ..outcome })
                 });
                 progress();
@@ -244,19 +244,59 @@ impl CaseRuns<'_, '_> {
         let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
         let name = format!("{suite}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
         let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
-        let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
-        let (sum, observe) = (plan.sum.as_deref(), plan.observe.as_deref());
-        let comparison = Comparison { of: plan.of, sum, observe, at_rest, keeps_field };
+        let comparison = self.comparison(keeps_field);
         let run = || {
             let mut subject = subject_under(solver, suite, plan, case, level)?;
             Ok(verify::run(subject.as_mut(), self.truth, &clock, &comparison))
         };
         let broken = |run: &RunResult| run.failure.is_some();
         let run = self.runner.context.cached(&key, &name, broken, run)?;
-        let particle_spacing = level.particle_spacing(plan.scene.dimension());
+        Ok(self.outcome(level, clock.dt(), run))
+    }
+
+    /// One level, run as often as the context says, with the spread between the runs.
+    fn repeated(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, String> {
+        let (plan, case) = (&self.runner.plan, self.case);
+        let RunContext { suite, solver, repeat, .. } = self.runner.context;
+        if repeat < 2 {
+            return self.level(level, keeps_field);
+        }
+        let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
+        let comparison = self.comparison(keeps_field);
+        let mut first = None;
+        let mut records = Vec::new();
+        for number in 1..=repeat {
+            let mut subject = subject_under(solver, suite, plan, case, level)?;
+            let subject = subject.as_mut();
+            let (run, record) =
+                verify::run_recorded(subject, self.truth, &clock, &comparison, plan.norm);
+            if let Some(reason) = &run.failure {
+                let failure = Some(format!("run {number} of {repeat}: {reason}"));
+                return Ok(self.outcome(level, clock.dt(), RunResult { failure, ..run }));
+            }
+            records.push(record);
+            first.get_or_insert(run);
+        }
+        let run = first.ok_or("the level has no run")?;
+        let outcome = self.outcome(level, clock.dt(), run);
+        let spread = verify::spread(&records, plan.norm) / plan.scale.unwrap_or(1.0);
+        let spread = (case.against != Against::Nothing).then_some(spread);
+        Ok(LevelOutcome { spread, ..outcome })
+    }
+
+    /// The quantities that are compared in a run.
+    fn comparison(&self, keeps_field: bool) -> Comparison<'_> {
+        let plan = &self.runner.plan;
+        let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
+        let (sum, observe) = (plan.sum.as_deref(), plan.observe.as_deref());
+        Comparison { of: plan.of, sum, observe, at_rest, keeps_field }
+    }
+
+    /// The outcome of a level with steps of `dt` (s).
+    fn outcome(&self, level: LevelPlan, dt: f64, run: RunResult) -> LevelOutcome {
+        let particle_spacing = level.particle_spacing(self.runner.plan.scene.dimension());
         let LevelPlan { cells, h, ppc, .. } = level;
-        let sizes = LevelSizes { cells, h, dt: clock.dt(), ppc, particle_spacing };
-        Ok(self.judging.level(sizes, run))
+        self.judging.level(LevelSizes { cells, h, dt, ppc, particle_spacing }, run)
     }
 }
 
@@ -283,7 +323,7 @@ impl Reruns for CaseRuns<'_, '_> {
     }
 
     fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, String> {
-        self.level(LevelPlan { dt, ..taken(level) }, false)
+        self.repeated(LevelPlan { dt, ..taken(level) }, false)
     }
 
     fn rounding(&self) -> Option<RoundingSizes> {

@@ -78,7 +78,8 @@ impl<'a> Session<'a> {
 
     fn run(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
         let (suite, extent, solver) = (self.suite, Extent::Usual, self.solver);
-        let context = RunContext { suite, fingerprint: 0, extent, cache: None, solver };
+        let (cache, repeat) = (None, 1);
+        let context = RunContext { suite, fingerprint: 0, extent, cache, repeat, solver };
         let outcome = plan.runner(context).case(0, &|| ());
         outcome.convergence().cloned().ok_or(outcome.reason)
     }

@@ -13,3 +13,4 @@ pub(crate) mod norm;
 pub(crate) mod observer;
 pub(crate) mod quantity;
 pub(crate) mod run;
+pub(crate) mod spread;

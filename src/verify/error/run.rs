@@ -3,9 +3,10 @@
 use super::clock::Clock;
 use super::error_field::ErrorField;
 use super::judged_sum::{JudgedSum, over_instants};
-use super::norm::{Norms, RunErrors, larger, largest_length};
+use super::norm::{NormName, Norms, RunErrors, larger, largest_length};
 use super::observer::{History, displacement_at};
 use super::quantity::Quantity;
+use super::spread::RunRecord;
 use crate::exact::Truth;
 use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use crate::verify::conservation::{Balance, ConservationError};
@@ -48,14 +49,21 @@ pub fn run(
     clock: &Clock,
     comparison: &Comparison<'_>,
 ) -> RunResult {
+    RunMonitor::new(subject, truth, comparison).run(subject, clock).0
+}
+
+/// Runs `subject` like [`run`], and records the judged quantity for a comparison with other runs of
+/// the same level in `norm`. The record of a run that failed is empty.
+pub fn run_recorded(
+    subject: &mut dyn Subject,
+    truth: &dyn Truth,
+    clock: &Clock,
+    comparison: &Comparison<'_>,
+    norm: NormName,
+) -> (RunResult, RunRecord) {
     let mut monitor = RunMonitor::new(subject, truth, comparison);
-    for step in 1..=clock.steps {
-        if let Err(failure) = subject.step(clock.dt()) {
-            return monitor.failed(subject, step, clock.time(step), &failure);
-        }
-        monitor.look(subject, clock, step);
-    }
-    monitor.finished(subject, clock)
+    monitor.record = Some(RunRecord::for_norm(norm));
+    monitor.run(subject, clock)
 }
 
 /// The state of the comparison while a subject runs.
@@ -70,6 +78,7 @@ struct RunMonitor<'a> {
     account: Vec<(f64, Totals)>,
     residual_speed: Option<f64>,
     history: Option<(usize, History)>,
+    record: Option<RunRecord>,
 }
 
 impl<'a> RunMonitor<'a> {
@@ -92,7 +101,22 @@ impl<'a> RunMonitor<'a> {
             account: subject.totals().map(|totals| (0.0, totals)).into_iter().collect(),
             residual_speed: comparison.at_rest.map(|_| 0.0),
             history,
+            record: None,
         }
+    }
+
+    /// Runs to the end of the clock, or to the first failure.
+    fn run(mut self, subject: &mut dyn Subject, clock: &Clock) -> (RunResult, RunRecord) {
+        for step in 1..=clock.steps {
+            if let Err(failure) = subject.step(clock.dt()) {
+                let failed = self.failed(subject, step, clock.time(step), &failure);
+                return (failed, RunRecord::default());
+            }
+            self.look(subject, clock, step);
+        }
+        let mut record = self.record.take().unwrap_or_default();
+        record.add_sums(self.sum_errors.clone());
+        (self.finished(subject, clock), record)
     }
 
     fn look(&mut self, subject: &dyn Subject, clock: &Clock, step: u64) {
@@ -128,7 +152,11 @@ impl<'a> RunMonitor<'a> {
             self.sum_errors.push(sum.error(subject, t));
             return;
         }
-        self.errors.add(self.comparison.of.errors(&self.samples, self.truth, t));
+        let of = self.comparison.of;
+        self.errors.add(of.errors(&self.samples, self.truth, t));
+        if let Some(record) = &mut self.record {
+            record.add(of, &self.samples, self.truth, t);
+        }
     }
 
     fn finished(mut self, subject: &dyn Subject, clock: &Clock) -> RunResult {

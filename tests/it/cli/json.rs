@@ -32,8 +32,11 @@ const CASE: [&str; 20] = [
 const SUITE: [&str; 9] =
     ["suite", "group", "title", "source", "problem", "statement", "passed", "cases", "cost"];
 
-const LEVEL: [&str; 20] = [
+const LEVEL: [&str; 23] = [
     "counts",
+    "excluded_by",
+    "rounding_bound",
+    "spread",
     "cells",
     "h",
     "spacing",

@@ -8,8 +8,10 @@ mod library;
 mod misbehaving;
 #[cfg(unix)]
 mod program;
+mod repeat;
 #[cfg(unix)]
 mod several;
+mod single_precision;
 mod stated;
 #[cfg(unix)]
 mod values;

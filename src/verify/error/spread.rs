@@ -1,0 +1,199 @@
+//! Differences between repeated runs of one level.
+//!
+//! Solvers that add in no fixed order, for instance with atomic additions on a GPU, give other bits
+//! in each run. The spread of a level is the largest difference between two of its runs: the norm
+//! of the suite, applied to the difference of the judged quantity at each label. Errors with equal
+//! norms can differ at every label, so the norms themselves are not compared.
+
+use super::norm::{NormName, Norms, RunErrors};
+use super::quantity::Quantity;
+use crate::exact::Truth;
+use crate::subject::Samples;
+use std::cmp::Ordering;
+
+/// The judged quantity of one run, as the difference from its exact value, which is the same in all
+/// runs of a level.
+#[derive(Debug, Clone, Default)]
+pub struct RunRecord {
+    /// Whether all instants are recorded, and not the last one only.
+    over_instants: bool,
+    instants: Vec<Instant>,
+    /// Differences of a judged sum over the body, at each instant.
+    sums: Vec<[f64; 3]>,
+}
+
+/// The differences from the exact value at one instant, sorted by label.
+#[derive(Debug, Clone)]
+struct Instant {
+    /// Reference positions (m).
+    labels: Vec<f64>,
+    /// Reference volumes (m^D).
+    weights: Vec<f64>,
+    /// Numbers at each label.
+    components: usize,
+    /// `computed - exact`.
+    differences: Vec<f64>,
+}
+
+impl RunRecord {
+    /// An empty record for a norm.
+    pub(super) fn for_norm(norm: NormName) -> Self {
+        Self { over_instants: norm.is_over_instants(), ..Self::default() }
+    }
+
+    /// Records the quantity `of` at time `t` (s).
+    pub(super) fn add(&mut self, of: Quantity, samples: &Samples, truth: &dyn Truth, t: f64) {
+        if !self.over_instants {
+            self.instants.clear();
+        }
+        let (components, differences) = of.differences(samples, truth, t).unwrap_or_default();
+        let (labels, weights) = (samples.label.clone(), samples.weight.clone());
+        let instant = Instant { labels, weights, components, differences };
+        self.instants.push(instant.sorted(samples.dimension));
+    }
+
+    /// Records the differences of a sum over the body at all instants.
+    pub(super) fn add_sums(&mut self, sums: Vec<[f64; 3]>) {
+        self.sums = sums;
+    }
+
+    /// The difference of two runs in `norm`, in the unit of the judged quantity. NaN if the runs
+    /// have other labels or other instants.
+    fn difference(&self, other: &Self, norm: NormName) -> f64 {
+        let is_alike = self.instants.len() == other.instants.len()
+            && self.sums.len() == other.sums.len()
+            && !(self.instants.is_empty() && self.sums.is_empty());
+        if !is_alike {
+            return f64::NAN;
+        }
+        if !self.sums.is_empty() {
+            let all = subtract(self.sums.as_flattened(), other.sums.as_flattened());
+            let norms = Norms::of(&all, 3, &vec![1.0; self.sums.len()]);
+            return RunErrors { at_end: norms, largest: norms }.in_norm(norm);
+        }
+        let mut errors = RunErrors::START;
+        for (a, b) in self.instants.iter().zip(&other.instants) {
+            errors.add(a.difference(b));
+        }
+        errors.in_norm(norm)
+    }
+}
+
+impl Instant {
+    /// The instant with its labels in lexicographic order: a solver may return its particles in
+    /// another order in each run.
+    fn sorted(self, dimension: usize) -> Self {
+        let d = dimension.max(1);
+        let count = self.weights.len();
+        let is_whole =
+            self.labels.len() == d * count && self.differences.len() == self.components * count;
+        if !is_whole {
+            return self;
+        }
+        let label = |p: usize| &self.labels[d * p..d * (p + 1)];
+        let order = |a: &usize, b: &usize| {
+            let along = label(*a).iter().zip(label(*b)).map(|(a, b)| a.total_cmp(b));
+            along.fold(Ordering::Equal, Ordering::then)
+        };
+        let mut places: Vec<usize> = (0..count).collect();
+        places.sort_by(order);
+        let n = self.components;
+        let rows = |values: &[f64], n: usize| -> Vec<f64> {
+            places.iter().flat_map(|p| values[n * p..n * (p + 1)].to_vec()).collect()
+        };
+        Self {
+            labels: rows(&self.labels, d),
+            weights: rows(&self.weights, 1),
+            differences: rows(&self.differences, n),
+            components: n,
+        }
+    }
+
+    fn difference(&self, other: &Self) -> Norms {
+        if self.labels != other.labels || self.components != other.components {
+            return Norms::NONE;
+        }
+        let all = subtract(&self.differences, &other.differences);
+        Norms::of(&all, self.components, &self.weights)
+    }
+}
+
+fn subtract(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+/// The largest difference between two of `runs` in `norm`, in the unit of the judged quantity. NaN
+/// if any two runs cannot be compared.
+pub fn spread(runs: &[RunRecord], norm: NormName) -> f64 {
+    let pairs = runs.iter().enumerate().flat_map(|(k, a)| runs[..k].iter().map(move |b| (a, b)));
+    pairs.map(|(a, b)| a.difference(b, norm)).fold(0.0, super::norm::larger)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    struct AtRest;
+
+    impl Truth for AtRest {
+        fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {
+            into.fill(0.0);
+        }
+
+        fn velocity(&self, _: &[f64], _: f64, into: &mut [f64]) {
+            into.fill(0.0);
+        }
+    }
+
+    /// A run of one instant with these labels (m) and displacements (m).
+    fn record(points: &[(f64, f64)], norm: NormName) -> RunRecord {
+        let mut samples = Samples::default();
+        for (label, u) in points {
+            samples.push(&[*label], &[*u], &[0.0], 1.0);
+        }
+        let mut record = RunRecord::for_norm(norm);
+        record.add(Quantity::Displacement, &samples, &AtRest, 0.0);
+        record
+    }
+
+    /// The first two runs have equal norms and differ at each label.
+    #[rstest]
+    #[case(NormName::Linf, 4.0)]
+    #[case(NormName::Rms, 10.0_f64.sqrt())]
+    #[case(NormName::L1, 3.0)]
+    fn the_largest_difference_of_any_two_runs_is_the_spread(
+        #[case] norm: NormName,
+        #[case] expected: f64,
+    ) {
+        let runs = [[1.0, 2.0], [2.0, 1.0], [3.0, -2.0]];
+        let runs = runs.map(|[a, b]| record(&[(0.0, a), (1.0, b)], norm));
+        assert_relative_eq!(spread(&runs, norm), expected, max_relative = 1e-15);
+    }
+
+    #[test]
+    fn the_order_of_particles_adds_no_spread() {
+        let norm = NormName::MaxRms;
+        let runs = [[(0.0, 1.0), (1.0, 2.0)], [(1.0, 2.0), (0.0, 1.0)]];
+        assert_eq!(spread(&runs.map(|run| record(&run, norm)), norm).to_bits(), 0);
+    }
+
+    #[test]
+    fn runs_with_other_labels_have_no_spread() {
+        let norm = NormName::Rms;
+        let runs = [record(&[(0.0, 1.0)], norm), record(&[(0.5, 1.0)], norm)];
+        assert!(spread(&runs, norm).is_nan());
+        assert!(spread(&[RunRecord::default(), RunRecord::default()], norm).is_nan());
+    }
+
+    #[test]
+    fn sums_over_the_body_are_compared_over_the_instants() {
+        let run = |value: f64| {
+            let mut record = RunRecord::for_norm(NormName::MaxLinf);
+            record.add_sums(vec![[0.0; 3], [value, 0.0, 0.0]]);
+            record
+        };
+        assert_eq!(spread(&[run(1.0), run(3.0)], NormName::MaxLinf).to_bits(), 2.0_f64.to_bits());
+    }
+}
