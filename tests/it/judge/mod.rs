@@ -4,6 +4,7 @@ mod coverage;
 mod pitfalls;
 mod properties;
 mod richardson;
+mod rounding;
 mod series;
 
 use std::f64::consts::PI;
