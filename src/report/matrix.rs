@@ -13,11 +13,12 @@ const BASES: [&str; 6] =
     ["linear", "ugimp", "cpgimp", "cpdi", "quadratic_bspline", "cubic_bspline"];
 
 /// Meaning of the findings.
-pub(crate) const LEGEND: &str = "The matrix has, for each suite, the orders of the methods with a \
-    basis, over all transfers and schemes. Instead of an order: `floor`: the error stops falling; \
-    `grows`: it grows with refinement; `breaks`: a run fails; `unsettled` and `oscillates`: levels \
-    have no common order; `bounded`: figures have bounds and no order; `stable`, `unstable` and \
-    `limit`: results of stability studies. The report of a suite states the reasons.";
+pub(crate) const LEGEND: &str = "Each entry is the range of observed orders of all methods with \
+    this basis, over every transfer and time scheme. Instead of an order: `floor`: the error stops \
+    falling; `grows`: it grows with refinement; `breaks`: a run fails; `unsettled` and \
+    `oscillates`: the order differs from one level to the next; `bounded`: quantities are checked \
+    against limits, and no order is measured; `stable`, `unstable` and `limit` (a critical value): \
+    results of stability studies. The report of a suite states the reasons.";
 
 /// Class of a finding, from good to bad; a reader of the page sees it as a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -34,8 +34,10 @@ pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
         Html::tag("tr", &[], cells)
     };
     let rows: Vec<Html> = by_group(sources, |source| source.outcome).into_iter().map(row).collect();
-    let about = "Cases with the expected order, of all cases of a convergence study, by basis \
-                 function. Many suites show a weakness on purpose.";
+    let about = "How many convergence cases reach the order of theory, for each basis function. \
+                 Blue: all; grey: half or more; yellow: fewer; a dash: no such case. Many cases are \
+                 included because the method is known to lose its order there, which counts as \
+                 expected.";
     let table =
         [Html::tag("thead", &[], Html::tag("tr", &[], heads)), Html::block("tbody", &[], &rows)];
     Html::block(

@@ -85,6 +85,23 @@ fn the_order_has_a_lower_bound(#[case] error: &str, #[case] code: i32, #[case] w
     assert_eq!(report.out.contains("1 case as expected\n"), code == SOUND, "{}", report.out);
 }
 
+/// Errors below the rounding bound show no order. An error above it is judged, also in single
+/// precision.
+#[rstest]
+#[case::below_the_rounding_bound("0.03", "not gated", "leaves too few levels for an order")]
+#[case::above_the_rounding_bound("0.5", "FAIL", "order")]
+fn rounding_is_no_reason_to_fail(#[case] error: &str, #[case] result: &str, #[case] reason: &str) {
+    let folder = folder(error);
+    let single = script(error).replace("\"version\"", "\"precision\":\"single\",\"version\"");
+    folder.write("solver.sh", single);
+    let found = gate(&folder, &["bar.yaml"], &[]);
+    // A suite that is named on its own must be gated.
+    assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
+    for words in [result, reason] {
+        assert!(found.out.contains(words), "{}", found.out);
+    }
+}
+
 #[test]
 fn every_case_of_a_solver_that_a_suite_names_is_gated() {
     for (error, code) in [("h*h", SOUND), ("h^0.2", FAILED)] {
