@@ -75,11 +75,12 @@ impl ErrorField {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use rstest::rstest;
 
-    struct AtRest;
+    /// A body that does not move.
+    pub(in crate::verify::error) struct AtRest;
 
     impl Truth for AtRest {
         fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {

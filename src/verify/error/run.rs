@@ -114,9 +114,11 @@ impl<'a> RunMonitor<'a> {
             }
             self.look(subject, clock, step);
         }
-        let mut record = self.record.take().unwrap_or_default();
-        record.add_sums(self.sum_errors.clone());
-        (self.finished(subject, clock), record)
+        let record = self.record.take().map(|mut record| {
+            record.add_sums(self.sum_errors.clone());
+            record
+        });
+        (self.finished(subject, clock), record.unwrap_or_default())
     }
 
     fn look(&mut self, subject: &dyn Subject, clock: &Clock, step: u64) {

@@ -1,9 +1,9 @@
 //! Differences between repeated runs of one level.
 //!
-//! Solvers that add in no fixed order, for instance with atomic additions on a GPU, give other bits
-//! in each run. The spread of a level is the largest difference between two of its runs: the norm
-//! of the suite, applied to the difference of the judged quantity at each label. Errors with equal
-//! norms can differ at every label, so the norms themselves are not compared.
+//! Solvers that add in no fixed order, for instance with atomic additions on a GPU, give different
+//! bits in each run. The spread of a level is the largest difference between two of its runs: the
+//! norm of the suite, applied to the difference of the judged quantity at each label. Errors with
+//! equal norms can differ at every label, so the norms themselves are not compared.
 
 use super::norm::{NormName, Norms, RunErrors};
 use super::quantity::Quantity;
@@ -132,20 +132,9 @@ pub fn spread(runs: &[RunRecord], norm: NormName) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::verify::error::error_field::tests::AtRest;
     use approx::assert_relative_eq;
     use rstest::rstest;
-
-    struct AtRest;
-
-    impl Truth for AtRest {
-        fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {
-            into.fill(0.0);
-        }
-
-        fn velocity(&self, _: &[f64], _: f64, into: &mut [f64]) {
-            into.fill(0.0);
-        }
-    }
 
     /// A run of one instant with these labels (m) and displacements (m).
     fn record(points: &[(f64, f64)], norm: NormName) -> RunRecord {
