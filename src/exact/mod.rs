@@ -39,7 +39,7 @@ pub use initial_stress::InitialStress;
 pub use law::{Equation, HenckyLaw, NeoHookeanLaw, SmallStrainLaw};
 pub use linearised::Linearised;
 pub use motion::{Derivatives, Motion, Places, variables};
-pub use outline::{Cut, Outline, Piece, Polygon, Round, join_small};
+pub use outline::{Circle, Cut, Outline, Piece, Polygon, Round, join_small};
 pub use problem::Problem;
 pub use random::Random;
 pub use sum::{BodySum, SumDensity, SumError, SumPoint, SumRegion};

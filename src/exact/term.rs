@@ -51,6 +51,12 @@ pub trait Term: Debug + Send + Sync {
         None
     }
 
+    /// The number of a rim in [`Outline::rims`](super::Outline::rims) and the pressure on it (Pa,
+    /// per present area), a formula of the coordinates and t.
+    fn pressed_rim(&self) -> Option<(usize, &Formula)> {
+        None
+    }
+
     /// A region and its prescribed velocity (m/s): formulas of the coordinates and t.
     fn driven(&self) -> Option<(&Region, &[Formula])> {
         None

@@ -438,7 +438,7 @@ fn what_is_left_is_the_largest_of_all_rims() {
     };
     let any = Linearised { tolerance: f64::INFINITY, because: String::new() };
     let pipe = Problem { linearised: Some(any), ..pipe };
-    let left = super::check::pointwise::traction_free_rims(&pipe, &Survey::new(&pipe)).unwrap();
+    let left = super::check::pointwise::tractions_on_rims(&pipe, &Survey::new(&pipe)).unwrap();
     assert!(left > 0.1, "{left}");
 }
 

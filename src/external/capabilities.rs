@@ -36,6 +36,8 @@ pub struct Capabilities {
     pub initial_stress: bool,
     /// Whether the body force may depend on the displacement.
     pub displacement_force: bool,
+    /// Whether loads may act on the rims of disks and annuli.
+    pub loaded_rims: bool,
     /// Whether columns may be raw bytes.
     pub binary: bool,
 }
@@ -71,6 +73,8 @@ pub struct ProblemNeeds {
     pub initial_stress: bool,
     /// Whether the body force depends on the displacement.
     pub displacement_force: bool,
+    /// Whether a load acts on the rim of a disk or an annulus.
+    pub loaded_rims: bool,
     /// Parts of the scene that no solver can be handed yet.
     pub beyond: Vec<&'static str>,
 }
@@ -120,7 +124,7 @@ impl Capabilities {
 
 impl Capabilities {
     /// Abilities that are there or not, in the order of [`ProblemNeeds::flags`].
-    fn flags(&self) -> [bool; 8] {
+    fn flags(&self) -> [bool; 9] {
         [
             self.manufactured,
             self.initial_deformation,
@@ -130,6 +134,7 @@ impl Capabilities {
             self.axisymmetric,
             self.initial_stress,
             self.displacement_force,
+            self.loaded_rims,
         ]
     }
 }
@@ -165,7 +170,7 @@ impl Capabilities {
 
 impl ProblemNeeds {
     /// Needs that are there or not, with the names of the abilities.
-    fn flags(&self) -> [(&'static str, bool); 8] {
+    fn flags(&self) -> [(&'static str, bool); 9] {
         [
             ("manufactured", self.manufactured),
             ("initial_deformation", self.initial_deformation),
@@ -175,6 +180,7 @@ impl ProblemNeeds {
             ("axisymmetric", self.axisymmetric),
             ("initial_stress", self.initial_stress),
             ("displacement_force", self.displacement_force),
+            ("loaded_rims", self.loaded_rims),
         ]
     }
 
@@ -243,6 +249,7 @@ const KEYS: &[&str] = &[
     "axisymmetric",
     "initial_stress",
     "displacement_force",
+    "loaded_rims",
     "binary",
 ];
 
@@ -292,6 +299,7 @@ mod tests {
             axisymmetric: true,
             initial_stress: true,
             displacement_force: true,
+            loaded_rims: true,
             beyond: vec!["heat"],
         };
         let all = [
@@ -309,6 +317,7 @@ mod tests {
             "axisymmetric",
             "initial_stress",
             "displacement_force",
+            "loaded_rims",
             "heat, which the protocol does not hand over",
         ];
         assert_eq!(Capabilities::default().lacking(&needs), all);
@@ -323,9 +332,10 @@ mod tests {
             axisymmetric: true,
             initial_stress: true,
             displacement_force: true,
+            loaded_rims: true,
             ..Capabilities::of(&[1, 2], &["neo_hookean"], &conditions, &["gravity"])
         };
-        assert_eq!(able.lacking(&needs), all[14..]);
+        assert_eq!(able.lacking(&needs), all[15..]);
     }
 
     #[test]

@@ -223,6 +223,9 @@ pub struct ProblemLoad {
     /// Name of the face that it acts on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub face: Option<&'static str>,
+    /// Rim of the round body that it acts on, `inner` or `outer`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rim: Option<&'static str>,
     /// Part of the bodies that it acts on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<ProblemRegion>,

@@ -36,7 +36,7 @@ impl Problem {
         pointwise::initial(self, survey)?;
         boundary::boundary(self, survey)?;
         boundary::driven(self, survey)?;
-        pointwise::traction_free_rims(self, survey)?;
+        pointwise::tractions_on_rims(self, survey)?;
         pointwise::monotone_loading(self, survey)?;
         differences::differentiation(self, survey)?;
         pointwise::equation(self, survey)?;
@@ -53,7 +53,7 @@ impl Problem {
         let each = problems.iter().zip(&surveys).map(|(problem, survey)| {
             let any = Linearised { tolerance: f64::INFINITY, because: String::new() };
             let loose = Self { linearised: Some(any), ..problem.clone() };
-            let left = [boundary::boundary, pointwise::traction_free_rims, pointwise::equation]
+            let left = [boundary::boundary, pointwise::tractions_on_rims, pointwise::equation]
                 .map(|left| left(&loose, survey));
             greatest(left.into_iter().map(|left| left.unwrap_or(f64::NAN)))
         });

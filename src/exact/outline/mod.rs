@@ -1,6 +1,6 @@
 //! Bodies that are no box: round ones and polygons.
 //!
-//! Their rims carry no traction, which is all that a suite can say of them, but for the sides of a
+//! Rims are free, except for a pressure on a rim of a round body and for the sides of a
 //! quadrilateral that lie on a face.
 
 mod piece;
@@ -11,7 +11,7 @@ mod tests;
 
 pub use piece::{Cut, Piece, join_small};
 pub use polygon::Polygon;
-pub use round::Round;
+pub use round::{Circle, Round};
 
 use super::random::Random;
 use std::fmt::Debug;
@@ -39,6 +39,11 @@ pub trait Outline: Debug + Send + Sync {
     /// Centre and radius (m) of a body that is round but for holes.
     fn ball(&self) -> Option<(&[f64], f64)> {
         None
+    }
+
+    /// Circles that a pressure can act on; empty unless the body is a disk or an annulus.
+    fn circles(&self) -> Vec<Circle> {
+        Vec::new()
     }
 
     /// Radius (m) of the hole in the middle of a body that is round, 0 without a hole.

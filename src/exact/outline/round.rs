@@ -22,8 +22,26 @@ pub struct Round {
     pub outer: f64,
 }
 
+/// A rim of a body in the plane that is a circle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Circle {
+    /// Name that suites give it.
+    pub name: &'static str,
+    /// Its number in [`Outline::rims`].
+    pub number: usize,
+    /// Centre (m).
+    pub centre: [f64; 2],
+    /// Radius (m).
+    pub radius: f64,
+    /// Sign of the outward normal of the body along the radius.
+    pub outwards: f64,
+}
+
 /// A rim of a round body.
 struct Rim {
+    /// Name in messages.
+    title: &'static str,
+    /// Name in suites.
     name: &'static str,
     radius: f64,
     /// Sign of the outward normal along the radius.
@@ -33,8 +51,9 @@ struct Rim {
 impl Round {
     /// The rims with a radius, the inner first.
     fn each_rim(&self) -> impl Iterator<Item = Rim> {
-        let inner = Rim { name: "the inner rim", radius: self.inner, outwards: -1.0 };
-        let outer = Rim { name: "the outer rim", radius: self.outer, outwards: 1.0 };
+        let rim = |title, name, radius, outwards| Rim { title, name, radius, outwards };
+        let inner = rim("the inner rim", "inner", self.inner, -1.0);
+        let outer = rim("the outer rim", "outer", self.outer, 1.0);
         [inner, outer].into_iter().filter(|rim| rim.radius > 0.0)
     }
 
@@ -92,6 +111,18 @@ impl Outline for Round {
         self.inner
     }
 
+    fn circles(&self) -> Vec<Circle> {
+        let [x, y] = self.centre[..] else { return Vec::new() };
+        let circle = |(number, Rim { name, radius, outwards, .. })| Circle {
+            name,
+            number,
+            centre: [x, y],
+            radius,
+            outwards,
+        };
+        self.each_rim().enumerate().map(circle).collect()
+    }
+
     /// The whole share, if its centre lies inside: the rim is a stair, and volume and mass differ
     /// from those of the body by a part that falls with the spacing.
     fn cut(&self, centre: &[f64], _: &[f64]) -> Cut {
@@ -118,7 +149,7 @@ impl Outline for Round {
     }
 
     fn rims(&self) -> Vec<String> {
-        self.each_rim().map(|rim| rim.name.to_owned()).collect()
+        self.each_rim().map(|rim| rim.title.to_owned()).collect()
     }
 
     fn on_rim(&self, rim: usize, random: &mut Random) -> (Vec<f64>, [f64; 3]) {

@@ -3,6 +3,7 @@
 
 mod contract;
 mod hoop;
+mod rim;
 /// The effect that `docs/exercises/effect.md` adds.
 #[cfg(test)]
 #[allow(unreachable_pub)] // public where the page puts it
@@ -17,6 +18,7 @@ pub(super) use contract::strain;
 pub use heat::HeatSource;
 pub use hoop::Hoop;
 pub use pressure::PressureField;
+pub use rim::RimCircle;
 pub use surface::Placement;
 pub use thermal_face::{HeatInflow, ScalarField, Thermal, ThermalBoundary};
 pub use traction::TractionField;

@@ -47,9 +47,15 @@ fn body(scene: &Scene) -> String {
     let body = match (&scene.outline, &scene.mapped) {
         (None, _) => format!("({from}) to ({to}) m"),
         (Some(outline), Some(_)) => outline.row(),
-        (Some(outline), None) => outline.row() + ", free rims",
+        (Some(outline), None) => outline.row() + rims(scene),
     };
     format!("{body}, density {}", stated(scene.density))
+}
+
+/// The rims that no load acts on, after the row of a body.
+fn rims(scene: &Scene) -> &'static str {
+    let is_loaded = scene.loads.iter().any(|load| matches!(load.target(), LoadTarget::Rim(_)));
+    if is_loaded { "" } else { ", free rims" }
 }
 
 /// Several bodies, and what couples them.
@@ -94,8 +100,8 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     }
     let (on_body, on_parts): (Vec<_>, Vec<_>) =
         scene.loads.iter().partition(|load| load.target() == LoadTarget::Body);
-    let on_sets = on_parts.into_iter().filter(|load| matches!(load.target(), LoadTarget::Set(_)));
-    rows.extend(on_sets.chain(on_body).flat_map(|load| load.rows()));
+    let on_others = on_parts.into_iter().filter(|load| load.target().face().is_none());
+    rows.extend(on_others.chain(on_body).flat_map(|load| load.rows()));
     if one {
         push(rows, "initial stress", &initial_stress(scene));
         push(rows, "initial displacement", &sources(&scene.initial_displacement));

@@ -1,12 +1,13 @@
 //! Initial state, loads and conditions on faces at places that a solver chooses.
 
 use crate::dimension::with_dimension;
+use crate::exact::Circle;
 use crate::external::{FieldError, FieldName, FieldPlaces, FieldSource};
 use crate::mpm::{Block, Fragment, Matrix, Particles, Vector, complete_start};
 use crate::study::setup::initial_state::Initial;
 use crate::subject::PlaneState;
 use crate::suite::model::Scene;
-use crate::suite::scene::numbers::LoadNumbers;
+use crate::suite::scene::numbers::{LoadNumbers, NumberField};
 
 /// Radius at which stresses on the axis of a body of revolution are evaluated, relative to the size
 /// of the body: the hoop stretch r/R has no value at R = 0.
@@ -163,6 +164,26 @@ impl SceneFields {
     }
 }
 
+impl SceneFields {
+    /// Fails if a place is not on the rim.
+    fn check_on_rim(&self, circle: &Circle, at: &FieldPlaces<'_>) -> Result<(), FieldError> {
+        let Circle { name, centre, radius, .. } = circle;
+        let near = self.scene.rounding();
+        let is_off = |label: &[f64]| {
+            let square: f64 = label.iter().zip(centre).map(|(x, c)| (x - c) * (x - c)).sum();
+            !((square.sqrt() - radius).abs() <= near)
+        };
+        let d = self.scene.dimension();
+        match at.labels.chunks_exact(d).position(is_off) {
+            None => Ok(()),
+            Some(place) => Err(FieldError::Request(format!(
+                "place {place}, {}, is not on the {name} rim, whose radius is {radius} m",
+                shown(&at.labels[place * d..(place + 1) * d])
+            ))),
+        }
+    }
+}
+
 impl FieldSource for SceneFields {
     fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
         let body_of = |(place, label): (usize, &[f64])| {
@@ -216,7 +237,15 @@ impl FieldSource for SceneFields {
                 if let Some(face) = load.target().face() {
                     self.check_on_face(face, at)?;
                 }
-                self.numbers((load.effect.name(), &load.numbers()), t, at)?
+                let numbers = load.numbers();
+                let depends_on_place =
+                    |field: &NumberField| field.depends_on(self.scene.dimension())[0];
+                if let Some(circle) = self.scene.rim(load)
+                    && numbers.field.as_ref().is_some_and(depends_on_place)
+                {
+                    self.check_on_rim(&circle, at)?;
+                }
+                self.numbers((load.effect.name(), &numbers), t, at)?
             }
             FieldName::Face(number) => {
                 self.check_on_face(number, at)?;

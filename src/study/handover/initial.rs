@@ -104,6 +104,7 @@ fn load(scene: &Scene, load: &ListedLoad) -> ProblemLoad {
         load: load.effect.name(),
         rows: load.rows(),
         face: load.target().face().map(|face| scene.faces[face].name),
+        rim: scene.rim(load).map(|circle| circle.name),
         region,
         numbers: handed(&numbers, scene.dimension()),
     }

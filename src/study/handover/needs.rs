@@ -10,7 +10,7 @@ use crate::subject::{PlaneState, Subject};
 use crate::suite::model::method::{ExternalMethod, GateTerms};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace, Suite};
-use crate::suite::scene::load::ListedLoad;
+use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::verify::{Quantity, SumNeed};
 use std::sync::Arc;
 
@@ -41,6 +41,7 @@ pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
         plane_stress: scene.plane == PlaneState::Stress,
         axisymmetric: scene.plane == PlaneState::Axisymmetric,
         initial_stress: scene.each().iter().any(|body| !body.initial_stress.is_none()),
+        loaded_rims: scene.loads.iter().any(|load| matches!(load.target(), LoadTarget::Rim(_))),
         displacement_force: scene.terms().iter().any(|term| term.depends_on_displacement()),
         ..ProblemNeeds::default()
     };

@@ -60,7 +60,7 @@ fn inside_a_cell(preflight: &Preflight<'_>, plane: &Plane) -> Option<Diagnostic>
 fn loaded_faces(scene: &Scene) -> Vec<Plane> {
     let loaded = scene.loads.iter().filter_map(|load| match load.target() {
         LoadTarget::Face(i) => scene.faces.get(i),
-        LoadTarget::Body | LoadTarget::Set(_) => None,
+        LoadTarget::Body | LoadTarget::Rim(_) | LoadTarget::Set(_) => None,
     });
     loaded
         .map(|face| {

@@ -54,6 +54,13 @@ pub(crate) fn face_name(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     schemars::json_schema!({"type": "string", "enum": FACES})
 }
 
+/// Schema of the name of a face or of a rim of a round body.
+#[cfg(feature = "schemas")]
+pub(crate) fn face_or_rim(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let names: Vec<&str> = FACES.into_iter().chain(["inner", "outer"]).collect();
+    schemars::json_schema!({"type": "string", "enum": names})
+}
+
 /// Schema of a map from names of faces.
 #[cfg(feature = "schemas")]
 pub(crate) fn by_face<T: schemars::JsonSchema>(

@@ -15,7 +15,7 @@ pub use face::SceneFace;
 pub use load::EffectName;
 
 use crate::exact::formula::Formula;
-use crate::exact::{InitialStress, Outline, Region, Term};
+use crate::exact::{Circle, InitialStress, Outline, Region, Term};
 use crate::mpm::{MaterialPlan, Quadrilateral};
 use crate::subject::PlaneState;
 use load::{ListedLoad, LoadTarget};
@@ -104,6 +104,12 @@ impl Scene {
     /// The loads on one part of the scene.
     pub(crate) fn loads_on(&self, target: LoadTarget) -> impl Iterator<Item = &ListedLoad> {
         self.loads.iter().filter(move |load| load.target() == target)
+    }
+
+    /// The rim that a load acts on.
+    pub(crate) fn rim(&self, load: &ListedLoad) -> Option<Circle> {
+        let LoadTarget::Rim(number) = load.target() else { return None };
+        self.outline.as_ref()?.circles().into_iter().find(|circle| circle.number == number)
     }
 
     /// The conduction that the scene lists.

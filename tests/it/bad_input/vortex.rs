@@ -112,9 +112,21 @@ fn the_published_force_is_refused() {
     &[("  loads:", "  boundary: {▸left: fixed}\n  loads:")],
     &["the rims of a body of kind `annulus` are free, not `left`"]
 )]
-#[case::a_rim_that_is_loaded(
-    &[("  loads:", "  loads:\n    - pressure: {on: ▸inner, value: 1}")],
-    &["the rims of a body of kind `annulus` are free, `inner` has no load"]
+#[case::a_rim_that_does_not_exist(
+    &[("  loads:", "  loads:\n    - pressure: {on: ▸iner, value: 1}")],
+    &["the body has no rim `iner`", "did you mean `inner`?"]
+)]
+#[case::two_pressures_on_a_rim(
+    &[("  loads:", "  loads:\n    - pressure: {on: inner, value: 1}\n    - pressure: {on: ▸inner, value: 2}")],
+    &["the rim `inner` has a pressure already"]
+)]
+#[case::a_pressure_at_the_particles_of_a_rim(
+    &[("  loads:", "  loads:\n    - pressure: {on: inner, value: 1, at: ▸particles}")],
+    &["a pressure on a rim acts at the surface", "remove `at`"]
+)]
+#[case::a_pressure_that_the_motion_lacks(
+    &[("  loads:", "  loads:\n    - pressure: {on: outer, value: 1}"), ("    - \"cos(alpha(X", "    - ▸\"cos(alpha(X")],
+    &["boundary condition: the outer rim is under pressure, traction in X", "expected ", "Pa (off by "]
 )]
 #[case::a_rim_that_is_pulled(
     &[("  loads:", "  loads:\n    - traction: {on: ▸inner, value: [1, 0]}")],

@@ -6,7 +6,7 @@ use crate::cli::{Folder, SOUND};
 use mpm_verify::external::{
     FieldName, FieldPlaces, LevelProblem, ProgramLimits, SolverFactory, SolverProgram,
 };
-use mpm_verify::study::level_problem;
+use mpm_verify::study::{level_problem, needs};
 use mpm_verify::subject::Samples;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{ConvergencePlan, Suite, embedded};
@@ -274,6 +274,33 @@ fn nodes_on_a_rim_and_on_an_axis_are_inside() {
     let at = FieldPlaces::new(&place, &[0]);
     let stress = mms.fields.expect("fields").values(FieldName::Stress, 0.0, &at);
     assert!(stress.is_ok(), "{stress:?}");
+}
+
+/// A pressure on a rim names the rim, and its values are known on that circle alone.
+#[test]
+fn a_pressure_on_a_rim_is_handed_over() {
+    let name = "pressurised-cylinder-in-plane";
+    let tube = problem_of(name);
+    let load = serde_json::to_value(&tube.loads[0]).expect("JSON");
+    assert_eq!((&load["load"], &load["rim"]), (&json!("pressure"), &json!("inner")));
+    assert_eq!((load.get("face"), &load["values"]["pressure"]), (None, &json!(1e-5)));
+
+    // A formula that depends on the place, and is Lame's pressure on the rim.
+    let text = embedded::source(name).expect("a suite").expect("a text").text().to_owned();
+    let text = text.replace("value: p}", "value: \"p*(X^2 + Y^2)/a^2\"}");
+    let source = Source::from_text("suite.yaml", &text).expect("a text");
+    let suite = Suite::load(&source).unwrap_or_else(|error| panic!("{error}"));
+    let plan = suite.plan::<ConvergencePlan>().expect("a study of an order");
+    assert!(needs(plan).loaded_rims);
+    let case = &plan.cases[0];
+    let tube = level_problem(name, plan, case, plan.refine.levels[0]).expect("a problem");
+    let fields = tube.fields.expect("fields");
+    let at =
+        |place: &[f64; 2]| fields.values(FieldName::Load(0), 0.0, &FieldPlaces::new(place, &[0]));
+    let on_rim = at(&[0.6, -0.8]).expect("a place on the rim");
+    assert!((on_rim[0] / 1e-5 - 1.0).abs() < 1e-14, "{on_rim:?}");
+    let reason = at(&[0.6, 0.9]).expect_err("a place inside").to_string();
+    assert!(reason.contains("is not on the inner rim, whose radius is 1 m"), "{reason}");
 }
 
 /// The first state of a solver with points of its own is the initial state there.

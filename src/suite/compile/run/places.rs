@@ -50,10 +50,11 @@ pub(crate) fn scatter(
         let label = format!("expected at most {MOST}, so that they stay in the body and apart");
         return Err(evaluator.diagnostic(&path, &message).with_label(&label));
     }
-    let at_face = |load: &ListedLoad| matches!(load.target(), LoadTarget::Face(_));
+    let at_face =
+        |load: &ListedLoad| matches!(load.target(), LoadTarget::Face(_) | LoadTarget::Rim(_));
     if perturb > MOST_AT_LOADS && scene.loads.iter().any(at_face) {
         let message = format!("particles are moved by up to {} of their spacing", shown(perturb));
-        let label = format!("expected at most {MOST_AT_LOADS} at a face with a load");
+        let label = format!("expected at most {MOST_AT_LOADS} at a face or rim with a load");
         return Err(evaluator.diagnostic(&path.then("perturb"), &message).with_label(&label));
     }
     let scatter = LatticeOffsets { shift, perturb, seed };

@@ -64,6 +64,8 @@ pub(crate) enum LoadTarget {
     Body,
     /// A face, by its number.
     Face(usize),
+    /// A rim of a round body, by its number in [`Outline::rims`](crate::exact::Outline::rims).
+    Rim(usize),
     /// A set of particles, by its number.
     Set(usize),
 }
@@ -73,7 +75,7 @@ impl LoadTarget {
     pub(crate) fn face(self) -> Option<usize> {
         match self {
             Self::Face(number) => Some(number),
-            Self::Body | Self::Set(_) => None,
+            Self::Body | Self::Rim(_) | Self::Set(_) => None,
         }
     }
 }

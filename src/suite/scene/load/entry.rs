@@ -1,8 +1,8 @@
 //! The keys of a load, and the part of a suite that they are compiled with.
 
 use super::contract::{BuildError, EffectName, LoadTarget, SceneLoad};
-use crate::exact::Region;
 use crate::exact::formula::{Expr, Formula};
+use crate::exact::{Circle, Region};
 use crate::mpm::{Particles, Placement, Side};
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{DISPLACEMENTS, Evaluator, coordinates_and_time, suggestion};
@@ -54,6 +54,11 @@ pub(crate) trait LoadKeys {
     /// The name of the face that the load acts on.
     fn face(&self) -> Option<&str> {
         None
+    }
+
+    /// Whether a rim of a disk or an annulus can take the place of the face.
+    fn acts_on_rims(&self) -> bool {
+        false
     }
 
     /// Whether the load is that of one body, and makes no sense beside several.
@@ -145,6 +150,25 @@ impl LoadEntry<'_> {
             None => return Ok(LoadedFace { number, name: scene.faces[number].name }),
         };
         Err(evaluator.diagnostic(&path, &format!("the face `{name}` {has}")))
+    }
+
+    /// The rim called `name` of a body without faces, which is free and takes the load.
+    pub(crate) fn free_rim(&self, name: &str) -> Result<Circle, Diagnostic> {
+        let Self { evaluator, scene, .. } = self;
+        let path = self.path.then("on");
+        let rims = scene.outline.as_ref().map_or_else(Vec::new, |outline| outline.circles());
+        let known: Vec<&str> = rims.iter().map(|circle| circle.name).collect();
+        let Some(circle) = rims.iter().find(|circle| circle.name == name) else {
+            let diagnostic = evaluator.diagnostic(&path, &format!("the body has no rim `{name}`"));
+            return Err(diagnostic.with_help(&suggestion("rims", name, &known)));
+        };
+        match scene.loads_on(LoadTarget::Rim(circle.number)).next() {
+            None => Ok(circle.clone()),
+            Some(other) => {
+                let message = format!("the rim `{name}` has a {} already", other.effect.name());
+                Err(evaluator.diagnostic(&path, &message))
+            }
+        }
     }
 
     /// The set called `name`, on which nothing acts yet.

@@ -67,7 +67,7 @@ pub(crate) fn shape<'a>(
     }
 }
 
-/// Rims are free: a scene can neither hold nor load them.
+/// Rims are free: a scene cannot hold them, and only some loads act on those of round bodies.
 ///
 /// # Errors
 /// A diagnostic of the first condition or load on a rim.
@@ -84,13 +84,17 @@ pub(crate) fn rims_are_free(
     });
     let loaded = spec.loads.iter().enumerate().find_map(|(i, load)| {
         let on = load.keys().face()?;
+        if load.keys().acts_on_rims() && !outline.circles().is_empty() {
+            return None;
+        }
         let message = format!("the rims of a body of kind `{kind}` are free, `{on}` has no load");
         Some(evaluator.diagnostic(&load.path(i).then("on"), &message))
     });
     match held.or(loaded) {
-        Some(diagnostic) => {
-            Err(diagnostic.with_help("only the faces of a `box` can be held or loaded"))
-        }
+        Some(diagnostic) => Err(diagnostic.with_help(
+            "only the faces of a `box` can be held or loaded, and a `pressure` acts on the \
+                 `inner` or `outer` rim of an annulus or a disk",
+        )),
         None => Ok(()),
     }
 }
