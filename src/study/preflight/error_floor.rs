@@ -6,18 +6,26 @@
 //! it needs.
 
 use super::subject::Preflight;
-use crate::study::exact_motion::Linearisation;
+use crate::study::exact_motion::{Extremes, Linearisation};
 use crate::suite::compile::truth::tolerance::TOLERANCE;
 use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case};
 use crate::suite::yaml::{Diagnostic, Severity};
-use crate::verify::Axis;
+use crate::verify::{Axis, Quantity, rounding_bound, single_precision_spacing};
 
 /// Share of the error of the cells from which on another one bends its order.
 const SEEN: f64 = 0.3;
 
 /// Share from which on a few refinements more will show it.
 const SOON: f64 = 0.003;
+
+/// The predicted error (m) of cells of size `h` (m): interpolation by linear functions, h^2/8 times
+/// the second derivative.
+fn of_cells(preflight: &Preflight<'_>, h: f64) -> f64 {
+    let curvature = preflight.extremes.as_ref().map_or(0.0, |motion| motion.curvature);
+    0.125 * h * h * curvature
+}
 
 /// The finding about an error of `size` (m) that comes from `origin`: a warning with `help`, if one
 /// of the suite's levels shows it, a note, if one soon to come will, and none otherwise.
@@ -27,9 +35,7 @@ fn floor_finding(
     origin: &str,
     help: &str,
 ) -> Option<Diagnostic> {
-    let curvature = preflight.extremes.as_ref().map_or(0.0, |motion| motion.curvature);
-    // Interpolation by linear functions: h^2/8 times the second derivative.
-    let of_cells = |h: f64| 0.125 * h * h * curvature;
+    let of_cells = |h: f64| of_cells(preflight, h);
     let shows = preflight.levels().iter().find(|level| size > SEEN * of_cells(level.h));
     let (severity, level) = match (shows, preflight.levels().last()) {
         (Some(level), _) => {
@@ -108,23 +114,82 @@ pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     floor_finding(preflight, size, &origin, &help).into_iter().collect()
 }
 
-/// Half a unit in the last place of a number of 24 bits next to one.
-const ROUND_OFF: f64 = 1.0 / (1 << 24) as f64;
+/// Minimum number of levels above the rounding bound.
+const LEVELS: usize = 4;
 
-/// Says how large the error is that a position of single precision has, before any step adds to it,
-/// and from which level on it shows.
+/// A level with its predicted errors (m).
+struct Prediction {
+    cells: u64,
+    /// That of the cells: interpolation by linear functions.
+    discretisation: f64,
+    /// Bound of the rounding errors of positions.
+    rounding: f64,
+}
+
+/// Predicts from which level on the error of a solver in single precision lies below the rounding
+/// bound: a warning with the amplitude and the origin that leave four levels above it, if fewer
+/// are, and a note otherwise.
 pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
-    let single = Method::is_single_precision;
-    let is_single = preflight.of_an_order().any(|case| single(&case.method));
-    let (Some(motion), true) = (&preflight.extremes, is_single) else { return Vec::new() };
-    if preflight.plan.refine.axis != Axis::Space {
+    let plan = preflight.plan;
+    let case = preflight.of_an_order().find(|case| case.method.is_single_precision());
+    let (Some(motion), Some(case)) = (&preflight.extremes, case) else { return Vec::new() };
+    if plan.refine.axis != Axis::Space || plan.of != Quantity::Displacement {
         return Vec::new();
     }
-    let farthest = motion.reach.iter().flat_map(|(low, high)| [low.abs(), high.abs()]);
-    let error = ROUND_OFF * farthest.filter(|x| x.is_finite()).fold(0.0, f64::max);
-    let origin = "the solver computes in single precision, and positions are rounded:";
-    let help = "a larger amplitude raises the errors of the cells above it";
-    floor_finding(preflight, error, origin, help).into_iter().collect()
+    let Some(spacing) = single_precision_spacing(motion.largest_coordinate()) else {
+        return Vec::new();
+    };
+    let prediction = |level: &LevelPlan| {
+        let steps = case.clock(plan, level.dt)?.steps;
+        Some(Prediction {
+            cells: level.cells,
+            discretisation: of_cells(preflight, level.h),
+            rounding: rounding_bound(steps, spacing, plan.norm),
+        })
+    };
+    let levels: Vec<Prediction> = preflight.levels().iter().filter_map(prediction).collect();
+    let is_above = |level: &&Prediction| level.discretisation > level.rounding;
+    let Some(first) = levels.iter().find(|level| !is_above(level)) else { return Vec::new() };
+    let above = levels.iter().filter(is_above).count();
+    let message = format!(
+        "the solver computes in single precision: from {} cells on the error of the cells, about \
+         {:.1e} m, lies below the rounding bound of {:.1e} m, so that these levels do not count",
+        first.cells, first.discretisation, first.rounding
+    );
+    let severity = if above < LEVELS { Severity::Warning } else { Severity::Note };
+    let found = preflight.finding(severity, &preflight.motion(), &message);
+    let Some(fourth) = levels.get(LEVELS - 1).filter(|_| above < LEVELS) else {
+        return vec![found];
+    };
+    let amplitude = two_digits(fourth.rounding / fourth.discretisation);
+    let help = format!(
+        "an amplitude {amplitude} times as large leaves {LEVELS} levels above the bound, as long \
+         as particles stay in their cells"
+    );
+    let help = match nearer_origin(motion, spacing) {
+        Some(factor) => {
+            help + &format!(
+                "; a body that is centred at the origin has a bound {factor} times smaller"
+            )
+        }
+        None => help,
+    };
+    vec![found.with_help(&help)]
+}
+
+/// The factor by which the spacing of positions becomes smaller if the body is centred at the
+/// origin, if it does.
+fn nearer_origin(motion: &Extremes, spacing: f64) -> Option<f64> {
+    let lengths = motion.reach.iter().map(|(low, high)| high - low);
+    let half = 0.5 * lengths.filter(|length| length.is_finite()).fold(0.0, f64::max);
+    let factor = spacing / single_precision_spacing(half)?;
+    (factor > 1.0).then_some(factor)
+}
+
+/// A positive factor, rounded up to two digits.
+fn two_digits(factor: f64) -> f64 {
+    let text = format!("{:.1e}", 1.05 * factor);
+    text.parse().unwrap_or(factor)
 }
 
 /// Residuals that the tolerance may be worth, before another solution would pass.

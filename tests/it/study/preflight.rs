@@ -106,11 +106,15 @@ fn findings(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
 )]
 #[case::single_precision_that_shows(
     &[(MPM, SINGLE), ("a: 1e-8", "a: 1e-4")],
-    Severity::Warning, ("displacement", "positions are rounded: this leaves an error of about 6.0e-8 m, which shows", "a larger amplitude")
+    Severity::Warning, ("displacement", "from 12 cells on the error of the cells, about 2.1e-7 m, lies below the rounding bound of 5.2e-7 m", "an amplitude 20 times as large leaves 4 levels above the bound")
 )]
-#[case::single_precision_that_will_show(
-    &[(MPM, SINGLE), ("a: 1e-8", "a: 1e-3")],
-    Severity::Note, ("displacement", "this leaves an error of about 6.0e-8 m, which will show", "")
+#[case::single_precision_far_from_the_origin(
+    &[(MPM, SINGLE), ("a: 1e-8", "a: 1e-4")],
+    Severity::Warning, ("displacement", "do not count", "centred at the origin has a bound 2 times smaller")
+)]
+#[case::single_precision_on_a_fifth_level(
+    &[(MPM, SINGLE), ("a: 1e-8", "a: 2e-3"), ("[6, 12, 18, 24]", "[6, 12, 18, 24, 48]")],
+    Severity::Note, ("displacement", "from 48 cells on the error of the cells", "")
 )]
 #[case::small_strain_at_rest(
     &[
