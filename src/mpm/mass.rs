@@ -62,7 +62,7 @@ impl<const D: usize> MassMatrix<D> for Lumped {
 /// The consistent mass matrix.
 #[derive(Default)]
 pub struct Consistent {
-    /// One for each axis, but for axes on which the same nodes are held.
+    /// One factor per axis; axes with the same fixed nodes share a factor.
     factors: Vec<Factor>,
     entries: MassEntries,
 }
@@ -75,7 +75,7 @@ struct MassEntries {
     pairs: Vec<(usize, usize)>,
     /// Mass of each (kg).
     masses: Vec<f64>,
-    /// Whether the pairs are others than those of the step before.
+    /// Whether the pairs differ from those of the previous step.
     have_moved: bool,
 }
 

@@ -29,7 +29,7 @@ const WAVES: u32 = 720;
 /// Rounds of the golden-section search around the least of them.
 const ROUNDS: u32 = 60;
 
-/// Longest wave in a search for a phase error (cells).
+/// Maximum wavelength in a search for a phase error (cells).
 const LONGEST: f64 = 1e4;
 
 /// Ratio of neighbouring wavelengths in a search for a phase error.

@@ -40,7 +40,7 @@ fn mean(knots: &[f64]) -> f64 {
     knots.iter().sum::<f64>() / knots.len() as f64
 }
 
-/// Twice the largest degree.
+/// Maximum number of knots around a cell: twice the largest degree.
 const MOST_KNOTS: usize = 6;
 
 /// The 2p knots around a cell of an axis with walls for degree `p`: p up to its low side, and p
@@ -76,7 +76,8 @@ fn functions<const K: usize>(s: f64, around: &[f64; MOST_KNOTS]) -> ([f64; K], [
     (value, slope)
 }
 
-/// The same for knots that are not repeated, at `xi` from 0 to 1 within the cell: all spans are 1.
+/// The K functions and their derivatives per cell for uniform knots (all spans are 1), at `xi` from
+/// 0 to 1 within the cell.
 #[inline(always)]
 fn uniform<S: Simd, const K: usize>(simd: S, xi: S::F64x4) -> ([S::F64x4; K], [S::F64x4; K]) {
     let zero = simd.splat(0.0);

@@ -34,7 +34,7 @@ use crate::mpm::foundation::particles::Particles;
 #[derive(Debug, Clone, Copy)]
 pub struct Cpdi;
 
-/// Longest reach of a domain on a periodic axis, in cells: corners beyond it would lose their
+/// Maximum extent of a domain on a periodic axis (cells): corners further away would lose their
 /// position within a cell to rounding.
 const FAR: f64 = 1e6;
 

@@ -234,8 +234,8 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
                     |i, node| {
                         let Some(first) = first[i] else {
                             return match of_row {
-                                // A sum waits for that of the particle before: along one axis the
-                                // term is made beside it.
+                                // In 1-D a sum waits for that of the previous particle: a separate
+                                // product runs at the same time.
                                 Some(row) if D == 1 => node + row * weights[i],
                                 Some(row) => node.plus_product(row, weights[i]),
                                 None => node,

@@ -153,7 +153,7 @@ impl<const D: usize> Effect<D> for Heat<D> {
         columns
     }
 
-    /// State of the particles; that of the nodes is computed anew in each step.
+    /// State of the particles; the state of the nodes is recomputed in each step.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.slope[..]);
     }

@@ -6,17 +6,16 @@
 //!
 //! - at the particle, `f_i += f N_i(x_p)`, half a spacing inside, as in the original MPM. The sum
 //!   of the forces is right, their moment is not: forces along the face lack the arm s/2, which
-//!   bends the whole body by an error of the order h;
+//!   causes a bending error of order h in the whole body;
 //! - at the surface, `f_i += f N_i(x_p) + (f (x) d) grad N_i(x_p)`, `d = F s/2 N`: the weights of
-//!   the surface point as far as their slope at the particle tells, so that sum and moment are
-//!   right, `sum_i f_i (x) x_i = f (x) (x_p + d)`, wherever linear fields are. Not the weights at
-//!   the surface point itself: just beyond a node they belong in part to a node that no particle
-//!   gives any mass.
+//!   the surface point, extrapolated linearly from the particle. Sum and moment are exact, `sum_i
+//!   f_i (x) x_i = f (x) (x_p + d)`, if the basis reproduces linear fields. The weights at the
+//!   surface point itself are not used: just beyond a node they would load a node without mass.
 //!
-//! A face of a body that is a mapped box: the particles whose domains end on it.
+//! On a face of a mapped box, the layer is the set of particles whose domains end on the face.
 //!
-//! Middles of outer faces of domains lie on the face of the body ([`Particles::fill_mapped`]),
-//! however slanting the rows of particles are that end there.
+//! The middles of the outer faces of these domains lie on the face of the body
+//! ([`Particles::fill_mapped`]), also if the rows of particles meet the face at an angle.
 
 use crate::mpm::boundary::Side;
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};

@@ -41,9 +41,9 @@ pub struct ThermalBoundary<const D: usize> {
     nodes: Vec<(usize, Vector<D>)>,
     /// Particles next to the face.
     layer: Vec<usize>,
-    /// The part of the face that belongs to each of them (m^(D-1)).
+    /// Area of the face per particle of the layer (m^(D-1)).
     area: f64,
-    /// The same, of each node.
+    /// Area of the face per node (m^(D-1)).
     share: Vec<f64>,
 }
 
@@ -80,7 +80,7 @@ impl<const D: usize> ThermalBoundary<D> {
         ]
     }
 
-    /// Imposes a given temperature on those of nodes (K) at time `t` (s).
+    /// Sets the `temperature` (K) of the nodes of the face at time `t` (s), if it is prescribed.
     pub(super) fn hold_temperature(&self, t: f64, temperature: &mut [f64]) {
         if let Thermal::Temperature(value) = &self.condition {
             for (i, x) in &self.nodes {
@@ -89,7 +89,8 @@ impl<const D: usize> ThermalBoundary<D> {
         }
     }
 
-    /// The same for their rates (K/s) from `t` to `t + dt`.
+    /// Sets the temperature `rate` (K/s) of the nodes of the face from `t` to `t + dt` (s), if the
+    /// temperature is prescribed.
     pub(super) fn hold_rate(&self, t: f64, dt: f64, rate: &mut [f64]) {
         if let Thermal::Temperature(value) = &self.condition {
             for (i, x) in &self.nodes {

@@ -49,7 +49,7 @@ pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
     kernel_with(basis, LoopSettings::default())
 }
 
-/// The same, with loops that run otherwise.
+/// Kernel of the basis with this name, with the given loop settings.
 pub fn kernel_with<const D: usize>(basis: BasisName, settings: LoopSettings) -> Box<dyn Kernel<D>> {
     let kernel = kernel_in_dimension(D, basis, settings).downcast::<Box<dyn Kernel<D>>>();
     *kernel.unwrap_or_else(|_| unreachable!("no kernel in {D} dimensions"))

@@ -60,7 +60,7 @@ struct Visit<'a, const D: usize, B: Basis> {
 }
 
 impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
-    /// Whether a node has lanes for momentum and mass beside those of the force.
+    /// Whether a node has lanes for momentum and mass in addition to those of the force.
     const HOLDS_ALL: bool = N::IS_WIDE || D == 1;
 
     /// Adds the terms of particles, which have an affine part (`SLOPE`) and one along the gradient

@@ -1,5 +1,5 @@
-//! The laws that every registered material is held to, in 1-D, 2-D and 3-D. Where materials differ,
-//! each says so in its properties and closed forms.
+//! Law tests of every registered material, in 1-D, 2-D and 3-D. Differences between materials are
+//! declared in their properties and closed forms.
 
 use super::specimen::{FAST, SLOW, Specimen, diagonal, every, scattered, stress};
 use super::{
@@ -109,14 +109,14 @@ fn rotation_in_a_step_only_turns_the_stress<const D: usize>(plan: MaterialPlan) 
         assert_abs_diff_eq!(error(0.1, 2.0), 0.0, epsilon = 1e-11);
     } else if D > 1 {
         let (error, half) = (error(1e-3, 1e-3), error(5e-4, 5e-4));
-        // A stress of J alone does not know of the turn.
+        // A stress that depends on J alone has no error of rotation.
         let is_second_order = error < 1e-13 || (3.9 * half..=4.1 * half).contains(&error);
         assert!(is_second_order, "{plan:?}: {error}, {half}");
     }
 }
 
-/// `sigma(Q L Q^T + W) = Q sigma(L) Q^T` for the velocity gradient L and any spin W: isotropy, and
-/// indifference to a frame that turns. A stress of F is held to more, by the law above.
+/// `sigma(Q L Q^T + W) = Q sigma(L) Q^T` for the velocity gradient L and any spin W: isotropy and
+/// frame indifference. A law that reads F must pass the stronger test above.
 fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     if reads_deformation(plan) {
         return;

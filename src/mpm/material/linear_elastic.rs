@@ -58,7 +58,7 @@ fn logarithmic_work(eps: f64) -> f64 {
     terms.sum()
 }
 
-/// Most terms of a logarithm: those of a stretch of 1/100 or 100.
+/// Maximum number of terms of a logarithm: enough for a stretch of 1/100 or 100.
 const MOST_TERMS: u32 = 2000;
 
 /// `ln F = 2 artanh(Z)`, `Z = (F - I)(F + I)^-1` (Higham 2008, eq. 11.5); no numbers where the

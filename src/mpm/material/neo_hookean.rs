@@ -67,12 +67,12 @@ fn log_det<const D: usize>(h: &Matrix<D>) -> f64 {
     libm::log1p(trace + minors + if D == 3 { det(h) } else { 0.0 })
 }
 
-/// Most steps to the stretch of a plate.
+/// Maximum number of Newton steps for the stretch across a plate.
 const MOST_STEPS: usize = 100;
 
 impl FreeAcross for NeoHookean {
-    /// The root of `lambda ln(area s) + mu (s^2 - 1)` by Newton's method in ln s, which comes to it
-    /// from above; no number if it does not arrive, as for nu < 0 under extreme compression.
+    /// The root of `lambda ln(area s) + mu (s^2 - 1)` by Newton's method in ln s, which converges
+    /// from above; NaN if it does not converge, as for nu < 0 under extreme compression.
     fn stretch(&self, area: f64) -> f64 {
         let (Self { lambda, mu }, log) = (*self, libm::log(area));
         let mut above = -thinning(lambda, mu) * log;

@@ -53,7 +53,7 @@ impl MaterialProperties for Newtonian {
 }
 
 impl<const D: usize> Material<D> for Newtonian {
-    /// The pressure of J and the viscous stress of the velocity.
+    /// Sets the pressure from J and the viscous stress from the velocity gradient.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         self.update(&mut StressUpdate::new(0.0, particles));
         Ok(())
@@ -67,7 +67,7 @@ impl<const D: usize> Material<D> for Newtonian {
         true
     }
 
-    /// That of the pressure, `K/7 (J^-6/6 + J - 7/6)`.
+    /// Energy of the pressure, with the density `K/7 (J^-6/6 + J - 7/6)`.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let density = |j: f64| {
             let cube = 1.0 / (j * j * j);

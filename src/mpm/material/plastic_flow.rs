@@ -195,7 +195,7 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
         checkpoint.visit(&mut self.flowed);
     }
 
-    /// That of the elastic strain.
+    /// Energy of the elastic strain.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let density = |p: usize, f: &Matrix<D>| {
             let before = self.flowed.get(p).unwrap_or(&Flowed::NOT);
@@ -295,7 +295,7 @@ pub(super) mod path {
     }
 
     /// Asserts the principal Kirchhoff stresses (Pa) at the end of a path through these principal
-    /// logarithmic strains, in all dimensions that have room for it and with the axes exchanged.
+    /// logarithmic strains, in all dimensions that contain the path, and with the axes exchanged.
     pub(in super::super) fn principal(plan: MaterialPlan, path: &[[f64; 3]], expected: [f64; 3]) {
         for axes in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2]] {
             let turned = |values: &[f64; 3]| axes.map(|axis| values[axis]);

@@ -1,8 +1,8 @@
 //! A law with a stress that its body has in the reference configuration.
 //!
-//! Where the law gives the stress of F, the initial stress S0 is a second Piola-Kirchhoff stress
-//! beside it, `sigma = sigma_law(F) + F S0 F^T/J`: it turns with the body, and derives from the
-//! energy `W_law + S0 : E`, `E = (F^T F - I)/2` (Merodio, Ogden & Rodriguez 2013, Int. J.
+//! Where the law gives the stress of F, the initial stress S0 is an additional second
+//! Piola-Kirchhoff stress, `sigma = sigma_law(F) + F S0 F^T/J`: it turns with the body, and derives
+//! from the energy `W_law + S0 : E`, `E = (F^T F - I)/2` (Merodio, Ogden & Rodriguez 2013, Int. J.
 //! Non-Linear Mech. 56). A law in rate form goes on from the Cauchy stress S0 by itself.
 
 use super::contract::Material;
@@ -19,8 +19,8 @@ pub struct Prestressed<const D: usize> {
 }
 
 impl<const D: usize> Prestressed<D> {
-    /// `law` for `particles` that have not moved yet, which get the initial `stress` (Pa), one for
-    /// each.
+    /// Adds the initial `stress` (Pa), one entry per particle, to `law` and sets it in `particles`,
+    /// which have not moved yet.
     pub fn new(
         law: Box<dyn Material<D>>,
         stress: Vec<Matrix<D>>,

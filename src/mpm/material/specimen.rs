@@ -47,7 +47,7 @@ impl<const D: usize> Specimen<D> {
         Self(material, particles)
     }
 
-    /// A particle of a body in this state across its plane, if the law is known there.
+    /// A particle of a body with this state across the plane, if the law supports it.
     pub(super) fn in_plane(plan: MaterialPlan, plane: PlaneState) -> Option<Self> {
         let Self(_, mut particles) = Self::new(plan);
         particles.across = vec![1.0];
@@ -66,7 +66,7 @@ impl<const D: usize> Specimen<D> {
         particles.sigma[0]
     }
 
-    /// The same at this rate (1/s) of the hoops.
+    /// The stress after a step at this velocity gradient and this hoop strain rate (1/s).
     pub(super) fn flow_in_hoops(&mut self, grad_v: &Matrix<D>, rate: f64, dt: f64) -> Matrix<D> {
         self.1.rate_across[0] = rate;
         self.1.across[0] *= 1.0 + rate * dt;

@@ -59,7 +59,7 @@ fn rotate<const D: usize>(m: &mut Matrix<D>, axes: &mut Matrix<D>, p: usize, q: 
     turn[(q, p)] = -tangent * cosine;
     *m = turn.transpose() * *m * turn;
     *axes *= turn;
-    // What the products give up to rounding, without the cancellation.
+    // These are the entries of the product above, computed without cancellation.
     m[(p, p)] = low - tangent * coupling;
     m[(q, q)] = high + tangent * coupling;
     m[(p, q)] = 0.0;

@@ -45,17 +45,17 @@ pub struct StressBlock<'a, const D: usize> {
     pub stress_across: &'a mut [f64],
 }
 
-/// The part of a law in a visit: a block of particles, with what the law keeps of each.
+/// Function of a law for one block of particles, with the state that the law keeps of each.
 type BlockLaw<'a, const D: usize, S> = dyn Fn(&mut StressBlock<'_, D>, &mut [S]) + Sync + 'a;
 
 impl<'a, const D: usize> StressUpdate<'a, D> {
-    /// An update over `dt` (s) of particles whose F is that of the end of the step already.
+    /// An update over `dt` (s) of particles whose F is already that of the end of the step.
     pub fn new(dt: f64, particles: &'a mut Particles<D>) -> Self {
         Self { dt, particles, awaits_strain: false, least_j: None }
     }
 
-    /// The same, with F of the start of the step: it advances by the velocity gradients, in the
-    /// visit of the law.
+    /// An update over `dt` (s) of particles whose F is that of the start of the step. F is advanced
+    /// by the velocity gradients in the same visit as the law.
     pub(in crate::mpm) fn straining(dt: f64, particles: &'a mut Particles<D>) -> Self {
         Self { awaits_strain: true, ..Self::new(dt, particles) }
     }
@@ -84,7 +84,8 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
         self.by_block_with(&mut Vec::<()>::new(), &|block, _| law(block));
     }
 
-    /// The same for a law that keeps a `state` of each particle, from the first call on.
+    /// Calls `law` with all particles, block by block, on all threads, and with its `state` of each
+    /// particle, which the first call creates.
     pub fn by_block_with<S: Clone + Default + Send>(
         &mut self,
         state: &mut Vec<S>,
@@ -95,8 +96,8 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
         self.least_j = visit(StressBlock::from_particles(self.particles), state, strain, law);
     }
 
-    /// The smallest J, of none infinity; none unless every J is positive and finite and all
-    /// stresses are finite.
+    /// The smallest J (infinity without particles); `None` unless every J is positive and finite
+    /// and all stresses are finite.
     pub(in crate::mpm) fn least_j(mut self) -> Option<f64> {
         if self.least_j.is_none() {
             self.by_block(|_| {});

@@ -153,7 +153,7 @@ impl<const D: usize> Subject for Bodies<D> {
         }
     }
 
-    /// Those of the first body, as is the schedule, with the coupling of all.
+    /// Passes of the first body, whose schedule all bodies share, and of the coupling.
     fn passes(&self) -> Vec<String> {
         let state = self.solvers.first().map(|one| one.setup.state_passes());
         self.schedule.texts(&state.unwrap_or_default())
@@ -169,7 +169,7 @@ impl<const D: usize> Subject for Bodies<D> {
     }
 }
 
-/// The failure of a body whose particles come after `first` others.
+/// Renumbers the particle in a failure of a body whose first particle has the number `first`.
 pub(in crate::mpm) fn among(failure: Failure, first: usize) -> Failure {
     let shifted = |site: Site| match site {
         Site::Particle(p) => Site::Particle(first + p),
@@ -187,7 +187,8 @@ pub(in crate::mpm) fn among(failure: Failure, first: usize) -> Failure {
     }
 }
 
-/// One profile of all bodies and their coupling. Every body has a grid, so nodes are those of all.
+/// One profile of all bodies and their coupling. Every body has a grid: nodes are summed over all
+/// grids.
 pub(in crate::mpm) fn joint_profile<const D: usize>(
     bodies: impl Iterator<Item = Profile>,
     coupling: Option<&dyn Coupling<D>>,
@@ -211,8 +212,8 @@ pub(in crate::mpm) fn joint_profile<const D: usize>(
     all
 }
 
-/// Adds the columns of one body to those of others, each to the one that is the same; a second of
-/// the same body (two walls) to the second.
+/// Adds the columns of one body to `all`. A column is added to the one of the same kind; the second
+/// column of a kind (two walls) to the second one.
 fn add_columns(all: &mut Vec<ColumnSize>, body: Vec<ColumnSize>) {
     let kind = |column: &ColumnSize| (column.name, column.holder, column.bytes);
     let known = all.len();

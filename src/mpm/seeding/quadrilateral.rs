@@ -27,9 +27,8 @@ impl Quadrilateral {
         }
     }
 
-    /// The same panel from another corner on, so that the first axis of its map runs along X as far
-    /// as it can: GIMP has boxes in place of domains, and takes the diagonal of their vectors for
-    /// the sides.
+    /// Renumbers the corners so that the first axis of the map is as close to X as possible: GIMP
+    /// replaces domains by boxes, whose sides are the diagonal entries of the domain vectors.
     fn upright(self) -> Self {
         let along = |i: &usize| self.side(*i)[0] - self.side((i + 2) % 4)[0];
         let first = (1..4).fold(0, |best, i| if along(&i) > along(&best) { i } else { best });
@@ -144,7 +143,7 @@ mod tests {
             for (x, domain) in particles.x0.iter().zip(&particles.domain0) {
                 prop_assert!(is_inside(&panel, x), "{:?}", x);
                 for axis in 0..2 {
-                    // Middles of a domain's sides are inside, but for rounding where sides meet.
+                    // Middles of a domain's sides are inside, up to rounding where sides meet.
                     let towards = domain.column(axis) * (1.0 - 1e-9);
                     prop_assert!(is_inside(&panel, &(x + towards)));
                     prop_assert!(is_inside(&panel, &(x - towards)));

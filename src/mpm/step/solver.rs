@@ -272,7 +272,7 @@ impl<const D: usize> Solver<D> {
         if least_j.is_none() { particles.stressed_finite() } else { Ok(()) }
     }
 
-    /// `J = V / V0` of every particle, of which one may fail: the smallest so far is kept.
+    /// Checks `J = V / V0` of every particle and updates the smallest J of the run.
     fn jacobians(&mut self) -> Result<(), Failure> {
         let Particles { vol, vol0, .. } = &self.setup.particles;
         for (p, (vol, vol0)) in vol.iter().zip(vol0).enumerate() {

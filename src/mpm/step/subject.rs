@@ -24,11 +24,11 @@ use crate::subject::{
 use nalgebra::SMatrix;
 
 impl<const D: usize> Solver<D> {
-    /// The step of [`Subject::step`]; `after` is called with the name of each pass when it is done,
-    /// for those who time passes.
+    /// The step of [`Subject::step`]; `after` is called with the name of each completed pass, so
+    /// that a caller can time the passes.
     ///
     /// # Errors
-    /// Those of [`Subject::step`].
+    /// As [`Subject::step`].
     pub fn step_by_pass(&mut self, dt: f64, after: &mut dyn FnMut(String)) -> Result<(), Failure> {
         self.step_with(dt, &mut |pass| after(pass.name()))
     }
@@ -155,7 +155,7 @@ impl<const R: usize, const C: usize> Memory for SMatrix<f64, R, C> {
     }
 }
 
-/// Columns that are there from the start, but for those that never change.
+/// The columns that change during a run.
 impl<const D: usize> Memory for Particles<D> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let Self {

@@ -23,12 +23,12 @@ pub enum TransferKind {
     Cells,
 }
 
-/// Parameter of a transfer, a whole number: its range and the words of messages.
+/// Integer parameter of a transfer: its range and its text in messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TransferParameter {
-    /// Least and greatest value.
+    /// Minimum and maximum value.
     pub range: (u32, u32),
-    /// Words before and after the value, as in `a series of 8 terms`.
+    /// Text before and after the value, as in `a series of 8 terms`.
     pub words: (&'static str, &'static str),
 }
 

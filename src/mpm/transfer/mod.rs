@@ -60,7 +60,7 @@ objects_with_parameter! {
 impl TransferName {
     /// Kind of the transfer.
     pub fn kind(self) -> TransferKind {
-        // The same in every dimension.
+        // The kind does not depend on the dimension.
         transfer::<1>(self).kind()
     }
 }

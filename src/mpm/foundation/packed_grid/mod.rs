@@ -94,7 +94,7 @@ impl PackedField<Node4> {
         FieldView { nodes: &self.nodes, layout: self.layout }
     }
 
-    /// Packs a field of vectors and, in the lanes `beside` it, perhaps another one.
+    /// Packs a field of vectors and, optionally, the field `beside` in the lanes after it.
     pub(in crate::mpm) fn pack<const D: usize>(
         &mut self,
         grid: &Grid<D>,
@@ -160,7 +160,7 @@ fn nodes_of_layer<const D: usize>(grid: &Grid<D>) -> usize {
 }
 
 impl<const D: usize> Columns<'_, D> {
-    /// The same columns.
+    /// Reborrows the columns for a shorter lifetime.
     pub(in crate::mpm) fn reborrow(&mut self) -> Columns<'_, D> {
         let Self { mass, momentum, force, before } = self;
         let (mass, momentum, force) =

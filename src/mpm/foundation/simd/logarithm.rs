@@ -56,7 +56,7 @@ fn ln_of_normal(x: f64) -> f64 {
     s * (half_square + (odd + even)) + k * LN2_LOW - half_square + f + k * LN2_HIGH
 }
 
-/// The same where one of them is zero, negative, subnormal or no finite number.
+/// `ln x` lane by lane, for batches with a number that is zero, negative, subnormal or not finite.
 #[cold]
 #[inline(never)]
 fn one_by_one(x: &F64Batch) -> F64Batch {

@@ -145,7 +145,7 @@ fn p2g_momentum<const D: usize>(
 struct Fit<'a, const D: usize> {
     /// Positions of all particles (m), inside the grid on periodic axes.
     x: &'a [Vector<D>],
-    /// Those in the cell, at least one.
+    /// Indices of the particles in the cell, at least one.
     members: &'a [usize],
 }
 
@@ -225,7 +225,7 @@ mod tests {
     use approx::assert_abs_diff_eq;
     use rstest::rstest;
 
-    /// Eight cells with three particles each, of which the last of the fourth cell has passed into
+    /// Eight cells with three particles each; the last particle of the fourth cell has moved into
     /// the fifth.
     fn uneven() -> (Grid<1>, Particles<1>) {
         let grid = Grid::new(Vector::zeros(), 1.0, [8], [true], [8]);
