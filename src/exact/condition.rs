@@ -48,15 +48,15 @@ pub trait FacePoint {
     /// The violation.
     fn traction(&self, i: usize, what: &str, given: f64) -> Result<(), Violation>;
 
-    /// u . n = 0 and no pull; along the face a traction of the `coefficient` times the pressure
-    /// against the velocity, and at most as much where the face rests.
+    /// u . n = 0 and no tension. The tangential traction is `coefficient` times the pressure,
+    /// against the velocity; where the face does not move, it is at most this value.
     ///
     /// # Errors
     /// The first violation.
     fn friction(&self, coefficient: f64) -> Result<(), Violation>;
 
-    /// x lies one period further along the axis than on the opposite face, and grad u is the same:
-    /// then P is, and nothing tells where the seam is.
+    /// x lies one period further along the axis than on the opposite face, and grad u, and so P, is
+    /// equal on both.
     ///
     /// # Errors
     /// The first violation.

@@ -1,10 +1,11 @@
-//! Stress of the reference configuration.
+//! Initial stress, in the reference configuration.
 //!
-//! Beside a law of finite strains it is a second Piola-Kirchhoff stress S0, `P = P_law(F) + F S0`:
-//! the derivative of the energy `W_law(F) + S0 : E`, `E = (F^T F - I)/2`, which no rotation changes
-//! (Merodio, Ogden & Rodriguez 2013, Int. J. Non-Linear Mech. 56). Small waves along S0 then have
-//! `rho0 c^2 = M + S0`. In a theory of small strains `P = C : eps + S0`, which neglects `grad u S0`
-//! beside `C : eps`: S0 is small beside the moduli there, as strains are beside one.
+//! With a law of finite strains it is a second Piola-Kirchhoff stress S0, `P = P_law(F) + F S0`.
+//! This is the derivative of the energy `W_law(F) + S0 : E`, `E = (F^T F - I)/2`, which is
+//! invariant under rotation (Merodio, Ogden & Rodriguez 2013, Int. J. Non-Linear Mech. 56). Small
+//! waves along S0 then have `rho0 c^2 = M + S0`. With a law of small strains `P = C : eps + S0`,
+//! which neglects `grad u S0` against `C : eps`: S0 must be much smaller than the moduli, as
+//! strains must be much smaller than one.
 
 use super::formula::{Formula, Number, Slope};
 use super::tensor::{Tensor, pushed_forward, sum, tensor, unit};
@@ -149,7 +150,7 @@ mod tests {
         assert_eq!(s0.cauchy(&[2.0, 5.0], &GRAD, false), s0.at(&[2.0, 5.0]));
     }
 
-    /// A field that varies, beside a manufactured motion and its weight.
+    /// A problem with a varying initial stress, a manufactured motion and gravity.
     fn prestressed(dimension: usize) -> Problem {
         let components = [(0, 0, "3*sin(X)"), (1, 1, "X - Y"), (0, 1, "Y^2"), (2, 2, "X*Z")];
         let inside = components.into_iter().filter(|(_, j, _)| *j < dimension);

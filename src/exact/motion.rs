@@ -65,14 +65,15 @@ impl Motion {
         with_dimension!(self.dimension(), D => self.over_jets::<{ D + 1 }>(label, t))
     }
 
-    /// The motion at `labels`, for which what does not depend on time is computed here and now.
+    /// The motion at `labels`. Terms that do not depend on time are computed in this call.
     pub fn at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Jet<{ D + 1 }>>(labels, Jet::variable))
         })
     }
 
-    /// The same to first order, at a third of the cost: second derivatives are left alone.
+    /// The motion at `labels` with first derivatives only, at a third of the cost of
+    /// [`Self::at_places`]: second derivatives are not written.
     pub fn slopes_at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Slope<{ D + 1 }>>(labels, Slope::variable))
@@ -172,12 +173,12 @@ impl Truth for Motion {
         }
     }
 
-    /// The same, some points at a time.
+    /// Displacements at all `labels`, computed in batches of points.
     fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
         for (labels, into) in
             labels.chunks(d * NumberBatch::LEN).zip(into.chunks_mut(d * NumberBatch::LEN))
         {
-            // Lanes without a point of their own take that of the last.
+            // Lanes without a point repeat the last point.
             let last = labels.len() / d - 1;
             let mut all = [NumberBatch::from(t); 4];
             for axis in 0..d {

@@ -86,9 +86,9 @@ pub(super) fn product<T: Number, const D: usize>(
 /// The logarithmic strain `eps = ln(b)/2`, `b = F F^T`.
 ///
 /// From `tanh(eps) = X = (b - I)(b + I)^-1` by the series of the inverse, `X + X^3/3 + X^5/5 + ...`
-/// (Higham 2008, *Functions of Matrices*, section 11.4): no eigenvalues, whose derivatives would
-/// not exist where they coincide. NaN where [`MOST_TERMS`] do not suffice. Where nothing shears,
-/// and with no derivative either, the strains are logarithms, which is quicker.
+/// (Higham 2008, *Functions of Matrices*, section 11.4): this avoids eigenvalues, which are not
+/// differentiable where they coincide. NaN if [`MOST_TERMS`] terms do not suffice. If the shear and
+/// its derivatives vanish, the strains are logarithms, which is faster.
 pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     if !is_sheared(f) {
         return tensor(|i, j| if i == j { Number::ln(f[i][i]) } else { T::from(0.0) });
@@ -104,7 +104,7 @@ pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<
     let (mut power, mut strain) = (x, x);
     for k in 1..=MOST_TERMS {
         power = product(&power, &square);
-        // What this bounds is, relative to X, the derivative of the rest too.
+        // This test also bounds the derivative of the remainder, relative to X.
         if size(&power) <= 1e-17 * size(&x) {
             return strain;
         }

@@ -138,13 +138,13 @@ impl SpaceTimePatch {
 
 /// Points of the midpoint rule on a patch.
 pub(crate) struct Raster {
-    /// Those in space, the first axis running fastest.
+    /// Points in space, one coordinate per axis, with the first axis varying fastest.
     pub(crate) points: Vec<Vec<AxisPoint>>,
-    /// Those in time, for each of them.
+    /// Points in time, the same for each point in space.
     pub(crate) times: Vec<AxisPoint>,
 }
 
-/// A point on one axis of a patch: where, and the factor of phi that belongs to this axis, with its
+/// A point on one axis of a patch: its position, and the factor of phi for this axis with its
 /// derivative.
 #[derive(Clone, Copy)]
 pub(crate) struct AxisPoint {

@@ -1,12 +1,11 @@
 //! Formulas of place and time at many places and many times.
 //!
-//! A program taken apart by what its steps depend on: the place, the time, or both.
+//! The steps of a program are split by their dependence: on the place, on the time, or on both.
 //!
-//! Sums are written out and registers named anew, so that each step is a node that is computed once
+//! Sums are unrolled and registers renamed, so that each step is a node that is computed once
 //! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node depends on the place or
-//! the time if one of its arguments does. Each part of the split keeps its nodes in their old
-//! order, so that every number is computed by the operations that would compute it without the
-//! split: it has the same bits.
+//! the time if one of its arguments does. Each part of the split keeps the order of its nodes. So
+//! every number is computed by the same operations as without the split, and has the same bits.
 
 use super::bound::Formula;
 use super::builtin::Binary;
@@ -14,11 +13,11 @@ use super::number::Number;
 use super::program::{Action, Instruction, Operand, read, run};
 use std::collections::BTreeMap;
 
-/// Formulas of the same variables, the last of which is the time, evaluated at the same places
-/// again and again.
+/// Formulas of the same variables (coordinates, then time), evaluated at the same places for many
+/// times.
 ///
 /// Terms of the place only are computed once for each place, terms of the time only once for each
-/// time. The values have the bits that [`Formula::eval`] gives.
+/// time. The values are bit-identical to those of [`Formula::eval`].
 #[derive(Debug, Clone)]
 pub struct Hoisted<T> {
     split: Split,
@@ -32,8 +31,8 @@ pub struct Hoisted<T> {
 }
 
 impl<T: Number> Hoisted<T> {
-    /// Takes formulas of `variables` variables apart. Their sums are written out: see
-    /// [`Formula::operations`] for how long that will be.
+    /// Splits formulas of `variables` variables. Their sums are unrolled: see
+    /// [`Formula::operations`] for the resulting length.
     ///
     /// # Panics
     /// If a formula is bound to another number of variables.
@@ -98,11 +97,11 @@ const PLACE: Dependence = 1;
 const TIME: Dependence = 2;
 const BOTH: Dependence = 3;
 
-/// The steps of some formulas. One that is taken twice, be it in two formulas, is one node.
+/// The steps of some formulas. Equal steps, also of two formulas, share one node.
 #[derive(Default)]
 struct Nodes {
     list: Vec<SsaNode>,
-    /// The number of each node under its text, which tells 0 from -0 as `==` does not.
+    /// The number of each node by its text, which distinguishes 0 from -0 (`==` does not).
     known: BTreeMap<String, usize>,
 }
 
@@ -171,9 +170,9 @@ impl Nodes {
     }
 }
 
-/// Appends the steps of a formula, sums written out, and returns where its value is.
+/// Appends the steps of a formula, with sums unrolled, and returns the operand of its value.
 fn unroll(formula: &Formula, nodes: &mut Nodes) -> Operand {
-    // What each register holds: a constant, or the value of a node.
+    // The content of each register: a constant, or the value of a node.
     let mut held = vec![Operand::Constant(0.0); formula.registers()];
     let now = |held: &[Operand], operand| match operand {
         Operand::Register(register) => held[register],

@@ -3,9 +3,9 @@
 use std::ops::Range;
 use thiserror::Error;
 
-/// Longest source that is read, in bytes.
+/// Maximum length of a formula (bytes).
 const MAX_BYTES: usize = 16 * 1024;
-/// Most tokens in one formula.
+/// Maximum number of tokens in a formula.
 const MAX_TOKENS: usize = 4096;
 const SYMBOLS: &[u8] = b"+-*/^(),";
 

@@ -52,7 +52,7 @@ impl Action {
         std::iter::once(first).chain(second)
     }
 
-    /// The same action on other arguments.
+    /// This action, with each argument replaced by `to(argument)`.
     pub(super) fn map(&self, to: impl Fn(Operand) -> Operand) -> Self {
         match self {
             Self::Copy(a) => Self::Copy(to(*a)),

@@ -49,7 +49,7 @@ impl Scope {
         Ok(())
     }
 
-    /// The same scope, with another value for a constant that it declares.
+    /// This scope with another value for a constant that it declares.
     #[must_use]
     pub fn with(&self, name: &str, value: f64) -> Self {
         let mut scope = self.clone();

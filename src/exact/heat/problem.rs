@@ -1,10 +1,5 @@
-//! The heat problem that a temperature is held to.
-//!
-//! Thermal conditions on the faces of a body.
-//!
-//! The source of heat as a suite states it.
-//!
-//! The manufactured source of a run: at the same places, step after step.
+//! Heat problem of an exact temperature: the body, the thermal conditions on its faces, and the
+//! source of heat, stated or manufactured.
 
 use super::field::{Temperature, TemperatureDerivatives, TemperaturePlaces, divergence, slope};
 use crate::exact::formula::Formula;

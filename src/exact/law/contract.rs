@@ -77,8 +77,7 @@ impl Lame {
         self.lambda + 2.0 * self.mu
     }
 
-    /// `nu/(1 - nu)`: strain across a plate that is free there, over that of its area, but for
-    /// the sign.
+    /// `nu/(1 - nu)`: minus the strain across a plate in plane stress over its area strain.
     pub(super) fn thinning(&self) -> f64 {
         self.lambda / self.modulus()
     }

@@ -86,7 +86,7 @@ mod tests {
         }
     }
 
-    /// Nothing shears at this point, but it does beside it: the derivative must not be lost.
+    /// The shear vanishes at this point, but its derivative does not.
     #[test]
     fn shear_that_vanishes_at_a_point_still_has_its_derivative() {
         let mut second = [[[0.0; 3]; 3]; 3];

@@ -16,10 +16,11 @@ impl NeoHookeanLaw {
     }
 }
 
-/// Most steps to the stretch across a plate; strains of 100 % take about five.
+/// Maximum number of Newton steps for the stretch across a plate; strains of 100 % take about five.
 const MOST_STEPS: usize = 100;
 
-/// Newton's step to the logarithmic strain across a plate, from `eps`; `log` is that of its area.
+/// One Newton step from `eps` towards the logarithmic strain across a plate whose logarithmic area
+/// strain is `log`.
 fn newton<T: Number>(Lame { lambda, mu }: Lame, log: T, eps: T) -> T {
     let (lambda, mu, square) = (T::from(lambda), T::from(mu), Number::exp(eps + eps));
     let force = lambda * (log + eps) + mu * (square - T::from(1.0));

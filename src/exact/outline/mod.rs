@@ -1,6 +1,6 @@
-//! Bodies that are no box: round ones and polygons.
+//! Bodies that are not boxes: round bodies and polygons.
 //!
-//! Their rims carry no traction, which is all that a suite can say of them, but for the sides of a
+//! Their rims are free of traction; a suite cannot state anything else. Exception: the sides of a
 //! quadrilateral that lie on a face.
 
 mod piece;
@@ -16,10 +16,10 @@ pub use round::Round;
 use super::random::Random;
 use std::fmt::Debug;
 
-/// Share of a length or an area that is no more than rounding.
+/// Share of a length or an area that counts as rounding error.
 const ROUNDING: f64 = 1e-12;
 
-/// Shape of a body that is no box, in the reference configuration.
+/// Shape of a body that is not a box, in the reference configuration.
 pub trait Outline: Debug + Send + Sync {
     /// Its kind, as suites write it.
     fn kind(&self) -> &'static str;
@@ -36,7 +36,7 @@ pub trait Outline: Debug + Send + Sync {
     /// Distance (m) of a point from the body, whose holes count as filled.
     fn distance(&self, label: &[f64]) -> f64;
 
-    /// Centre and radius (m) of a body that is round but for holes.
+    /// Centre and radius (m) of a round body, ignoring holes; `None` for other shapes.
     fn ball(&self) -> Option<(&[f64], f64)> {
         None
     }
@@ -46,8 +46,8 @@ pub trait Outline: Debug + Send + Sync {
         0.0
     }
 
-    /// The part of a share of a lattice, a box of half-lengths `half` (m) about `centre`, that is a
-    /// particle of the body, or several.
+    /// The particle or particles of one lattice cell, a box of half-lengths `half` (m) about
+    /// `centre`: the part of the cell that lies in the body.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut;
 
     /// Volume (m^D) of the part of the body in a box.

@@ -124,10 +124,10 @@ impl Outline for Polygon {
         if self.holds(label) { 0.0 } else { self.depth(&[label[0], label[1]]) }
     }
 
-    /// The exact part of the share, at its centroid: volume and first moment of the body are those
-    /// of its particles, but for rounding. The sum of V f(X) over the particles is the integral of
-    /// f with an error of second order in their spacing, at the rim as inside. Where the centroid
-    /// of a part lies outside, in a notch, there is a particle for each convex piece.
+    /// The exact intersection of cell and body, at its centroid: volume and first moment of the
+    /// body equal those of its particles, up to rounding. The sum of V f(X) over the particles is
+    /// the integral of f with an error of second order in their spacing, also at the rim. If the
+    /// centroid lies outside the body, as in a notch, each convex piece becomes a particle.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut {
         let (centre, half) = ([centre[0], centre[1]], [half[0], half[1]]);
         let is_near = |corners: &&TriangleCorners| {
@@ -206,7 +206,7 @@ impl Outline for Polygon {
         (centre, half)
     }
 
-    /// Each triangle is a square, one side of which is collapsed to the first corner.
+    /// One chart per triangle: a unit square with one side collapsed to the first corner.
     fn charts(&self) -> Vec<Vec<(f64, f64)>> {
         self.triangles.iter().map(|_| vec![(0.0, 1.0); 2]).collect()
     }

@@ -248,7 +248,7 @@ mod tests {
         ) {
             let body = Round { centre: vec![3.0, -2.0, 0.5][..d].to_vec(), inner, outer: 1.0 };
             let mut random = Random::new(seed);
-            // The roots of a distance are known but for rounding.
+            // Distances have rounding errors.
             let wide = Round { inner: inner - 1e-12, outer: 1.0 + 1e-12, ..body.clone() };
             prop_assert!(wide.holds(&body.point(&mut random)));
             let (centre, half) = body.patch(&mut random);

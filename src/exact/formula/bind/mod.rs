@@ -21,11 +21,11 @@ use super::program::{Action, Instruction, Loop, Operand, run};
 use super::scope::{Scope, Tabulated};
 use std::collections::BTreeSet;
 
-/// Most nodes of a formula, with those of the functions it calls.
+/// Maximum number of nodes of a formula, including the functions it calls.
 const MAX_NODES: usize = 100_000;
-/// Deepest nesting of a formula, with that of the functions it calls.
+/// Maximum nesting depth of a formula, including the functions it calls.
 const MAX_DEPTH: usize = 256;
-/// Most operations of one evaluation, with every term of every sum.
+/// Maximum number of operations of one evaluation, including every term of every sum.
 const MAX_OPERATIONS: u64 = 10_000_000;
 
 /// The formula or function body that is being compiled, and the values of its local names.
@@ -255,7 +255,7 @@ impl<'a> ProgramBuilder<'a> {
     }
 }
 
-/// Most terms of a sum.
+/// Maximum number of terms of a sum.
 const MAX_TERMS: f64 = 100_000.0;
 
 impl<'a> ProgramBuilder<'a> {

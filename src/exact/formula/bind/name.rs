@@ -7,7 +7,7 @@ use crate::exact::formula::lexer::FormulaError;
 use crate::exact::formula::program::Operand;
 use crate::nearest::{by_nearness, nearest};
 
-/// Most constants that a message lists.
+/// Maximum number of constants that a message lists.
 const LISTED: usize = 8;
 
 impl<'a> ProgramBuilder<'a> {
