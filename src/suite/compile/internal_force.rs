@@ -12,11 +12,12 @@ use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::ForceRow;
 
-/// Cells on either side of the node, all of them full. The axis is periodic: no wall, and no end of
-/// the body that a wide basis could see.
+/// Full cells on either side of the node. The axis is periodic, so that the support of a wide basis
+/// contains neither a wall nor an end of the body.
 const SIDE: usize = 4;
 
-/// Most particles over all positions: a second of work, and a report that can be read.
+/// Maximum number of particles over all positions. It limits the run to about a second and the
+/// report to a readable length.
 const MOST_SUMMANDS: u64 = 1_000_000;
 
 /// Variables of the predicted force.

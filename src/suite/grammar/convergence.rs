@@ -41,20 +41,20 @@ pub(crate) struct ConvergenceSpec {
     pub(crate) manufactured: Option<ManufacturedSpec>,
     /// The state in which the body comes to rest, as formulas of the coordinates.
     pub(crate) equilibrium: Option<ExactSpec>,
-    /// A fine computation, where no formula is known.
+    /// A fine computation, if no formula is known.
     pub(crate) reference: Option<ReferenceSpec>,
     /// End, time step and instants of a run.
     pub(crate) run: RunSpec,
-    /// Levels: what is a list is refined, from coarse to fine.
+    /// Levels: a list is refined, from coarse to fine.
     pub(crate) refine: RefineSpec,
-    /// Places of particles beside the lattice.
+    /// Offsets of particles from their lattice.
     pub(crate) particles: Option<ScatterSpec>,
-    /// Methods that are judged; lists in an entry multiply to cases.
+    /// Methods to be judged; lists in an entry multiply to cases.
     pub(crate) methods: Vec<MethodSpec>,
     /// The error that is judged.
     #[serde(default)]
     pub(crate) judge: JudgeSpec,
-    /// A place for Richardson's extrapolation and the velocity history.
+    /// Point for Richardson's extrapolation and the velocity history.
     pub(crate) observe: Option<ObserveSpec>,
     /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
     #[serde(default)]
@@ -86,11 +86,11 @@ pub(crate) struct ReferenceSpec {
     pub(crate) equation: Option<EquationName>,
     /// A fine FEM computation.
     pub(crate) fem: Option<ReferenceFemSpec>,
-    /// The same method with much shorter steps, or on a much finer grid.
+    /// A reference run by the same method with much shorter steps, or on a much finer grid.
     pub(crate) same_method: Option<SameMethodSpec>,
 }
 
-/// The same method with shorter steps, or on a fine grid.
+/// A reference run by the same method, with shorter steps or on a finer grid.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -181,14 +181,14 @@ pub(crate) struct RefineSpec {
     pub(crate) full: Option<OneOrMany<NumberText>>,
 }
 
-/// Places of particles beside their lattice, in shares of their spacing.
+/// Offsets of particles from their lattice, in shares of their spacing.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ScatterSpec {
     /// Translation of all particles along each axis.
     pub(crate) shift: Option<Vec<NumberText>>,
-    /// Largest random displacement of each along an axis.
+    /// Maximum random displacement of each particle along an axis.
     pub(crate) perturb: Option<NumberText>,
     /// Seed of the random displacements.
     pub(crate) seed: Option<NumberText>,

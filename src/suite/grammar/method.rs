@@ -132,9 +132,9 @@ impl<'de> Visitor<'de> for NameOrParameter {
 pub(crate) enum StepSpec {
     /// A number (s), or a formula.
     Length(NumberText),
-    /// The share of the stable time step.
+    /// A share of the stable time step.
     Courant(NumberText),
-    /// A share that leaves room for what happens on the way.
+    /// A share chosen automatically, with a margin for changes during the run.
     Auto,
 }
 

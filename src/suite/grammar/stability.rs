@@ -36,12 +36,12 @@ pub(crate) struct StabilitySpec {
     pub(crate) run: StabilityRunSpec,
     /// One parameter, and the values that it takes.
     pub(crate) sweep: Ordered<OneOrMany<NumberText>>,
-    /// The parameter whose largest stable value is sought for each row.
+    /// The parameter whose largest stable value is determined for each row.
     pub(crate) critical: Option<CriticalSpec>,
     /// Figures that the report shows.
     #[serde(default)]
     pub(crate) show: Vec<crate::verify::RunFigure>,
-    /// Methods that are put to it; lists in an entry multiply to cases.
+    /// Methods to be studied; lists in an entry multiply to cases.
     pub(crate) methods: Vec<MethodSpec>,
     /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
     #[serde(default)]

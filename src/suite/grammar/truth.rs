@@ -44,12 +44,13 @@ pub(crate) struct ManufacturedSpec {
     pub(crate) temperature: Option<NumberText>,
 }
 
-/// An equation of motion by its constitutive law: one of the truth, or of the FEM bar.
+/// An equation of motion, named by its constitutive law: a law of exact solutions or of the FEM
+/// bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct EquationName(&'static str);
 
 impl EquationName {
-    /// That of a law, if its name is known.
+    /// The equation with the law `name`, if the name is known.
     pub fn find(name: &str) -> Option<Self> {
         Self::all().find(|known| known.0 == name)
     }
@@ -59,7 +60,7 @@ impl EquationName {
         self.0
     }
 
-    /// Every law of the truth, and those that the FEM bar alone knows.
+    /// Every law of exact solutions, then the laws that only the FEM bar has.
     fn all() -> impl Iterator<Item = Self> {
         let of_bar = BarLaw::ALL.iter().map(|law| law.name());
         let of_bar_alone = of_bar.filter(|name| !Equation::NAMES.contains(name));

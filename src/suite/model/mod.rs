@@ -59,11 +59,11 @@ pub struct ConvergencePlan {
     pub conduction: Option<Conduction>,
     /// A fine computation to compare with.
     pub reference: Option<ReferencePlan>,
-    /// The same method with a much shorter spacing, to compare with.
+    /// A reference run by the same method with a much shorter spacing.
     pub same_method: Option<SameMethod>,
     /// The levels of refinement.
     pub refine: RefinePlan,
-    /// Places of particles beside the lattice.
+    /// Offsets of particles from their lattice.
     pub scatter: LatticeOffsets,
     /// Instants at which the error is taken.
     pub instants: u64,
@@ -71,9 +71,9 @@ pub struct ConvergencePlan {
     pub norm: NormName,
     /// Quantity whose error is taken.
     pub of: Quantity,
-    /// Its exact value, where it is a sum over the body.
+    /// The judged sum with its exact value, if the judged quantity is a sum over the body.
     pub sum: Option<Arc<JudgedSum>>,
-    /// Size by which the error is divided, if any.
+    /// Scale by which the error is divided, if any.
     pub scale: Option<f64>,
     /// Whether levels with crossings may count.
     pub crossing_levels: CrossingLevels,
@@ -108,16 +108,16 @@ pub struct Case {
     pub gating: Option<Gating>,
 }
 
-/// Which truth.
+/// Kind of truth with which a case is compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Against {
     /// The formulas.
     Exact,
     /// The fine computation.
     Reference,
-    /// The same method with a much shorter spacing.
+    /// A run by the same method with a much shorter spacing.
     SameMethod(SameMethod),
-    /// None: only what a run keeps is bound.
+    /// No truth: only drifts of conserved quantities have bounds.
     Nothing,
 }
 

@@ -74,21 +74,21 @@ impl LevelPlan {
     }
 }
 
-/// Least ratio of the cells of the fine grid to those of the finest level: an error of second order
-/// on the finest level is then known to 1/16.
+/// Minimum ratio of the cells of the fine grid to those of the finest level: an error of second
+/// order on the finest level is then known to 1/16.
 pub(crate) const FINE_GRID: u64 = 4;
 
-/// The shorter spacing.
+/// Shorter spacing of a reference run by the same method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SameMethod {
     /// The time step (s), on the same grid, in a study of time steps.
     ShorterSteps(f64),
-    /// The cell size, and what follows it, in a study of space: this level.
+    /// The cell size, in a study of space: this level.
     FineGrid(LevelPlan),
 }
 
 impl SameMethod {
-    /// The truth in a sentence.
+    /// Phrase for this reference in a sentence.
     pub fn words(self) -> &'static str {
         match self {
             Self::ShorterSteps(_) => "the same method with shorter steps",

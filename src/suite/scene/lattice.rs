@@ -12,12 +12,12 @@ use crate::dimension::with_dimension;
 use crate::exact::Cut;
 use crate::mpm::{Block, Vector};
 
-/// Places of particles beside their lattice, in shares of their spacing.
+/// Offsets of particles from their lattice, in shares of their spacing.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LatticeOffsets {
-    /// Translation of all, a share for each axis; empty: none.
+    /// Translation of all particles, one share per axis; empty: none.
     pub shift: Vec<f64>,
-    /// Largest random displacement of each along an axis.
+    /// Maximum random displacement of each particle along an axis.
     pub perturb: f64,
     /// Seed of the random displacements.
     pub seed: u64,

@@ -36,7 +36,7 @@ pub struct Scene {
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
     /// State of the bodies across the plane of two dimensions.
     pub plane: PlaneState,
-    /// The material, but for its density.
+    /// The material, without its density.
     pub material: MaterialPlan,
     /// Reference density (kg/m3).
     pub density: f64,

@@ -44,7 +44,7 @@ impl LoadNumbers {
         Self { field: Some(field), ..Self::default() }
     }
 
-    /// The same numbers on a part of the bodies.
+    /// These numbers, restricted to a part of the bodies.
     pub(crate) fn on(self, region: &Region) -> Self {
         Self { region: Some(region.clone()), ..self }
     }

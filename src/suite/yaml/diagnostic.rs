@@ -8,7 +8,7 @@ use std::ops::Range;
 /// Longer texts in a complaint are cut: a file may hold a key of 60 000 characters.
 const MAX_WORDS: usize = 300;
 
-/// How bad it is.
+/// Severity of the diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
     /// Worth knowing; nothing needs to change.
@@ -85,14 +85,14 @@ impl Diagnostic {
         self
     }
 
-    /// The same, less or more severe; a complaint is an error unless it says otherwise.
+    /// Sets the severity; the default is an error.
     #[must_use]
     pub fn with_severity(mut self, severity: Severity) -> Self {
         self.0.severity = severity;
         self
     }
 
-    /// How bad it is.
+    /// Severity of the diagnostic.
     pub fn severity(&self) -> Severity {
         self.0.severity
     }
@@ -131,7 +131,7 @@ impl Diagnostic {
         }
     }
 
-    /// The same as `Display`, in the colours of a terminal.
+    /// The text of `Display`, with terminal colours.
     pub fn styled(&self) -> String {
         Renderer::styled().render(&[self.group()])
     }

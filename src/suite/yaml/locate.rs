@@ -1,8 +1,8 @@
-//! Finding the place of a value after it has been read.
+//! Finds the position of a value after it has been read.
 //!
-//! The YAML library tells places only in errors, so the text is read once more by a seed that
-//! walks down a path and fails, on purpose, at its end. No second parser, and the answer is by
-//! construction where the first one saw the value.
+//! The YAML library reports positions only in errors. So the text is read again by a seed that
+//! follows a path and fails on purpose at its end. No second parser is needed, and the position is
+//! where the first pass read the value.
 
 use super::{Diagnostic, OneOrMany, Place, Source};
 use serde::de::{self, DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};

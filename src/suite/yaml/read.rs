@@ -135,7 +135,7 @@ impl<'a> Fault<'a> {
         Diagnostic::at(self.source.name(), self.source.text(), range, message)
     }
 
-    /// The same at the first name after a bracket.
+    /// The fault moved to the first name after a bracket, and this name.
     fn at_first_name(self) -> (Self, &'a str) {
         let scalar = self.source.scalar_from(self.offset);
         let offset = scalar.map_or(self.offset, |scalar| scalar.range.start);

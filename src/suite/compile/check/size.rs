@@ -8,19 +8,20 @@ use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::scene::lattice::{any_particle, is_vacant};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Most particles, and most nodes, of one level.
+/// Maximum number of particles, and of nodes, per level.
 const MOST: f64 = 5e7;
 
-/// Distance of a held face from the grid's face that is no more than rounding, in cells.
+/// Maximum distance (cells) of a fixed face from the face of the grid that counts as rounding
+/// error.
 const ROUNDING: f64 = 1e-6;
 
-/// Where a file states what makes a level: its size, and its time step.
+/// Paths of the keys that define a level: its size and its time step.
 pub(crate) struct LevelPaths {
     pub(crate) size: Path,
     pub(crate) dt: Path,
 }
 
-/// Refuses a level that is too large, or on which a held face has no nodes.
+/// Refuses a level that is too large, or on which a fixed face has no nodes.
 pub(crate) fn refuse_unfit_levels(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

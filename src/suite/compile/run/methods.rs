@@ -171,13 +171,14 @@ pub(crate) fn named(
     Ok(named)
 }
 
-/// Lets names say the settings by which methods of one name differ. Names that are told apart
-/// already stay as they are; equal ones remain where the methods are equal.
+/// Adds to names the settings by which methods of equal name differ. Unique names do not change;
+/// equal methods keep equal names.
 fn tell_apart(drafts: &mut [MethodDraft]) {
     while say_differences(drafts) {}
 }
 
-/// Whether a name has become longer, and may have become that of another method.
+/// Adds one setting to equal names. Returns whether a name has changed; it may now be that of
+/// another method.
 fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {

@@ -17,10 +17,10 @@ use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::{Axis, Expectation};
 use methods::{NamedMethod, count, methods, named};
 
-/// Most cases that a suite may unfold into.
+/// Maximum number of cases of a suite, after lists are multiplied.
 const MOST_CASES: usize = 1000;
 
-/// The ends of the runs: how names write them, and value (s).
+/// The ends of the runs: text for names, and value (s).
 pub(crate) fn until(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,

@@ -45,11 +45,12 @@ pub(crate) fn reference(
     }))
 }
 
-/// Ratio of the finest step to that of the same method that serves as truth. Its start is of second
-/// order, so that an error of second order on the finest level is known to 1/64.
+/// Minimum ratio of the finest time step to that of the reference run by the same method. The start
+/// of this run is of second order, so that an error of second order on the finest level is known to
+/// 1/64.
 const SHORTER: f64 = 8.0;
 
-/// The same method with a shorter spacing, if the suite states one.
+/// The reference run by the same method with a shorter spacing, if the suite states one.
 pub(crate) fn same_method(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -119,7 +120,8 @@ fn shorter(
     Ok(dt)
 }
 
-/// Refuses a grid whose own error is not small beside that of the finest level.
+/// Refuses a fine grid with fewer than [`FINE_GRID`] times the cells of the finest level: its own
+/// error would not be negligible.
 fn finer(
     evaluator: &Evaluator<'_>,
     path: &Path,

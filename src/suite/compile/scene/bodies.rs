@@ -8,10 +8,10 @@ use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec, StressSpec};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Most bodies of a scene.
+/// Maximum number of bodies of a scene.
 const MOST: usize = 100;
 
-/// The keys of one body, and where they stand.
+/// The keys of one body, and their path.
 pub(crate) struct Listed<'w> {
     /// The map that holds them.
     pub(crate) at: Path,

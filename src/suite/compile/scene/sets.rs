@@ -66,7 +66,7 @@ fn refuse_outside(
     Ok(())
 }
 
-/// The same in the box around a body that is none.
+/// Refuses a set without a part of a body that is not a box.
 fn refuse_beside(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -20,7 +20,7 @@ use crate::suite::model::stability::{SetupTemplate, StabilityCase, StabilityPlan
 use crate::suite::yaml::{Diagnostic, Path, Source};
 use setup::setup;
 
-/// Most rows and most cases of a study.
+/// Maximum number of rows, and of cases, of a study.
 const MOST: usize = 500;
 
 /// Checks a stability study.

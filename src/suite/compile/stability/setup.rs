@@ -1,7 +1,6 @@
 //! Set-up of a run, from values of the parameters.
 //!
-//! Any parameter can be swept, because nothing is computed before its value is known: the
-//! specification is evaluated once more for every value.
+//! Any parameter can be swept: the whole specification is evaluated again for every value.
 
 use crate::suite::compile::check::size;
 use crate::suite::compile::run::refine::{stable_share, step_formula};
@@ -15,7 +14,7 @@ use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use crate::verify::{RunFigure, Scales};
 
-/// Size of the perturbations that a frozen run starts with: in it, nothing else moves.
+/// Amplitude of the initial perturbations of a run with frozen configuration.
 const PERTURBATION: f64 = 1e-9;
 
 /// ParameterValues of parameters, by name.

@@ -297,7 +297,7 @@ pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
     BarLaw::find(name).and(EquationName::find(name))
 }
 
-/// Refuses a suite whose `equilibrium` makes no sense beside what else it says.
+/// Refuses an `equilibrium` that contradicts other keys of the suite.
 fn refuse_equilibrium_with(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

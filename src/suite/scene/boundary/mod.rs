@@ -64,7 +64,7 @@ conditions! {
     Roller = "roller" is roller::RollerFace;
     /// A wall that presses and does not pull, with a coefficient of friction.
     Friction = "friction" of friction::FrictionSpec;
-    /// The same state as on the opposite face.
+    /// State equal to that of the opposite face.
     Periodic = "periodic" is periodic::PeriodicFace;
     /// A given velocity (m/s), formulas of the coordinates and t.
     Velocity = "velocity" of velocity::VelocitySpec;

@@ -56,7 +56,7 @@ pub(crate) trait LoadKeys {
         None
     }
 
-    /// Whether the load is that of one body, and makes no sense beside several.
+    /// Whether the load needs a scene with a single body.
     fn is_of_one_body(&self) -> bool {
         self.face().is_some()
     }
