@@ -1,5 +1,6 @@
-//! Members of the families that have files on both sides of a wall, one line each. Every room reads
-//! its own part of the lines: it declares the modules of its files by them, and names no other's.
+//! Members of the families that have files in two modules, one line each. Each of the two modules
+//! uses its own part of the lines to declare its files, and does not name files of the other
+//! module.
 
 /// Calls the macro `declare` with every material. A line
 ///

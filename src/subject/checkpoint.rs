@@ -10,10 +10,10 @@ use super::{Samples, Totals};
 
 /// State that a checkpoint can hold.
 pub trait Memory {
-    /// Shows each number to `checkpoint`, which writes it down or replaces it.
+    /// Passes each number to `checkpoint`, which records or replaces it.
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>);
 
-    /// The same for several, one after another.
+    /// Visits each of `entries` in order.
     fn visit_each(entries: &mut [Self], checkpoint: &mut Checkpoint<'_>)
     where
         Self: Sized,
@@ -24,7 +24,7 @@ pub trait Memory {
     }
 }
 
-/// A state that is being written down, or taken back.
+/// A state that is being recorded or restored.
 #[derive(Debug)]
 pub struct Checkpoint<'a>(Way<'a>);
 

@@ -1,16 +1,11 @@
-//! The contract between the judge and the judged.
+//! Interface between the judge and a solver.
 //!
-//! A [`Subject`] can be put on every level of a refinement plan and held against the truth: the
-//! crate's own MPM and FEM, or a solver of yours. The trait is object-safe and flat (`f64` slices,
-//! no type of this crate's algebra), so that a solver in another language can stand behind it.
+//! A [`Subject`] is a solver at one level of a refinement plan, whose errors are measured: the MPM
+//! and FEM of this crate, or another solver. The trait is object-safe and flat (`f64` slices, no
+//! linear-algebra types of this crate), so that it can wrap a solver in another language.
 //!
-//! Sums over a body.
-//!
-//! Force of walls on a body.
-//!
-//! A solver's account of itself: its name, and the order that it claims.
-//!
-//! Third axis of a two-dimensional body.
+//! The module also defines sums over a body, reactions of walls, the identity of a solver (name and
+//! claimed order), and the state across the plane of a two-dimensional body.
 
 mod checkpoint;
 mod column;
@@ -76,22 +71,22 @@ pub trait Subject {
     }
 }
 
-/// A subject whose step can be looked at as a map from state to state, on a configuration that does
-/// not move: what a theory of small perturbations speaks of.
+/// A subject whose step is a map from state to state on a fixed configuration, as a linear
+/// stability analysis needs.
 pub trait Perturbable: Subject {
-    /// Keeps the configuration (positions and domains) as it is in all steps from now on; all else
-    /// goes on as before.
+    /// Fixes the configuration (positions and domains) in all later steps; all other quantities
+    /// advance as before.
     fn fix_configuration(&mut self);
 
-    /// Writes all that a step reads and changes, but for the configuration, into `state`: always as
-    /// many numbers in the same order.
+    /// Writes all numbers that a step reads and changes, without the configuration, to `state`.
+    /// Their number and order do not change.
     fn state(&self, state: &mut Vec<f64>);
 
-    /// Takes over what [`Perturbable::state`] has written, possibly changed.
+    /// Sets the state from numbers in the order of [`Perturbable::state`].
     fn set_state(&mut self, state: &[f64]);
 
-    /// A natural size for each number of the state, where speeds are of the size `speed` (m/s) and
-    /// stresses of the size `modulus` (Pa).
+    /// Writes a natural scale of each number of the state to `sizes`, for velocities of scale
+    /// `speed` (m/s) and stresses of scale `modulus` (Pa).
     fn sizes(&self, speed: f64, modulus: f64, sizes: &mut Vec<f64>);
 }
 
@@ -144,7 +139,7 @@ impl Samples {
         self.weight.is_empty()
     }
 
-    /// Begins anew, in so many dimensions.
+    /// Removes all points and sets the number of dimensions.
     pub fn restart(&mut self, dimension: usize) {
         self.clear();
         self.dimension = dimension;
@@ -172,8 +167,8 @@ impl Samples {
     }
 }
 
-/// Deterministic figures of a run: what it cost, and what a reader must know beside an error.
-/// `None` where the subject has no such thing.
+/// Deterministic figures of a run: its cost, and figures that explain its error. `None` if the
+/// subject does not have a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunCounters {
@@ -318,13 +313,13 @@ pub struct Reaction {
     pub force: [f64; 3],
 }
 
-/// Longest name of a solver, in bytes.
+/// Maximum length of the name of a solver (bytes).
 pub(crate) const LONGEST_NAME: usize = 64;
 
-/// Largest order that a solver may claim.
+/// Maximum order that a solver may claim.
 pub(crate) const HIGHEST_ORDER: f64 = 20.0;
 
-/// Whether `name` may be that of a solver: it becomes part of the names of cases and files.
+/// Whether `name` is a valid name of a solver: it becomes part of the names of cases and files.
 pub(crate) fn is_solver_name(name: &str) -> bool {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
     !name.is_empty() && name.len() <= LONGEST_NAME && name.chars().all(plain)

@@ -206,7 +206,7 @@ impl Answer {
     pub(super) fn read(frame: &MessageFrame) -> Result<Self, ProgramError> {
         serde_json::from_slice(&frame.line).map_err(|error| {
             let text = String::from_utf8_lossy(&frame.line);
-            // What Python and others write for what JSON has no word for.
+            // Texts that Python and other languages write for numbers that JSON cannot represent.
             for word in ["NaN", "Infinity"] {
                 if text.contains(word) {
                     return ProgramError::NoNumber(word);

@@ -14,27 +14,27 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Longest answer before a problem is known (bytes).
+/// Maximum length of an answer before a problem is known (bytes).
 const SHORT: usize = 1 << 20;
 
-/// Bytes of standard error that are kept.
+/// Number of bytes of standard error that are kept.
 const LAST_BYTES: usize = 2000;
 
 /// Maximum number of lines of standard error in a message.
 const LAST_LINES: usize = 3;
 
-/// Longest time that a process has to end by itself; it has no more than it may be silent.
+/// Maximum time for a process to end by itself; a shorter response timeout applies here too.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// Time between two looks at a process that says nothing.
+/// Polling interval for a process that does not respond.
 const GLANCE: Duration = Duration::from_millis(50);
 
 /// Limits of each process of a solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramLimits {
-    /// Longest time without an answer.
+    /// Response timeout.
     pub silence: Duration,
-    /// Address space (bytes), on Unix; none: what the system gives.
+    /// Address space (bytes), on Unix; `None`: limit of the system.
     pub memory: Option<u64>,
 }
 
@@ -44,8 +44,7 @@ impl Default for ProgramLimits {
     }
 }
 
-/// A process with its pipes. It is killed when this is dropped, with all that it has started in
-/// its group.
+/// A process with its pipes. Dropping it kills the process and all processes of its group.
 pub(super) struct Connection {
     child: Child,
     requests: Option<Sender<Vec<u8>>>,
@@ -132,8 +131,8 @@ impl Connection {
         })
     }
 
-    /// The next message, if one comes in time. A process may end and leave its pipe to another one
-    /// that it has started, and then nothing else tells its end.
+    /// The next message, if it arrives in time. A process may end while a child process keeps its
+    /// pipe open; so the process itself is polled too.
     fn heard(&mut self) -> Result<Result<MessageFrame, ProgramError>, RecvTimeoutError> {
         let start = Instant::now();
         loop {

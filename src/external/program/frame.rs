@@ -81,18 +81,18 @@ struct Announced {
     bytes: usize,
 }
 
-/// Number of bytes that follow a line; zero for a line that is no message, which the reader of
+/// Number of bytes that follow a line; zero for a line that is not a message, which the reader of
 /// answers refuses.
 fn announced(line: &[u8]) -> usize {
-    // Most lines announce none: they need not be read twice.
+    // Lines without the key "bytes" are not parsed here.
     if !line.windows(7).any(|word| word == b"\"bytes\"") {
         return 0;
     }
     serde_json::from_slice::<Announced>(line).map_or(0, |announced| announced.bytes)
 }
 
-/// Reads messages until the output ends, or one breaks the protocol. `longest` is the most bytes
-/// that one may have.
+/// Reads messages until the output ends or a message breaks the protocol. `longest` is the maximum
+/// length of a message (bytes).
 pub(super) fn read_all(
     output: ChildStdout,
     longest: &AtomicUsize,

@@ -52,11 +52,11 @@ impl SolverProgram {
         Ok(Self { command, limits, hello, identity, called: None })
     }
 
-    /// The solver with another name for its cases, which tells two of the same program apart. What
-    /// a suite states for a solver by its name is then for `name`.
+    /// The solver under another name, to distinguish two solvers that run the same program.
+    /// Expectations of a suite for a named solver then refer to `name`.
     ///
     /// # Errors
-    /// `name` is none for a solver.
+    /// `name` is not a valid name of a solver.
     pub fn called(self, name: &str) -> Result<Self, ProgramError> {
         if !is_solver_name(name) {
             return Err(ProgramError::Name(printable(name)));
@@ -170,7 +170,7 @@ impl SolverFactory for SolverProgram {
     fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = self.hello.capabilities.known.lacking(needs);
         if self.hello.protocol == 1 {
-            // What is lacking for another reason too is reported once.
+            // A capability that is also missing for another reason is reported once.
             let stated = needs.beyond_version_1().into_iter();
             let stated = stated.filter(|need| !lacking.iter().any(|known| known.starts_with(need)));
             let new: Vec<String> = stated

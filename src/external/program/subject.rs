@@ -13,14 +13,14 @@ use serde_json::json;
 /// Maximum number of requests for values between two instants, for each step.
 const QUESTIONS_PER_STEP: u64 = 1000;
 
-/// Longest answer (bytes) that a solver of `problem` can have to give: every column of three times
-/// as many points as particles, in decimals.
+/// Maximum length (bytes) of an answer to `problem`: every column, in decimal text, for three times
+/// as many points as particles.
 pub(super) fn longest_answer(problem: &LevelProblem) -> usize {
     let (d, points) = (problem.dimension, 1000 + 3 * problem.particles.len());
     32 * points * (3 * d + 2 * d * d + 2)
 }
 
-/// The next answer that is no request for values; such requests are answered until it comes.
+/// Answers requests for values, and returns the first answer that is not such a request.
 pub(super) fn conclude(
     connection: &mut Connection,
     inquiry: &mut Inquiry,

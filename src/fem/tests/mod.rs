@@ -1,4 +1,4 @@
-//! Promises of the finite element method, held against this one.
+//! Tests of properties that theory guarantees for the finite element method.
 
 mod convergence;
 mod discretisation;
