@@ -60,10 +60,10 @@ pub struct CaseOutcome {
     pub study: Option<Arc<dyn StudyResults>>,
 }
 
-/// Why `run --gate` requires nothing of a case; the words are in [`CaseOutcome::reason`].
+/// Why `run --gate` requires nothing of a case; the explanation is in [`CaseOutcome::reason`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exemption {
-    /// The suite cannot test what is required.
+    /// The suite cannot test the requirement.
     NotGated,
     /// The author of the solver excepts the case, which has not run.
     Excepted,
@@ -126,7 +126,8 @@ impl CaseOutcome {
         }
     }
 
-    /// The outcome of a case that its solver cannot be put to: what it lacks, with a verb.
+    /// This outcome for a case that does not apply to its solver: the missing capabilities, with a
+    /// verb.
     #[must_use]
     pub(crate) fn not_applicable(self, lacks: Vec<String>, verb: &str) -> Self {
         let verdict = "not applicable".to_owned();

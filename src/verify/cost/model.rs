@@ -80,8 +80,8 @@ fn residual(rows: &[[f64; COLUMNS]], seconds: &[f64; COLUMNS]) -> f64 {
     rows.iter().map(off).sum()
 }
 
-/// Least squares over the chosen columns by the normal equations, each column scaled to the length
-/// one; none if columns cannot be told apart.
+/// Least squares over the chosen columns by the normal equations, each column scaled to length 1;
+/// `None` if the columns are linearly dependent.
 fn solve(rows: &[[f64; COLUMNS]], chosen: &[usize]) -> Option<[f64; COLUMNS]> {
     let n = chosen.len();
     let length = |k: &usize| rows.iter().map(|row| row[*k] * row[*k]).sum::<f64>().sqrt();
@@ -133,7 +133,7 @@ mod tests {
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
-    /// A level of a study in the plane, with room around the body.
+    /// A level of a study in 2-D, with spare cells around the body.
     fn load(cells: f64) -> Workload {
         let (particles, steps) = (4.0 * cells * cells, 10.0 * cells);
         Workload {

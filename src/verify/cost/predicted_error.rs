@@ -21,7 +21,7 @@ use crate::verify::verdict::judge::SETTLED;
 use crate::verify::verdict::name::Verdict;
 use std::fmt;
 
-/// Fewest levels with a prediction interval.
+/// Minimum number of levels with a prediction interval.
 const FEWEST: usize = 3;
 
 /// Predicted errors of a method.
@@ -79,14 +79,14 @@ impl PredictedError {
         self.beyond.err()
     }
 
-    /// The error at a spacing; none where none is predicted.
+    /// The error at a spacing; `None` if it is not predicted.
     pub fn at(&self, spacing: f64) -> Option<Interval> {
         let finest = self.levels.last()?;
         if spacing < finest.spacing {
             let (line, order) = self.beyond.ok()?;
             let (x, end) = (libm::log(spacing), libm::log(finest.spacing));
             let Interval { value, low, high } = line.another(x);
-            // What is better than theory on coarse grids will not stay so.
+            // An observed order above the formal order on coarse grids will not continue.
             let lost = (line.slope - order) * (end - x);
             let more = SETTLED * (end - x);
             return exp(Interval {

@@ -37,13 +37,15 @@ impl Sample {
     }
 }
 
-/// Least order between neighbours that is a fall.
+/// Minimum order between neighbouring levels that counts as a fall of the error.
 const LEAST_ORDER: f64 = 0.2;
 
-/// Two levels fall by chance: as many as the judge needs for an order before a floor.
+/// Minimum number of levels of a converging part, as in the judge: an error falls over two levels
+/// by chance.
 const FEWEST: usize = 3;
 
-/// An error that is this much larger than the level before grows; below, it sways on a floor.
+/// Minimum ratio of the error to that of the previous level that counts as growth; smaller changes
+/// are fluctuations on a floor.
 const GROWS: f64 = 1.25;
 
 /// Neighbouring levels over which the error falls.
@@ -73,7 +75,7 @@ pub enum End {
 }
 
 impl End {
-    /// In the words of tables.
+    /// Text for tables.
     pub fn words(self) -> &'static str {
         match self {
             Self::Levels => "no finer level",

@@ -271,8 +271,8 @@ proptest! {
         }
     }
 
-    /// No level beats one on the front, and every level that counts is beaten or equalled by one,
-    /// but for errors that are the same to who reads them.
+    /// No level dominates one on the front. Every level that counts is dominated or equalled by one
+    /// on the front, up to negligible differences of the error.
     #[test]
     fn the_front_is_the_front(samples in series()) {
         let front = super::pareto_front(&samples);

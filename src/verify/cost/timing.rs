@@ -18,18 +18,18 @@ pub struct Timing {
     pub repeats: usize,
 }
 
-/// State of the machine, by which its seconds can be judged.
+/// State of the machine during time measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Machine {
     /// Cores that the process may use.
     pub cores: usize,
-    /// Load average over a minute, before and after, where the system tells it.
+    /// Load average over a minute, before and after, if the system reports it.
     pub load: Option<[f64; 2]>,
-    /// Share of the time for which the measuring thread waited for a core; it has been left out of
-    /// all seconds. Absent where the system does not tell it: then it is in them.
+    /// Share of the time for which the measuring thread waited for a core. This time is excluded
+    /// from all seconds; if the system does not report it (`None`), it is included.
     pub waited: Option<f64>,
-    /// A loop that always does the same, timed between all other measurements: its spread is the
-    /// noise of clock frequency and of other processes.
+    /// A constant loop, timed between all other measurements: its spread is the noise of clock
+    /// frequency and of other processes.
     pub fixed_loop: Option<Timing>,
 }
 

@@ -1,7 +1,7 @@
-//! From a wanted time step to a run that ends exactly where it should.
+//! Computes a time step near the requested one that ends the run exactly at its end.
 
-/// The steps of one run, and the instants at which errors are taken, each of which is the end of a
-/// step. Instants are as equally spaced as the steps allow.
+/// The steps of one run, and the instants at which errors are measured. Each instant is the end of
+/// a step. The spacing of instants is as uniform as the steps allow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clock {
     /// End of the run (s).
@@ -12,7 +12,7 @@ pub struct Clock {
     pub instants: u64,
 }
 
-/// No run takes more steps than this: a misspelt dt must not run for years.
+/// Maximum number of steps of a run, so that a misspelt dt does not run for years.
 pub const MOST_STEPS: f64 = 1e9;
 
 /// Largest relative difference between the step that is wanted and the one that is taken. An error
@@ -34,7 +34,7 @@ impl Clock {
     /// common. `None` as for [`Clock::new`].
     pub fn with_common_instants(until: f64, wanted: f64, instants: u64) -> Option<Self> {
         let between = until / (wanted * instants as f64);
-        // A ratio that is a whole number but for rounding is that number.
+        // A ratio that is whole up to rounding is rounded to it.
         let between = libm::ceil(between * (1.0 - 1e-12)).max(1.0);
         let steps = Self::usable(until, wanted, instants, between * instants as f64)?;
         Some(Self { until, steps, instants })

@@ -208,7 +208,7 @@ mod tests {
         assert_eq!(history.velocity, [[2.0, 6.0, 0.5]]);
     }
 
-    /// As many on one side as on the other, but for the ends of the lattice.
+    /// As many points on one side as on the other, except at the ends of the lattice.
     #[rstest]
     #[case::inside(3.5, 2)]
     #[case::at_the_low_end(0.2, 0)]

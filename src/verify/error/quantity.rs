@@ -285,7 +285,7 @@ mod tests {
         assert!(norms.rms.is_nan() && norms.linf.is_nan(), "{norms:?}");
     }
 
-    /// F of a truth that knows it, held against F of the samples and not against another column.
+    /// F of an exact solution is compared with F of the samples, not with another column.
     #[test]
     fn a_deformation_gradient_is_held_against_its_own() {
         struct Turned;

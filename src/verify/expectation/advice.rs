@@ -12,17 +12,17 @@ use crate::verify::order::window::FEWEST_LEVELS;
 use crate::verify::verdict::judge::judge;
 use crate::verify::verdict::name::Verdict;
 
-/// Share of the distance from the middle of an interval to its end that an order may take up.
+/// Maximum distance of an order from the middle of an interval, as a share of the half-width.
 const COMFORTABLE: f64 = 0.75;
 
-/// Whether the usual range about `order` holds the observed one with room to spare.
+/// Whether the usual range around `order` contains the observed interval with a margin.
 pub(crate) fn is_inside(observed: &Interval, order: f64) -> bool {
     let room = OrderHypothesis::TOLERANCE - (observed.value - order).abs();
     let room = room.min(COMFORTABLE * OrderHypothesis::TOLERANCE);
     2.0 * observed.half_width() <= room
 }
 
-/// The usual range about an order, as a suite writes it.
+/// The usual range around an order, in the notation of suites.
 pub(crate) fn range(order: f64) -> String {
     let (low, high) = OrderHypothesis::formal(order).range();
     format!("[{}, {}]", format_number(low), format_number(high))
@@ -55,7 +55,7 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     }
     let points = study.judgement.window.as_ref().map_or(0, Vec::len);
     if order.half_width() > WIDE && points >= FEWEST_LEVELS {
-        // The same scatter about the line, with the spread of equal ratios: Sxx ~ n (n^2 - 1).
+        // For equal scatter about the line, and equal ratios of spacing: Sxx ~ n (n^2 - 1).
         let width = |n: usize| {
             let n_f = n as f64;
             two_sided_95(n - 2) / (n_f * (n_f * n_f - 1.0)).sqrt()

@@ -1,11 +1,11 @@
 //! Requirements of `run --gate` on external solvers.
 //!
-//! The expectations of a suite describe its own methods, from both sides: an order that is too high
-//! shows a defect of the suite. An external solver is held to a lower bound of the order only,
-//! because superconvergence at its sample points is no fault. The 95 % interval of the order must
-//! reach this bound, and must exclude orders that are lower by a half, as faults make them. The
-//! interval need not be above the bound as a whole: a few levels leave a sound solver an interval
-//! of 0.1 and more to each side.
+//! The expectations of a suite bound the order of its own methods on both sides: an order that is
+//! too high shows a defect of the suite. For an external solver there is only a lower bound,
+//! because superconvergence at its sample points is not a defect. The 95 % interval of the order
+//! must reach this bound, and must exclude orders that are lower by 0.5, which is the typical
+//! effect of a defect. The interval may extend below the bound: with few levels, a correct solver
+//! has an interval of 0.1 and more to each side.
 
 use crate::verify::order::fit::Interval;
 use crate::verify::order::format_number::{format_number, rounded};
@@ -16,7 +16,7 @@ use crate::verify::verdict::judge::{Judgement, judge};
 use crate::verify::verdict::name::Verdict;
 use thiserror::Error;
 
-/// Loss of order that a fault causes at least.
+/// Minimum loss of order due to a defect.
 const FAULT: f64 = 0.5;
 
 /// How `run --gate` treats a case of an external solver.

@@ -46,7 +46,7 @@ pub struct CaseFindings {
     pub crossings: Option<u64>,
     /// Measured values that are limited.
     pub measured: Measured,
-    /// Whose error the finest level shows, if that was asked and could be told.
+    /// Cause of the error floor, if it was requested and could be determined.
     pub floor: Option<FloorCause>,
 }
 
@@ -65,17 +65,17 @@ impl Expectation {
         }
     }
 
-    /// Everything that did not come as expected, in words, each failure once; empty if all came.
+    /// One sentence per unmet expectation, each failure once; empty if all are met.
     pub fn unmet(&self, found: &CaseFindings) -> Vec<String> {
         let judged = self.unmet_judgement(found);
-        // A run that failed has left no figures, and that it failed is told already.
+        // A failed run has no figures, and its failure is already reported.
         let failed = judged.is_some() && found.verdict == Verdict::Failed;
         let figures = self.unmet_figures(found).into_iter();
         let told = figures.filter(|figure| figure.measured || !failed);
         judged.into_iter().chain(told.map(|figure| figure.line)).collect()
     }
 
-    /// Verdict and observed order, which are two words for one finding.
+    /// The unmet verdict or observed order: one sentence, because both describe one finding.
     fn unmet_judgement(&self, found: &CaseFindings) -> Option<String> {
         let verdict = self.verdict.filter(|verdict| found.verdict != *verdict);
         let holds = |bounds: &Bounds| {

@@ -231,7 +231,7 @@ mod tests {
         assert_eq!(keys(&study), ["verdict: failed"]);
     }
 
-    /// A bound on a drift leaves room for thirty times of what was found.
+    /// A proposed bound on a drift is at least thirty times the measured drift.
     #[test]
     fn a_drift_has_room_below_its_bound() {
         let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);

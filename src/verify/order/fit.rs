@@ -1,7 +1,7 @@
 //! The observed order by regression, with its confidence interval.
 //!
 //! An error `C h^p` with multiplicative noise is the straight line `ln error = ln C + p ln h`.
-//! Least squares over `n` points gives
+//! A fit by least squares over `n` points gives
 //!
 //! ```text
 //! p   = Sxy / Sxx
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! which contains the true order with a probability of 95 % if the noise is log-normal (Draper &
-//! Smith, Applied Regression Analysis, 3rd ed., section 1.4). A departure from the line that is
-//! no noise, such as a drift of the order, widens the interval too.
+//! Smith, Applied Regression Analysis, 3rd ed., section 1.4). A systematic departure from the line,
+//! such as a drift of the order, also widens the interval.
 
 use super::{t_quantile, variance_ratio};
 use serde::{Deserialize, Serialize};

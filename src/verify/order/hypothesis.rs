@@ -34,7 +34,7 @@ impl OrderHypothesis {
         Self { formal_order: order, expected: Some((low, high)), axis: Axis::Space }
     }
 
-    /// The same claim for another axis of refinement.
+    /// This hypothesis for another axis of refinement.
     #[must_use]
     pub const fn over(self, axis: Axis) -> Self {
         Self { axis, ..self }
@@ -47,8 +47,8 @@ impl OrderHypothesis {
         self.expected.unwrap_or(usual)
     }
 
-    /// Why this claim cannot be tested, if it cannot: no finite positive range, or one so wide
-    /// that it would let nearly everything pass.
+    /// The reason if this hypothesis cannot be tested: the range is not finite and positive, or so
+    /// wide that nearly every order passes.
     pub(crate) fn diagnostic(&self) -> Option<String> {
         let (low, high) = self.range();
         let orders = [self.formal_order, low, high];

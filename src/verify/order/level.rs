@@ -57,13 +57,13 @@ impl Level {
         Self { h, error, usable: true, failed: None }
     }
 
-    /// The same level, shown but not counted.
+    /// This level, marked as shown but not counted.
     #[must_use]
     pub fn unusable(self) -> Self {
         Self { usable: false, ..self }
     }
 
-    /// The same level as the place of a failure.
+    /// This level, marked as failed for `reason`.
     #[must_use]
     pub fn failing(self, reason: impl Into<String>) -> Self {
         Self { failed: Some(reason.into()), ..self }
@@ -125,8 +125,8 @@ fn same(a: f64, b: f64) -> bool {
 /// p = ln(error_coarse / error_fine) / ln(h_coarse / h_fine)
 /// ```
 ///
-/// Negative if the error grows under refinement. None where it does not exist: a zero, negative
-/// or non-finite figure, or spacings that cannot be told apart.
+/// Negative if the error grows under refinement. `None` if it is undefined: for a zero, negative or
+/// non-finite figure, or for equal spacings.
 pub fn observed_order(coarse: &Level, fine: &Level) -> Option<f64> {
     let fall = logarithm(coarse.error)? - logarithm(fine.error)?;
     let ratio = logarithm(coarse.h)? - logarithm(fine.h)?;
@@ -134,7 +134,7 @@ pub fn observed_order(coarse: &Level, fine: &Level) -> Option<f64> {
     order.is_finite().then_some(order)
 }
 
-/// The observed order of each level with the one before; None for the first.
+/// The observed order between each level and the previous one; `None` for the first level.
 pub(crate) fn pairwise(levels: &[Level]) -> Vec<Option<f64>> {
     let pairs = levels.windows(2);
     let orders = pairs.map(|pair| observed_order(&pair[0], &pair[1]));

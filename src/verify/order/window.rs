@@ -1,27 +1,27 @@
-//! Which levels are asymptotic: the window over which an order is fitted.
+//! The window: the asymptotic levels, over which an order is fitted.
 //!
 //! All usable levels count unless there is strong evidence against the outer ones. A shorter
 //! window replaces a longer one only if
 //!
 //! - an F-test (Chow 1960, the test for predictive failure) rejects that the dropped levels lie on
 //!   the line through the kept ones. The risk of a wrong rejection is [`SELECTION_RISK`] for all
-//!   shorter windows together, small against the 5 % that the confidence interval leaves, so that
-//!   choosing does not spoil the interval;
-//! - the dropped levels look like a range and not like an accident: all depart by more than
-//!   [`MATERIAL`] to the same side, the outermost most. An outlier amid good levels is therefore
-//!   kept, and shows as a wide interval;
-//! - levels are dropped at the fine end only where the error stops falling (a floor). Whoever
-//!   drops them owes the reader the verdict `at floor`.
+//!   shorter windows together. It is small compared with the 5 % of the confidence interval, so
+//!   that the selection hardly affects the coverage of the interval;
+//! - the dropped levels depart systematically: all depart by more than [`MATERIAL`] to the same
+//!   side, and the departure grows outwards. An outlier among good levels is therefore kept, and
+//!   widens the interval;
+//! - levels are dropped at the fine end only if the error stops falling (a floor). The verdict is
+//!   then `at floor`.
 //!
-//! The longest such window wins, the finer of two equally long ones; then it is put to the same
-//! test, until none is better.
+//! The longest such window is selected, the finer one of two equally long windows. The test is
+//! repeated on the selected window until no shorter one replaces it.
 
 use std::ops::Range;
 
 use super::fit::{FittedLine, LogPoint};
 use super::variance_ratio;
 
-/// Smallest number of levels for an order: two degrees of freedom remain to contradict it.
+/// Minimum number of levels for an order: two degrees of freedom remain for the interval.
 pub(crate) const FEWEST_LEVELS: usize = 4;
 
 /// The risk that pure noise makes the window shorter, over all candidates of one step: a tenth of

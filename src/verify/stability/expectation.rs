@@ -52,7 +52,7 @@ impl FigureBounds {
         unmet
     }
 
-    /// The same for a limit, which may lie beyond the range in which it was sought.
+    /// Unmet bounds on a stability limit, which may lie outside the searched range.
     fn unmet_by_limit(&self, limit: StabilityLimit) -> Vec<String> {
         let beyond = |known: f64, holds: bool, side: &str| {
             if holds {

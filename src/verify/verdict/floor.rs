@@ -1,35 +1,35 @@
-//! Whose error a floor is: what happens to it when another axis is refined.
+//! Cause of an error floor, determined by refining another axis.
 //!
-//! The shape of a series tells that the error has stopped falling, not why. So the finest level is
-//! run again with the spacing of another axis halved, one axis at a time. (An error is a sum of
-//! terms in h, in dt and in what else there is; refining one spacing leaves the others' terms: Roy
-//! 2005, J. Comput. Phys. 205, 131.)
+//! The shape of a series shows that the error has stopped falling, but not the cause. So the finest
+//! level is run again with the spacing of another axis halved, one axis at a time. (An error is a
+//! sum of terms in h, dt and other spacings; refining one spacing does not change the other terms:
+//! Roy 2005, J. Comput. Phys. 205, 131.)
 
 use crate::named::named;
 use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::Axis;
 
-/// An axis is named if halving its spacing takes at least a quarter off the error. With order one
-/// that is an axis which makes half of the error, with order two a third.
+/// Minimum relative decrease of the error that identifies an axis when its spacing is halved. The
+/// axis then causes at least half of the error if its order is one, and a third if it is two.
 const LEAST_FALL: f64 = 0.25;
 
 named! {
-    /// Whose error a floor is.
+/// Cause of an error floor.
     #[non_exhaustive]
     pub enum FloorCause {
-        /// That of the time step.
+/// Error of the time step.
         Time = "time",
-        /// That of the cells.
+/// Error of the cell size.
         Space = "space",
-        /// That of the particles.
+/// Error of the particle spacing.
         Particles = "particles",
-        /// No axis that was tried: an error of the model, of the method, of the reference, or
+        /// None of the refined axes: an error of the model, the method or the reference, or
         /// round-off.
         Nothing = "none",
     }
 }
 
-/// The finest level again, with the spacing of one axis halved.
+/// A run of the finest level with the spacing of one axis halved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe {
     /// The axis.

@@ -117,9 +117,9 @@ impl Finding {
 
 /// The usable levels.
 struct JudgedSeries {
-    /// Those with a non-zero error, on logarithmic axes.
+    /// Levels with a non-zero error, on logarithmic axes.
     points: Vec<LogPoint>,
-    /// The indices of those with an exact zero.
+    /// Indices of the levels with zero error.
     zeros: Vec<usize>,
 }
 

@@ -24,7 +24,8 @@ pub(crate) enum Reason {
     Drift {
         change: f64,
     },
-    /// The order beside the expected range; `overlaps` says whether its interval meets that.
+    /// The order is outside the expected range; `overlaps`: whether its interval overlaps the
+    /// range.
     Against {
         verdict: Verdict,
         range: (f64, f64),
