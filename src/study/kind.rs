@@ -72,16 +72,16 @@ pub(crate) trait CaseRunner: Send + Sync {
     /// Units of progress of all cases.
     fn units(&self) -> u64;
 
-    /// Warnings before anything runs, without the name of the suite.
+    /// Warnings that need no run, without the name of the suite.
     fn warnings(&self) -> Vec<StepWarning> {
         Vec::new()
     }
 
-    /// Calls `then` with the run of a case that shows most: the first one that broke or grew in
-    /// `outcome`, or the last.
+    /// Calls `then` with the most informative run of a case: the first one that failed or grew in
+    /// `outcome`, or the last one.
     ///
     /// # Errors
-    /// Those of `then`, and one line that says why there is no such run.
+    /// The errors of `then`, or one line with the reason why there is no such run.
     fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), String> {
         Err("its study has no runs to be shown".to_owned())
     }
@@ -90,7 +90,7 @@ pub(crate) trait CaseRunner: Send + Sync {
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome;
 }
 
-/// All that runs of a suite depend on besides its plan.
+/// All inputs of the runs of a suite in addition to its plan.
 #[derive(Clone, Copy)]
 pub(crate) struct RunContext<'a> {
     /// Name of the suite.

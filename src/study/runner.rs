@@ -92,10 +92,10 @@ impl<'a> Runner<'a> {
     }
 
     /// Runs a case again and gives its particles and its grid over time to `write`, as files for
-    /// ParaView: on the first level (or row) that broke or grew in `outcome`, or on the finest.
+    /// ParaView: on the first level (or row) that failed or grew in `outcome`, or on the finest.
     ///
     /// # Errors
-    /// Those of `write`, and one line that says why the case has nothing to show.
+    /// The errors of `write`, or one line with the reason why the case has no run to write.
     pub fn time_series(
         &self,
         outcome: &CaseOutcome,

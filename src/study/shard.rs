@@ -5,10 +5,10 @@ use crate::suite::Extent;
 use crate::suite::model::Suite;
 use std::str::FromStr;
 
-/// Most parts of a run.
+/// Maximum number of parts of a run.
 const MOST: usize = 10_000;
 
-/// Time (s) that any case takes besides its steps.
+/// Time (s) of a case in addition to its steps.
 const SET_UP: f64 = 1e-3;
 
 /// One of several parts of a run: `2/5`.

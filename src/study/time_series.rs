@@ -7,7 +7,7 @@ use crate::subject::{BodyFields, Samples, StateField, Subject};
 use crate::verify::{Quantity, is_instant};
 use crate::vtk;
 
-/// Most instants of a series, besides its start.
+/// Maximum number of instants of a series, in addition to its start.
 const INSTANTS: u64 = 20;
 
 /// A file of a time series.
@@ -24,7 +24,7 @@ pub struct SeriesFile {
 /// [`INSTANTS`] instants and at a failure; the list of the files, named `NAME.RUN.pvd`, comes last.
 ///
 /// # Errors
-/// Those of `write`.
+/// The errors of `write`.
 pub(super) fn time_series(
     name: &str,
     run: ShownRun<'_>,

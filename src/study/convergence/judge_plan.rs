@@ -101,18 +101,19 @@ pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
     }
 }
 
-/// Euler-Cromer is a leapfrog, of order 2, if it starts as one: with `v(-dt/2)`. `v(0)` in its
-/// place is a push of `dt/2 a(0)`, and order 1 unless a(0) = 0. USF adds `dt grad v` of the first
-/// velocity to F before anything has moved: order 1 unless v(0) = 0. (That USL and USF keep terms
-/// of first order, of h^2 and of the strain squared, is for suites to say: temporal-order.) Where
-/// no formula tells, neither is taken as zero.
+/// Formal order in time. Euler-Cromer is a leapfrog, of order 2, if it starts with `v(-dt/2)`.
+/// Starting with `v(0)` instead is a velocity error of `dt/2 a(0)`, and gives order 1 unless a(0) =
+/// 0. USF adds `dt grad v` of the initial velocity to F before the first motion: order 1 unless
+/// v(0) = 0. (The first-order terms of USL and USF, proportional to h^2 and to the strain squared,
+/// are the subject of the suite temporal-order.) Without a formula for the motion, both v(0) and
+/// a(0) are assumed to be non-zero.
 pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
         Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),
         Method::Fem { start, .. } => (start, false),
         // Forward Euler.
         Method::Heat { .. } => return 1.0,
-        // What is told of such a solver is its order in space: none in time is known.
+        // An external solver claims an order in space only; the same value is used here.
         Method::External { formal_order, .. } => return formal_order,
     };
     let [moves, accelerates] = exact.map_or([true, true], begins);

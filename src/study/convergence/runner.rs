@@ -147,7 +147,7 @@ impl<'a> ConvergenceRunner<'a> {
         let mut outcome = if let Some(Gating::Excepted(reason)) = &case.gating {
             described(plan, case, None).excepted(reason.clone())
         } else if lacks.is_empty() {
-            // What a solver says it cannot do is no fault of it.
+            // A problem that the solver refuses is not a failure.
             self.run(case, expectation, progress).unwrap_or_else(|reason| {
                 not_applicable(plan, case, vec![reason], "cannot be put to it:")
             })
@@ -196,7 +196,7 @@ impl<'a> ConvergenceRunner<'a> {
         Ok(described(plan, case, expectation).judged(judge_case(&judging, levels?, &runs)))
     }
 
-    /// The same method with a shorter spacing, run for this case.
+    /// Runs this case with a shorter spacing, as the reference of the case.
     fn same_method(&self, case: &Case, same: SameMethod) -> Result<Box<dyn Truth>, String> {
         let plan = &self.plan;
         Ok(match same {

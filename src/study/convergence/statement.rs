@@ -187,7 +187,7 @@ pub(crate) fn described(
     }
 }
 
-/// The outcome of a case that its solver cannot be put to.
+/// The outcome of a case that does not apply to its solver.
 pub(crate) fn not_applicable(
     plan: &ConvergencePlan,
     case: &Case,

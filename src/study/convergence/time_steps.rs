@@ -100,22 +100,22 @@ pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
     all
 }
 
-/// Rounds of the prediction that a rule takes its step from.
+/// Rounds of the prediction for an automatic time step.
 pub(crate) const ROUNDS: u32 = 40;
 
-/// Rounds of the prediction that a stated step is held against first: as expensive as so many
-/// steps.
+/// Rounds of the first prediction with which a stated time step is compared; each round costs as
+/// much as a step.
 const FEW: u32 = 6;
 
-/// Share of the limit from few rounds above which a step is held against more rounds: few rounds
-/// overestimate the limit by up to one half.
+/// Share of the limit from few rounds above which a step is compared with a prediction from more
+/// rounds: few rounds overestimate the limit by up to 50 %.
 const NEAR: f64 = 0.6;
 
-/// A level with the step that is taken on it, and the stable time step (s) where that is known.
+/// A level with its time step, and the stable time step (s) if it is known.
 type Stepped = (LevelPlan, Option<f64>);
 
-/// Stable time steps (s) of a study, by what they depend on: those of methods that share one, and
-/// of levels that differ in their step only, are predicted once.
+/// Cache of the stable time steps (s) of a study, by the inputs of the prediction. Methods with
+/// equal inputs, and levels that differ only in their step, share one prediction.
 #[derive(Debug, Default)]
 pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<f64, String>>>);
 

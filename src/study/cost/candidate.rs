@@ -104,7 +104,8 @@ impl Candidate {
         Ok((model, model.predict(&coarsest)))
     }
 
-    /// The same method with levels of `cells` too, run and judged with those of the suite.
+    /// This method with additional levels of `cells` cells, run and judged with the levels of the
+    /// suite.
     pub(crate) fn judged_with(&self, suite: &Suite, cells: &[u64]) -> Option<Self> {
         let mut plan = self.plan.clone();
         plan.refine.levels.truncate(self.study.levels.len());

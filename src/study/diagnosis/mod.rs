@@ -118,7 +118,7 @@ pub fn diagnose(
     let known = Known { session: &session, plan: &all, levels: &found.levels, finest: &finest };
     for check in CHECKS {
         diagnosis.findings.extend(check(&known));
-        // What such a step, grid or load does to other runs is no evidence.
+        // Once a cause is known, further checks with this step, grid or load give no evidence.
         if diagnosis.is_known() {
             break;
         }

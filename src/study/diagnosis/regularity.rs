@@ -9,19 +9,19 @@ use crate::suite::grammar::NormName;
 use crate::suite::model::{Against, ConvergencePlan};
 use crate::verify::{Axis, KnownCause, KnownCauseKind, OrderHypothesis, Quantity};
 
-/// Share of its largest value by which the strain changes in a cell that cannot tell the change
-/// from a jump.
+/// Minimum change of the strain within a cell, as a share of its largest value, that acts like a
+/// jump.
 const STEEP: f64 = 0.5;
 
-/// Distance of the observed order below the limit, at most, if the limit explains it.
+/// Maximum distance of the observed order below the limit if the limit explains it.
 const BELOW: f64 = 0.5;
 
-/// Largest order that a method of order `p` can be expected to have on a solution of which the
-/// derivative of order `jump` jumps; `None` of a sum over the body.
+/// Maximum order that a method of order `p` can reach if the derivative of order `jump` of the
+/// solution is discontinuous; `None` for a sum over the body.
 ///
 /// A jump of the judged quantity is smeared over h^(p/(p + 1)) by a scheme of order p, and each
 /// continuous derivative gains that factor (Brenner & Thomee 1971, Math. Scand. 27, 5). In an
-/// equilibrium nothing travels: the front is as wide as a cell.
+/// equilibrium the front does not travel and is as wide as a cell.
 fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
     let differentiated = match plan.of {
         Quantity::Displacement => 0.0,

@@ -52,14 +52,15 @@ fn floor_finding(
 struct ModelError {
     /// Its size (m).
     size: f64,
-    /// Where it comes from.
+    /// Origin of the error, as text.
     origin: String,
-    /// Another solution, without it.
+    /// Advice how to state a solution without this error.
     remedy: &'static str,
 }
 
-/// That of `case`, if it has one: measured of a linearised solution, and estimated of one of small
-/// strain, for the law in rate form that MPM has there is none of the truth's.
+/// Model error of `case`, if it has one. For a linearised solution it is measured. For a solution
+/// of small-strain theory it is estimated, because MPM uses a law in rate form, which differs from
+/// the law of the solution.
 fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     let problem = preflight.plan.exact.as_ref()?;
     let motion = preflight.extremes.as_ref()?;

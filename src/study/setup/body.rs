@@ -136,7 +136,7 @@ fn manufactured_force<const D: usize>(
     })))
 }
 
-/// The grid that the suite asks for, or the body's box with room beyond its free faces.
+/// The grid that the suite states, or the box of the body with spare cells beyond free faces.
 fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D> {
     let axes: [(f64, f64); D] = std::array::from_fn(|axis| grid_axis(scene, axis, h));
     let origin = Vector::from_fn(|axis, _| axes[axis].0);

@@ -56,7 +56,7 @@ impl CaseRunner for StabilityRunner<'_> {
             row
         };
         let rows: Vec<StabilityRow> = plan.values.par_iter().map(row).collect();
-        // What a solver says it cannot do is no fault of it.
+        // A problem that the solver refuses is not a failure.
         let refused = rows.iter().find_map(|row| row.refused.clone());
         if let Some(reason) = refused.filter(|_| context.solver.is_some()) {
             return described(&run).not_applicable(vec![reason], "cannot be put to it:");

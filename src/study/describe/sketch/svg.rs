@@ -132,7 +132,7 @@ fn grid(view: &View) -> SvgElement {
     group
 }
 
-/// Coordinates of the corners of the grid, below and beside it.
+/// Coordinates of the corners of the grid, below the grid and to its left.
 fn corners(view: &View) -> SvgElement {
     let mut group = SvgElement::new("g");
     let low = view.place((view.from[0], view.from[1]));

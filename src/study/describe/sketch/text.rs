@@ -4,11 +4,13 @@ use super::view::View;
 use crate::suite::model::{Scene, SceneFace, Suite};
 use crate::suite::scene::load::LoadTarget;
 
-/// Most characters along the first axis, and along the second.
+/// Maximum number of characters along the first axis.
 const COLUMNS: usize = 60;
+
+/// Maximum number of characters along the second axis.
 const ROWS: usize = 14;
 
-/// A line of text is about twice as high as a character is wide.
+/// Width of a character over the height of a line.
 const ASPECT: f64 = 0.5;
 
 /// Face with its condition or load: `left: fixed`.

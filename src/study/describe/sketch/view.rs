@@ -9,8 +9,10 @@ use crate::suite::scene::grid_size::grid_axis;
 /// Distance of the grid from the edges of the canvas.
 pub(super) const MARGIN: f64 = 52.0;
 
-/// Most and least height of the grid on the canvas; a bar has the least.
+/// Maximum height of the grid on the canvas.
 const HIGHEST: f64 = 260.0;
+
+/// Minimum height of the grid on the canvas, used for a bar.
 const LOWEST: f64 = 34.0;
 
 /// The grid of the coarsest level in the plane of the first two axes.
