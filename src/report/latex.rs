@@ -5,7 +5,7 @@ use crate::report::grouping::grouped;
 use crate::verify::{Axis, Interval, SuiteOutcome, Verdict};
 use std::fmt::Write;
 
-/// Most cases in one table: a page has no place for more.
+/// Maximum number of cases per table, limited by the width of a page.
 const MOST_CASES: usize = 3;
 
 /// Tables of the errors and orders of convergence studies, in the style of the package `booktabs`.

@@ -125,7 +125,7 @@ pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
     })
 }
 
-/// Work, and what a reader must know beside an error.
+/// Columns of the work, and of figures that explain the error of a level.
 pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
     vec![
         LevelColumn::new("particles", "particles", "particles (MPM)", |row| {

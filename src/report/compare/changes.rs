@@ -12,23 +12,23 @@ pub enum Rank {
     WorseVerdict,
     /// Its verdict is another one, neither better nor worse.
     OtherVerdict,
-    /// Its verdict is a better one, or it meets its expectations again.
+    /// Its verdict is better, or it meets its expectations again.
     BetterVerdict,
     /// An error is larger, or a level has begun to fail.
     LessAccurate,
-    /// A limit of stability is lower.
+    /// A stability limit is lower.
     LessStable,
-    /// The same error takes more transfers; where that cannot be told, the same level does.
+    /// An equal error takes more transfers; if this cannot be compared, a level takes more.
     MoreExpensive,
     /// It is more accurate, more stable or cheaper.
     Better,
-    /// Its problem is another one, so that its figures say nothing about the method.
+    /// Its problem has changed, so that a change of its figures says nothing about the method.
     OtherProblem,
-    /// It is judged or refined otherwise, so that there is nothing to compare.
+    /// Its judged quantity or its refinement has changed, so that there is nothing to compare.
     Otherwise,
-    /// It was not there before.
+    /// It is new.
     New,
-    /// It is not there any more.
+    /// It was removed.
     Gone,
 }
 
@@ -131,27 +131,27 @@ pub(super) struct Moved {
 pub(super) struct ErrorMove {
     /// None where the level broke.
     pub(super) old: Option<f64>,
-    /// None where the level breaks.
+    /// `None` if the level fails.
     pub(super) new: Option<f64>,
     pub(super) worse: bool,
-    /// On which level.
+    /// The level.
     pub(super) level: String,
 }
 
-/// Least work for a target error.
+/// Change of the least work for a target error.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CheapestMove {
-    /// The suite, and the problem in it where it has several.
+    /// The suite, and its problem if it has several.
     pub(super) place: String,
     pub(super) target: f64,
-    /// Least work and the method that needs no more; none if no method reaches the target.
+    /// Least work in the old run, and its method; `None` if no method reaches the target.
     pub(super) old: Option<(f64, String)>,
     pub(super) new: Option<(f64, String)>,
 }
 
 impl CheapestMove {
-    /// New work over old; endless where the target is not reached any more, zero where it is
-    /// reached now.
+    /// New work over old work; infinite if the target is no longer reached, zero if only the new
+    /// run reaches it.
     pub(super) fn ratio(&self) -> f64 {
         match (&self.old, &self.new) {
             (Some((old, _)), Some((new, _))) => new / old,

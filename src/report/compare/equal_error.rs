@@ -1,17 +1,17 @@
 //! Work for the same error in two runs.
 //!
 //! Methods and versions reach different errors on the same grid; what a user pays is the work for
-//! the error that is wanted. Between two levels of a series that converges, ln(work) is taken as
-//! linear in ln(error), which is exact for `error = C h^p` and `work = c h^-q`. Nothing is
-//! extrapolated: beyond the last level a series may well have a floor.
+//! the error that is wanted. Between two levels of a converging series, ln(work) is interpolated
+//! linearly in ln(error), which is exact for `error = C h^p` and `work = c h^-q`. There is no
+//! extrapolation: beyond the last level a series may have a floor.
 
 /// Error and work of a level.
 pub(super) type ErrorAndWork = (f64, f64);
 
-/// Fewest levels in a row over which an error falls that are taken for convergence.
+/// Minimum number of consecutive levels with falling error that count as convergence.
 const LEAST_LEVELS: usize = 3;
 
-/// An error that both runs reach, and the work for it.
+/// An error that both runs reach, and the ratio of work for it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct EqualError {
     /// The error: 1, 2 or 5 times a power of ten.
@@ -21,7 +21,7 @@ pub(super) struct EqualError {
 }
 
 /// Work of `new` over that of `old` at the smallest round error (1, 2 or 5 times a power of ten)
-/// which the converging parts of both pass through; nothing if there is none.
+/// that the converging parts of both contain; `None` if there is none.
 pub(super) fn compare(old: &[ErrorAndWork], new: &[ErrorAndWork]) -> Option<EqualError> {
     let (old, new) = (converging(old)?, converging(new)?);
     let lowest = f64::max(old.last()?.0, new.last()?.0);

@@ -97,7 +97,7 @@ fn changes(moved: &[&Moved]) -> String {
     table(&columns, moved)
 }
 
-/// Least work for target errors: open if one takes more.
+/// Table of the least work for target errors, unfolded if an error takes more work.
 fn cheapest(comparison: &ReportComparison) -> String {
     let moved: Vec<&CheapestMove> = comparison.cheapest.iter().collect();
     let Some(first) = moved.first() else { return String::new() };
@@ -216,7 +216,7 @@ fn errors(error: &ErrorMove) -> String {
     format!("{} -> {}", text(error.old), text(error.new))
 }
 
-/// Least work for a target error.
+/// Columns of the least work for target errors.
 pub(super) fn targets<'a>() -> [TableColumn<'a, CheapestMove>; 5] {
     [
         TableColumn::<CheapestMove>::text("suite", "suite, and its problem", |moved| {

@@ -180,7 +180,7 @@ fn verdict_rank(
     Some((rank, 0.0))
 }
 
-/// The larger, the worse; words that are not known stand in the middle.
+/// Severity of a verdict, from 0 (good) to 3 (failed); 1 for an unknown verdict.
 fn severity(verdict: &str) -> u8 {
     match verdict {
         "converging" | "within bounds" | "agrees" | "smooth" => 0,
@@ -190,7 +190,7 @@ fn severity(verdict: &str) -> u8 {
     }
 }
 
-/// The rank of figures that moved under the same verdict, and how much they did.
+/// The rank of changed figures with an unchanged verdict, and the size of the change.
 fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(Rank, f64)> {
     let error = found.error.as_ref();
     let work = found.equal.map(|equal| equal.ratio).or(found.work);

@@ -33,7 +33,7 @@ fn document(cases: &[Value]) -> ReportDocument {
     ReportDocument::read(&text).expect("a document")
 }
 
-/// The same case, of a suite that states its problem so.
+/// A document with `case` in a suite whose parameters are `young`.
 fn stating(young: &str, case: &Value) -> ReportDocument {
     let statement = json!([["parameters", young], ["dt", "h"]]);
     let suite = json!({"suite": "bar", "statement": statement, "cases": [case]});

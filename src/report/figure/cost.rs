@@ -5,10 +5,10 @@ use super::{LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::verify::{Ranked, Ranking, Sample, SuiteOutcome, pareto_front};
 use std::ops::Range;
 
-/// Most lines with a colour and a name: a reader cannot tell more apart.
+/// Maximum number of lines with a colour and a name: a reader cannot distinguish more.
 const MOST_NAMED: usize = 7;
 
-/// Points of two methods that differ by less than this share lie on each other.
+/// Maximum relative difference of points of two methods that are drawn as one line.
 const SAME: f64 = 0.02;
 
 /// The diagram of each ranking of a suite; `work` labels the horizontal axis, `unit` goes into the
@@ -20,7 +20,7 @@ pub fn cost_figures(
     unit: &str,
 ) -> Vec<Figure> {
     let SuiteOutcome { suite, title, cases, .. } = outcome;
-    // Those that vary a setting come behind the cases of the suite.
+    // Methods that vary a setting come after the cases of the suite.
     let rows = rankings.iter().flat_map(|ranking| &ranking.rows);
     let mut methods: Vec<&str> = cases.iter().map(|case| case.case.as_str()).collect();
     for row in rows {
@@ -49,7 +49,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
             None => groups.push((row, 0)),
         }
     }
-    // Those on the front first, then by rank.
+    // Methods on the Pareto front first, then by rank.
     let mut named = groups;
     named.sort_by_key(|(row, _)| row.front.is_empty());
     let others = named.split_off(named.len().min(MOST_NAMED));

@@ -11,15 +11,17 @@ use std::fmt::Write;
 
 const LEFT: f64 = 14.0;
 const GAP: f64 = 16.0;
-/// Panels of planes beside each other.
+/// Number of panels in a row, for plane bodies.
 const PLANES: usize = 2;
-/// Highest panel of a plane, and height of that of a line.
+/// Maximum height of the panel of a plane body.
 const HIGHEST: f64 = 260.0;
+/// Height of the panel of a bar.
 const LINE: f64 = 14.0;
-/// Most lines of a name, and their height.
+/// Maximum number of lines of a name.
 const LINES: usize = 2;
+/// Height of a line of a name.
 const LEADING: f64 = 14.0;
-/// Shades that are told apart: a part is drawn in the nearest.
+/// Number of distinct shades: a part is drawn in the nearest one.
 const SHADES: f64 = 24.0;
 
 /// Errors over the bodies of several cases.
@@ -41,9 +43,9 @@ struct BodyWindow {
     zoom: f64,
     width: f64,
     height: f64,
-    /// Room between a panel and that below it.
+    /// Distance between a panel and the one below it.
     gap: f64,
-    /// Panels beside each other.
+    /// Number of panels in a row.
     columns: usize,
 }
 
@@ -160,7 +162,8 @@ mod tests {
         assert!(svg.contains("v14h-"), "{svg}");
     }
 
-    /// Beside another panel there is room for a name, and what is said behind it goes on below.
+    /// Next to another panel there is space for the name of a case; a note after the name continues
+    /// on the next line.
     #[test]
     fn what_is_said_behind_a_long_name_is_seen() {
         let field = ErrorField { is_plane: true, size: 0.5, parts: vec![[0.0; 3], [1.0; 3]] };

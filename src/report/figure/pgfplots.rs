@@ -7,7 +7,7 @@ use super::plot::style::{CONTEXT, EXACT, MarkerShape, NEUTRAL, look};
 use super::{ErrorMap, HistoryPlot, LogLogPlot, Map, Mark, PlotPoint, PlotSeries};
 use crate::report::latex::escaped;
 
-/// Most points of a curve: TeX is slow, and a page has no more pixels across.
+/// Maximum number of points of a curve: TeX is slow, and a page is not wider in pixels.
 const MOST_POINTS: usize = 400;
 
 /// Place of the legend.

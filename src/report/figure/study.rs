@@ -9,17 +9,17 @@ use crate::verify::{
     Axis, Convergence, ErrorField, InternalForce, LevelOutcome, SuiteOutcome, Verdict,
 };
 
-/// Most curves in one plot: a reader cannot tell more apart.
+/// Maximum number of curves in one plot: a reader cannot distinguish more.
 const MOST_SERIES: usize = 6;
 
-/// Most panels in one figure of errors over bodies.
+/// Maximum number of panels in one figure of errors over bodies.
 const MOST_PANELS: usize = 24;
 
-/// Ratio of the highest to the lowest of curves up to which they share an axis.
+/// Maximum ratio of the highest to the lowest curve for a shared axis.
 const MOST_ALIKE: f64 = 3.0;
 
-/// Convergence plots, as many as keep each readable; where the errors are; the observed velocity of
-/// each case that watched one; the energies that were asked for.
+/// Convergence plots, split to stay readable; maps of the errors; the velocity histories of cases
+/// with an observed point; the requested energies.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures = convergence(outcome);
     figures.extend(error_maps(outcome));
@@ -151,13 +151,13 @@ fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
     parts.map(figure).collect()
 }
 
-/// Observed order of a series that converges: the slope that a reader should see beside it.
+/// Observed order of a converging series, which is drawn as a reference slope.
 fn order(study: &Convergence) -> Option<f64> {
     let order = study.judgement.order.filter(|_| study.verdict() == Verdict::Converging)?;
     Some(order.value)
 }
 
-/// Slopes of observed orders: the simple fractions next to them, each once.
+/// Reference slopes: observed orders, rounded to thirds, without duplicates.
 fn slopes(orders: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut slopes: Vec<f64> = orders.map(|order| libm::round(order * 3.0) / 3.0).collect();
     slopes.sort_by(f64::total_cmp);

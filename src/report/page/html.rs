@@ -84,7 +84,7 @@ fn escape(text: &str) -> String {
             {
                 escaped.push('\u{fffd}');
             }
-            // What makes a browser show the rest of a line in another order.
+            // Bidirectional control characters, which reorder the rest of a line in a browser.
             '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => escaped.push('\u{fffd}'),
             c => escaped.push(c),
         }

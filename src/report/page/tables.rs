@@ -103,7 +103,7 @@ pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
     Html::block("nav", &[("id", "suites"), ("aria-label", "Suites")], &parts)
 }
 
-/// The legend, its words for findings as code.
+/// The legend, with the names of findings as code.
 fn legend() -> Html {
     let part = |(k, part): (usize, &str)| match k % 2 {
         0 => Html::text(part),
@@ -112,7 +112,7 @@ fn legend() -> Html {
     LEGEND.split('`').enumerate().map(part).collect()
 }
 
-/// Meaning of the colours; the texts of cells say the same.
+/// Meaning of the colours, which repeat the texts of the cells.
 fn key() -> Html {
     let item = |class: FindingClass| Html::tag("span", &[("class", class.name())], class.meaning());
     Html::tag("p", &[("class", "key")], FindingClass::SHOWN.map(item).to_vec())

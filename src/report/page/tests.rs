@@ -153,7 +153,7 @@ fn the_finding_comes_first() {
     tags(&none);
 }
 
-/// Nothing is asked of a network, and the browser is told so.
+/// The page loads nothing from a network, and its content security policy forbids it.
 #[test]
 fn nothing_is_loaded() {
     let page = of(&[outcome("a", "http://example.org", &[])], "x");

@@ -9,10 +9,10 @@ use crate::report::text::table::Table;
 use crate::report::text::table::together;
 use crate::verify::{CaseOutcome, Ranking};
 
-/// The target error whose cost stands beside each verdict.
+/// Target error whose cost is shown next to each verdict.
 const TARGET: f64 = 1e-3;
 
-/// Verdicts, what is not as expected, expectations with their reasons, and remarks.
+/// Verdicts, unmet expectations, expectations with their reasons, and remarks.
 pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[Ranking]) {
     row(lines, "result", &result(&cases.iter().collect::<Vec<_>>()));
     for case in cases {
@@ -138,7 +138,7 @@ fn letter(k: usize) -> String {
     if k < 26 { last.to_string() } else { format!("{}{last}", letter(k / 26 - 1)) }
 }
 
-/// Remarks on single cases beside their figures.
+/// Remarks on single cases.
 fn remarks(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let of_case = |case: &'_ CaseOutcome| {
         let remarks = KINDS.iter().flat_map(|kind| kind.remarks(case));

@@ -78,7 +78,7 @@ fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let Some((_, first)) = studies.first() else { return };
     let judged = first.judged();
     if first.levels.len() == 1 {
-        // Its error stands beside the verdict.
+        // The error is in the row of the verdict.
         return row(lines, "judged", &judged);
     }
     by_level(lines, &judged, studies, &[level::judged(), level::order()]);

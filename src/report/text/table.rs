@@ -33,7 +33,7 @@ impl Table {
         Self { rows: std::iter::once(headings).chain(rows).collect(), flush_left }
     }
 
-    /// The same with columns flush left that have these headings.
+    /// This table with the columns of these headings aligned to the left.
     pub(crate) fn flush_left(mut self, headings: &[&str]) -> Self {
         for (flush_left, heading) in self.flush_left.iter_mut().zip(&self.rows[0]) {
             *flush_left |= headings.contains(&heading.as_str());
@@ -41,12 +41,12 @@ impl Table {
         self
     }
 
-    /// Whether there is no row but the headings.
+    /// Whether there are no rows except the headings.
     pub(crate) fn is_empty(&self) -> bool {
         self.rows.len() == 1
     }
 
-    /// Rows that show the same as one, whose first cell has the names of all.
+    /// Merges rows with equal cells; the first cell lists all names.
     pub(crate) fn merged(mut self) -> Self {
         let rows = self.rows.split_off(1);
         self.rows.extend(merged(rows));
@@ -108,16 +108,16 @@ impl Table {
     }
 }
 
-/// Names may come from a file: none of their characters may steer a terminal.
+/// Replaces control characters: names may come from a file, and must not control a terminal.
 pub(crate) fn printable(text: &str) -> String {
     let safe = |c: char| if c.is_control() { '\u{fffd}' } else { c };
     text.chars().map(safe).collect()
 }
 
-/// Longest name that rows are given together.
+/// Maximum length of the joint name of merged rows (characters).
 const LONGEST: usize = 44;
 
-/// Rows whose first cell is a name: where all other cells are the same, one row under both names.
+/// Merges rows whose cells after the name are equal into one row with both names.
 fn merged(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     let mut kept: Vec<(Vec<String>, Vec<String>)> = Vec::new();
     for mut row in rows {
@@ -192,7 +192,7 @@ fn product(first: &[String], names: &[Vec<String>]) -> Option<String> {
     is_whole.then(|| choices.iter().map(word).collect::<Vec<_>>().join("-"))
 }
 
-/// The words of a name; the degree of a spline is one with it.
+/// The words of a name; `bspline` and its degree form one word.
 fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for word in name.split('-') {

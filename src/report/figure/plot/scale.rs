@@ -151,8 +151,8 @@ impl Label {
         if self.exponent.is_none() {
             return SvgElement::text(at, anchor, &self.base);
         }
-        // Two texts that meet at `joint`, and not one with a raised part: some converters anchor
-        // each part of a text anew.
+        // Two texts that meet at `joint` instead of one text with a raised part: some converters
+        // anchor each part of a text separately.
         let left_of_joint = text_width(&self.base, TEXT);
         let joint = match anchor {
             "start" => at.0 + left_of_joint,

@@ -1,4 +1,4 @@
-//! Sizes, colours, and what tells one series from another.
+//! Sizes, colours, and the marks that distinguish series.
 
 /// Width of a figure in pixels: on a narrow screen its texts still have 9 pixels.
 pub(crate) const WIDTH: f64 = 440.0;
