@@ -1,4 +1,4 @@
-//! The same once more: looked at twice, with half of the step, made anew, interrupted.
+//! Repeatability checks: a second sample, half of the step, a new subject, a resumed run.
 
 use super::course::ROUNDING;
 use super::record::{Breach, RunState, difference, largest, record};
@@ -7,7 +7,7 @@ use crate::subject::{Checkpoint, Samples, Subject};
 /// Makes the subject in its initial state.
 pub(super) type Make<'a> = &'a dyn Fn() -> Result<Box<dyn Subject>, String>;
 
-/// A second look that sees something else, or adds to what it finds in the samples.
+/// A breach if a second call of `sample` gives other samples, or adds to those it was given.
 pub(super) fn sample(subject: &dyn Subject, first: &Samples) -> Option<Breach> {
     let mut second = first.clone();
     subject.sample(&mut second);

@@ -151,7 +151,7 @@ pub(super) struct AffineField {
 }
 
 impl AffineField {
-    /// The same vector everywhere.
+    /// A field with the same vector at every point.
     pub(super) fn uniform(value: [f64; 3]) -> Self {
         Self { value, ..Self::default() }
     }

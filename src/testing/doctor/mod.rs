@@ -1,15 +1,15 @@
-//! A solver put to small problems of which each shows one kind of mistake, and what is wrong with
-//! it in the words that its author needs (docs/doctor.md).
+//! Examinations of a solver on small problems. Each problem shows one kind of defect, which the
+//! findings describe in terms of the solver's code (docs/doctor.md).
 //!
 //! ```text
 //! finding       findings and reports
-//! scene         small scenes, handed over as suites are
+//! scene         small scenes, passed to the solver as those of suites
 //! vectors       vectors and fields of them
-//! patient       what a solver can be given, and how it takes its steps
+//! patient       capabilities of a solver, and its runs
 //! question      one question to a solver
-//! course        runs as they were seen, and figures of them
-//! motion/       a body that should move on, and why it does not
-//! examination/  one file for each question, the plainest first
+//! course        records of runs, and figures of them
+//! motion/       causes if a body in uniform motion slows down
+//! examination/  one file for each question, the simplest first
 //! page          the report as text
 //! ```
 

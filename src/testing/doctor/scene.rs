@@ -62,8 +62,8 @@ pub(super) struct BoxScene {
 }
 
 impl BoxScene {
-    /// A soft body at rest, of `cells` cells along each axis from `from` on, with `room` cells
-    /// around it.
+    /// A soft body at rest, of `cells` cells along each axis from `from` on, with `room` spare
+    /// cells around it.
     pub(super) fn of_cells(kind: Kind, from: [f64; 3], cells: f64, room: f64) -> Self {
         let (dimension, law) = kind;
         let low = from[..dimension].to_vec();
@@ -92,18 +92,18 @@ impl BoxScene {
         }
     }
 
-    /// The same run in twice as many steps of half the length.
+    /// This scene with twice as many steps of half the length.
     pub(super) fn with_half_the_step(&self) -> Self {
         Self { dt: 0.5 * self.dt, steps: 2 * self.steps, ..self.clone() }
     }
 
-    /// The same scene in so many steps, in which dilatational waves travel `cells` cells.
+    /// This scene with `steps` steps, in which dilatational waves travel `cells` cells in total.
     pub(super) fn with_waves(self, cells: f64, steps: u64) -> Self {
         let dt = cells * self.h / self.wave_speed() / steps as f64;
         Self { steps, dt, ..self }
     }
 
-    /// The same scene without stiffness.
+    /// This scene with negligible stiffness.
     pub(super) fn soft(&self) -> Self {
         Self { young: SOFT * self.young, ..self.clone() }
     }
@@ -127,7 +127,7 @@ impl BoxScene {
         ((lambda + 2.0 * mu) / self.density).sqrt()
     }
 
-    /// The same body, motion and forces with other units of length, time and mass.
+    /// This scene in other units of length, time and mass.
     pub(super) fn scaled(&self, length: f64, time: f64, mass: f64) -> Self {
         let by = |all: &[f64]| all.iter().map(|x| x * length).collect::<Vec<f64>>();
         let volume = (0..self.dimension).fold(1.0, |product, _| product * length);

@@ -70,7 +70,8 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     if !(log_off <= 0.1 * logs[logs.len() - 1].abs() || off <= 0.1 * error) {
         return Ok(None);
     }
-    // The same with half the step: a rate stays, a loss in each step doubles.
+    // Repeats the run with half the step: a loss per time keeps its rate, a loss per step doubles
+    // it.
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
     let course = motion.patient.run(&halved)?;
