@@ -28,10 +28,10 @@ pub(super) struct SolverArgs {
 /// Limits of each process of a solver.
 #[derive(Debug, Args)]
 pub(super) struct SolverLimitArgs {
-    /// Longest time without an answer of the solver
+    /// Response timeout of the solver
     #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "60s")]
     pub(super) solver_timeout: f64,
-    /// Most memory (address space) of each process of the solver, in MB [default: no limit]
+    /// Maximum memory (address space) of each process of the solver, in MB [default: no limit]
     #[arg(long, value_name = "MB", requires = "solver", value_parser = megabytes, allow_negative_numbers = true)]
     pub(super) solver_memory: Option<u64>,
 }

@@ -33,13 +33,13 @@ pub(super) struct CheckPrintArgs {
     /// Print nothing about sound suites, and no notes
     #[arg(long, short)]
     quiet: bool,
-    /// Print all notes. Without this: the notes about suites that are named, and a count of others
+    /// Print all notes [default: only notes about named suites, and the number of other notes]
     #[arg(long, conflicts_with = "quiet")]
     notes: bool,
 }
 
-/// Prints for each suite that it is sound, or its errors, and warns of runs that cannot support
-/// what is expected.
+/// Prints for each suite that it is sound, or its errors. Warns of runs that cannot meet their
+/// expectation.
 pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
     let found = select::with_sources(&args.targets.targets);
     let mut counts = Counts::default();

@@ -67,9 +67,8 @@ enum Command {
     /// Find the cause if a case does not have the order of theory: its finest levels run again with
     /// one thing changed at a time
     Diagnose(diagnose::DiagnoseArgs),
-    /// Put a solver to small problems that each show one kind of mistake, and say what is wrong
-    /// with it in the words that its author needs; exit status 1 if something is, 2 if it cannot
-    /// be talked to
+    /// Run a solver on small problems that each show one kind of defect, and describe the defects
+    /// for its author; exit status 1 if there is a defect, 2 if the solver does not respond
     Doctor(doctor::DoctorArgs),
     /// Print a JSON Schema, for editors and for authors of solvers
     Schema(generate::SchemaArgs),
@@ -86,9 +85,9 @@ enum Command {
     /// exit status 1 if something got worse (a verdict, an error, a limit of stability, the work),
     /// 2 on bad input
     Compare(compare::CompareArgs),
-    /// Print a script with which a shell completes the words of this command line
+    /// Print a script for completion of the arguments in a shell
     Completions(generate::CompletionsArgs),
-    /// Print the page of this program for `man`
+    /// Print the manual page for `man`
     Man(generate::ManArgs),
 }
 

@@ -15,14 +15,14 @@ const FOLDER: &str = "verification";
 /// The target that is standard input.
 const STDIN: &str = "-";
 
-/// The suites that `targets` name, each loaded or with the complaint that says why not.
+/// The suites that `targets` name, each loaded or with the diagnostic that gives the reason.
 ///
 /// With no target: all of `verification/`, or the embedded suites where there is no such folder.
 pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Diagnostic>> {
     with_sources(targets).into_iter().map(|found| found.map(|(_, suite)| suite)).collect()
 }
 
-/// The same, each with the file that it came from.
+/// The suites that `targets` name, each with its file, or with a diagnostic.
 pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Result<(Source, Suite), Diagnostic>> {
     let sources = if targets.is_empty() {
         everything()
@@ -142,7 +142,7 @@ fn fitting(glob: &str) -> Sources {
     vec![Err(diagnostic.with_help("`*` stands for any text: `mms-*`, `heat/*`"))]
 }
 
-/// Meaning of the path of a file that is not there: a file beside it, or a suite by its name.
+/// Suggestion for the path of a missing file: a file in the same folder, or a suite of this name.
 fn meant_by_path(target: &Path) -> String {
     let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let folder = target.parent().unwrap_or(Path::new(""));

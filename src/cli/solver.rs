@@ -81,7 +81,7 @@ pub(super) fn suites_of_solver(
     (judged, left_out)
 }
 
-/// Whether there is a case that the solver could be put to.
+/// Whether the solver can run at least one case.
 pub(super) fn is_applicable(outcomes: &[SuiteOutcome]) -> bool {
     outcomes.iter().flat_map(|outcome| &outcome.cases).any(|case| case.lacks.is_empty())
 }
