@@ -1,10 +1,10 @@
-//! The loops against the yardstick: a textbook loop that is generic over nothing.
+//! Time of the loops of this crate over that of textbook loops without generic parameters.
 //!
-//! `cargo bench --bench ratio` compares both in one run, repeat by repeat, and tells the median of
-//! the ratios with its quartiles: on a machine whose speed varies, ratios of neighbours in time are
-//! what can be compared. `best` is the ratio of the shortest times of each, which others disturb
-//! least. `cargo bench --bench ratio -- 1e6 step` takes as many particles, and only what has the word in
-//! its name. Both are first checked to give the same numbers.
+//! `cargo bench --bench ratio` runs both in turn and prints the median of the ratios with its
+//! quartiles: on a machine whose speed varies, only ratios of consecutive times are comparable.
+//! `best` is the ratio of the minimum times, which other processes disturb least.
+//! `cargo bench --bench ratio -- 1e6 step` sets the number of particles, and selects measurements
+//! with `step` in their name. The program first checks that both loops give the same numbers.
 
 #[path = "common/one_thread.rs"]
 mod one_thread;

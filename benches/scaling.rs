@@ -73,7 +73,7 @@ fn both_passes<const D: usize>(
     p2g + shortest(|| method.g2p(black_box(grid), 1e-12, particles))
 }
 
-/// Particles in any order, beside sorted ones.
+/// Compares particles in random order with sorted particles.
 fn unsorted<const D: usize>(name: (BasisName, TransferName), count: usize) {
     let make = |order: Order| Method::<D>::new(name, order, count);
     let sorted = both_passes(&mut make(Order::Sorted));
