@@ -54,10 +54,10 @@ fn join(lines: &mut String, line: &str) {
 }
 
 impl Defect {
-    /// Whether the defect can be made in a source of this text, and changes it.
+    /// Checks that the defect applies exactly once to the text `source`, and changes it.
     ///
     /// # Errors
-    /// What is in the way.
+    /// The reason why it does not apply.
     pub(crate) fn check(&self, source: &str) -> Result<(), String> {
         let Self { site, file, after, original, changed, .. } = self;
         let mark = after.as_ref().unwrap_or(original);

@@ -1,6 +1,7 @@
-//! The documents, held to the repository: links, paths, names of the crate, commands and JSON.
+//! Checks of the documents against the repository: links, paths, names of the crate, commands and
+//! JSON.
 //!
-//! `tests/it/documents.rs` does what needs the program: it parses its command lines, and loads the
+//! `tests/it/documents.rs` has the checks that need the program: it parses command lines, and loads
 //! suites.
 
 use crate::markdown::{Block, Document, Span};
@@ -52,7 +53,8 @@ impl Repository {
         })
     }
 
-    /// Whether `path` is there from the root, from `src/`, or beside the document `from`.
+    /// Whether `path` exists relative to the root, to `src/`, or to the folder of the document
+    /// `from`.
     fn finds(&self, path: &str, from: &str) -> bool {
         let beside = join(from, path);
         let later = MADE_LATER.iter().any(|(made, _)| *made == path.trim_end_matches('/'));

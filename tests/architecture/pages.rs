@@ -88,7 +88,7 @@ fn words(value: &Value) -> Vec<String> {
     }
 }
 
-/// The page with its tables made anew, and the folders that have none in it.
+/// The page with regenerated tables, and the folders without a table in the page.
 pub(crate) fn with_tables(page: &str, suites: &[Row]) -> (String, Vec<String>) {
     let mut folders: BTreeMap<&str, String> = BTreeMap::new();
     for row in suites {

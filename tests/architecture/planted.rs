@@ -1,4 +1,4 @@
-//! The scanners of words and of documents, held to small texts with planted mistakes.
+//! Tests of the scanners of words and of documents, on small texts with planted mistakes.
 
 use crate::documents::{Repository, stale};
 use crate::markdown::Document;

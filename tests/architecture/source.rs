@@ -71,7 +71,8 @@ pub(crate) fn of_files(files: &[(String, String)]) -> Vec<Source> {
     sources
 }
 
-/// The same with files that are compiled for tests only, all of whose code is tests.
+/// The sources among `files`, including files that are compiled for tests only. All code of these
+/// counts as tests.
 pub(crate) fn with_tests(files: &[(String, String)]) -> Vec<Source> {
     let mut for_tests = BTreeSet::new();
     let mut sources: Vec<Source> =

@@ -1,8 +1,8 @@
-//! Which gate says that an expectation is not met.
+//! Name of the gate that reports an unmet expectation.
 
 use mpm_verify::verify::{CaseOutcome, InternalForce, StabilityStudy};
 
-/// Gates of convergence studies by the first words of what they say; the first that fits.
+/// Gates of convergence studies by the beginning of their messages; the first match applies.
 const GATES: [(&str, &str); 12] = [
     ("expected the order within", "order"),
     ("expected the finest pair's order", "order"),

@@ -32,7 +32,7 @@ fn first(active: usize, number: usize) -> bool {
         ACTIVE.store(active, Ordering::Relaxed);
         return on(number);
     }
-    // Most calls are not the first.
+    // The load before the swap keeps repeated calls cheap.
     if !NOTED[number].load(Ordering::Relaxed) && !NOTED[number].swap(true, Ordering::Relaxed) {
         let file = env::var_os("SEEDED_REACHED").expect("a file to note in");
         let mut file = OpenOptions::new().append(true).open(file).expect("the file can be opened");

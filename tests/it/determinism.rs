@@ -1,5 +1,5 @@
-//! The same set-up gives the same bits, whoever computes it, what else runs meanwhile, and if it is
-//! interrupted on the way.
+//! Equal set-ups give equal bits for any number of threads, with other runs at the same time, and
+//! after an interruption.
 
 use crate::common::columns::columns;
 use crate::common::interrupted::goes_on;

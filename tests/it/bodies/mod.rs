@@ -20,14 +20,14 @@ fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     methods().filter(move |method| dimension < 3 || few(method))
 }
 
-/// Those that bodies can have that meet.
+/// Methods that support coupled bodies.
 fn coupled_methods(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     some(dimension).filter(|(_, transfer)| {
         !matches!(transfer.kind(), TransferKind::Series | TransferKind::Cells)
     })
 }
 
-/// The free body, made of what lies between two heights along the first axis.
+/// The part of the free body between two coordinates on the first axis.
 fn part<const D: usize>(
     method: (BasisName, TransferName),
     scheme: SchemeName,
@@ -124,7 +124,7 @@ fn bodies_that_share_one_field_are_one_body(
     in_dimension!(dimension, halves_are_the_whole(scheme, start));
 }
 
-/// Three bodies that run into each other askew, of which the middle one is heavy.
+/// Three bodies in an oblique collision; the middle one is heavy.
 fn crash<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) -> Vec<Setup<D>> {
     let ends = [[1.4, 2.4], [2.7, 3.7], [4.0, 5.0]];
     let speeds = [0.8, 0.0, -0.6];
@@ -267,7 +267,8 @@ fn two_bars_part_when_the_wave_is_back(
     assert!(off.abs() <= 1.0 + 1e-9, "the bars part {off:.2} h/c after 2L/c");
 }
 
-/// They go back as fast as they came, but for what the front leaves behind in oscillations.
+/// The bars rebound with their initial speed, except for the energy of oscillations behind the
+/// front.
 #[rstest]
 fn two_bars_bounce_with_an_error_of_the_order_of_the_front(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,

@@ -32,7 +32,7 @@ fn last(series: &str) -> (Vec<Vec<u8>>, f64) {
     (lines.iter().filter(|line| time(line) == end).map(read).collect(), end)
 }
 
-/// What a reader sees there is what was judged.
+/// The written errors are those that were judged.
 #[test]
 fn the_errors_of_the_particles_are_those_of_the_report() {
     let folder = Folder::with("bar.yaml", BAR);

@@ -73,7 +73,7 @@ fn extremes<const D: usize>() -> Vec<(&'static str, Spoil<D>)> {
     ]
 }
 
-/// A particle of which one number is none, by the name of the column.
+/// Particles with one invalid number, each with the name of its column.
 fn torn<const D: usize>(value: f64) -> Vec<(&'static str, Particles<D>)> {
     let mut bodies = vec![body::<D>(); 8];
     bodies[0].x[1][D - 1] = value;
@@ -176,7 +176,8 @@ fn survives<const D: usize>(scene: &Scene, numbers: &[f64]) {
     scene.holds("numbers", particles);
 }
 
-/// Numbers of which some are as they should be (NaN stands for that), some near, some far.
+/// Numbers for a column: some are replaced by the right number (NaN), some are moderate, some
+/// extreme.
 fn number() -> impl Strategy<Value = f64> {
     prop_oneof![
         6 => Just(f64::NAN),

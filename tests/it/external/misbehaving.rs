@@ -14,7 +14,7 @@ fn script(then: &str) -> String {
     )
 }
 
-/// What a run of `script` prints, with its exit status.
+/// Exit status and output of a run of `script`.
 fn run(script: &str, more: &[&str]) -> (i32, String) {
     let folder = Folder::new();
     folder.write("bar.yaml", bar());
@@ -90,7 +90,7 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
 #[case::a_closed_pipe("exec >&-; sleep 99", "closed its output and went on")]
 #[case::its_own_word("echo '{\"type\":\"failed\",\"reason\":\"all is lost\"}'", "all is lost")]
 fn what_breaks_the_protocol_fails_and_says_how(#[case] then: &str, #[case] words: &str) {
-    // What is waited for to the end is waited for briefly.
+    // A test that needs the whole timeout uses a short one.
     let patience = if then.ends_with("sleep 99") { "0.3s" } else { "1s" };
     let zeros = format!("{:?}", [0; 16]);
     let (code, said) =

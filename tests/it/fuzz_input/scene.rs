@@ -75,7 +75,7 @@ impl Scene {
     /// not periodic, at the last.
     ///
     /// # Errors
-    /// Those of [`Solver::new`].
+    /// As [`Solver::new`].
     pub(crate) fn solver<const D: usize>(
         &self,
         particles: Particles<D>,

@@ -33,7 +33,7 @@ methods:
   - fem: {element: linear, mass: consistent, start: half_step_back}
 "#;
 
-/// The same in the plane, pulled towards a place for each particle that formulas of x give.
+/// A plate with forces towards a point that formulas of x give for each particle.
 const PLATE: &str = r#"suite: plate
 title: Free plate
 source: a test

@@ -6,7 +6,7 @@ use mpm_verify::suite::yaml::{Diagnostic, Place, Severity, Source};
 use mpm_verify::suite::{Suite, embedded};
 use rstest::rstest;
 
-/// A suite of which nothing is to be said.
+/// A suite without findings.
 const BAR: &str = r#"suite: bar
 title: Bar
 source: a textbook

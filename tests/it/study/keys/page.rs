@@ -53,7 +53,7 @@ fn rows<const N: usize>() -> Vec<[String; N]> {
     cells.filter_map(|cells: Vec<String>| cells.try_into().ok()).collect()
 }
 
-/// What stands between a pair of signs, and what before it.
+/// The text before the first `sign`, and the text between the first two.
 fn within(text: &str, sign: char) -> (&str, &str) {
     let (before, rest) = text.split_once(sign).unwrap_or((text, ""));
     (before, rest.split(sign).next().unwrap_or_default())
