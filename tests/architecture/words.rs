@@ -1,14 +1,14 @@
-//! The words of the source: old ones stay away, and no name of a type means two things.
+//! Rules for words: old names stay away, no two types have one name, and prose is in plain English.
 
 use crate::rules::Breach;
 use crate::source::Source;
 use crate::token::Token;
 use std::collections::BTreeMap;
 
-/// Longest line of a comment, as `.rustfmt.toml` has it for code.
+/// Maximum width of a comment line (columns), as for code in `.rustfmt.toml`.
 pub(crate) const LONGEST_COMMENT: usize = 100;
 
-/// Names that types had and must not have again, each with the word in their place.
+/// Former names of types, each with the name in its place.
 pub(crate) const OLD_TYPES: &[(&str, &str)] = &[
     ("Whereabouts", "CellTracker"),
     ("Touch", "ContactState"),
@@ -49,7 +49,7 @@ pub(crate) const OLD_TYPES: &[(&str, &str)] = &[
     ("Also", "P2gRequest, G2pRequest"),
 ];
 
-/// Names that functions, fields, variables and types had, wherever they stand in code.
+/// Former names of functions, fields, variables and types, each with the name in its place.
 pub(crate) const OLD_NAMES: &[(&str, &str)] = &[
     ("whereabouts", "cell_tracker"),
     ("drive_velocity", "modify_velocity"),
@@ -79,7 +79,8 @@ pub(crate) const OLD_NAMES: &[(&str, &str)] = &[
     ("Four", "F64x4"),
 ];
 
-/// Words that reports and documents had, in any text; those in quotes are heads, keys and columns.
+/// Former phrases of reports and documents, each with the phrase in its place; those in quotes are
+/// heads, keys and columns.
 pub(crate) const OLD_PHRASES: &[(&str, &str)] = &[
     ("\"carried\"", "advected x"),
     ("\"x moved\"", "current x"),
@@ -152,7 +153,7 @@ pub(crate) const UNCLEAR_PHRASES: &[(&str, &str)] = &[
     ("what is left", "the rest, the remaining error"),
 ];
 
-/// Names that files and folders had, each with the one in its place.
+/// Former names of files and folders, each with the name in its place.
 pub(crate) const OLD_FILES: &[(&str, &str)] = &[
     ("whereabouts", "cell_tracker"),
     ("touch", "contact_state"),
@@ -184,7 +185,7 @@ pub(crate) const OLD_FILES: &[(&str, &str)] = &[
     ("four", "simd"),
 ];
 
-/// Names of types that two files may define, each with its reason.
+/// Names of types that several files may define, each with the reason.
 pub(crate) const TWICE: &[(&str, &str)] = &[
     ("Value", "serde's visitors must call their result so"),
     ("Output", "so must operators"),
@@ -193,10 +194,10 @@ pub(crate) const TWICE: &[(&str, &str)] = &[
     ("F64x4", "each processor level says which register it has: an associated type of that trait"),
 ];
 
-/// A file as it is written, with its comments.
+/// Path and text of a file, with its comments.
 pub(crate) type Text = (String, String);
 
-/// Types with an old name, and old names anywhere in code.
+/// Breaches by types with an old name, and by old names anywhere in code.
 pub(crate) fn old(sources: &[Source]) -> Vec<Breach> {
     let of_source = |source: &Source| -> Vec<Breach> {
         let types = definitions(&source.code).into_iter().map(|token| (token, OLD_TYPES));
@@ -211,7 +212,7 @@ pub(crate) fn old(sources: &[Source]) -> Vec<Breach> {
     sources.iter().flat_map(of_source).collect()
 }
 
-/// Texts with an old word of reports, as a whole word.
+/// Breaches by texts with an old phrase of reports, as whole words.
 pub(crate) fn old_phrases(texts: &[Text]) -> Vec<Breach> {
     let of_text = |(file, text): &Text| -> Vec<Breach> {
         let lines = text.lines().enumerate();
@@ -268,7 +269,7 @@ pub(crate) fn old_files(files: &[String]) -> Vec<Breach> {
     files.iter().filter_map(of_file).collect()
 }
 
-/// Types whose name another file has defined already.
+/// Breaches by types whose name another file defines too.
 pub(crate) fn twice(sources: &[Source], allowed: &[(&str, &str)]) -> Vec<Breach> {
     let mut first: BTreeMap<&str, &str> = BTreeMap::new();
     let mut breaches = Vec::new();
@@ -284,8 +285,8 @@ pub(crate) fn twice(sources: &[Source], allowed: &[(&str, &str)]) -> Vec<Breach>
     breaches
 }
 
-/// The names of the types that `code` defines, and of the associated types that its traits declare
-/// (not those that an `impl` must give: the trait has named them).
+/// The names of the types that `code` defines, and of the associated types that its traits declare.
+/// Associated types in an `impl` are excluded: their trait declares the name.
 fn definitions(code: &[Token]) -> Vec<&Token> {
     let mut found = Vec::new();
     let (mut depth, mut implementation) = (0_usize, None);

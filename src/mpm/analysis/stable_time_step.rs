@@ -46,7 +46,7 @@ const SHIFT: f64 = 0.45;
 const SETTLED: f64 = 1e-3;
 
 impl<const D: usize> Solver<D> {
-    /// Longest stable step (s) in the present state of the body, at most `longest`. Includes the
+    /// Maximum stable step (s) in the present state of the body, at most `longest`. Includes the
     /// stiffness of loads, the damping of the law and artificial viscosity; excludes the loads
     /// themselves, other damping and the friction of walls. Each of the `rounds` of the power
     /// iteration costs as much as a step. The result is an upper bound, too large by a few percent

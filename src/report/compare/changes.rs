@@ -138,13 +138,13 @@ pub(super) struct ErrorMove {
     pub(super) level: String,
 }
 
-/// Change of the least work for a target error.
+/// Change of the minimum work for a target error.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CheapestMove {
     /// The suite, and its problem if it has several.
     pub(super) place: String,
     pub(super) target: f64,
-    /// Least work in the old run, and its method; `None` if no method reaches the target.
+    /// Minimum work in the old run, and its method; `None` if no method reaches the target.
     pub(super) old: Option<(f64, String)>,
     pub(super) new: Option<(f64, String)>,
 }

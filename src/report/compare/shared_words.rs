@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
 /// Minimum share of worse cases among the cases with a word, and minimum share of the worse cases
-/// that have one of the words.
+/// that have a shared word.
 const MOST: f64 = 0.5;
 
 /// Minimum number of worse cases with a shared word.
@@ -18,10 +18,9 @@ pub(super) struct SharedWord {
     pub(super) all: usize,
 }
 
-/// Shared words of the worse cases, sorted by the number of worse cases with the word, then by
-/// fewer other cases. A case counts only for the first of its words. Empty if at most half of the
-/// worse cases have a shared word. `cases` are pairs of `SUITE::CASE` and whether the case got
-/// worse.
+/// Words shared by worse cases, sorted by the number of worse cases with the word, then by fewer
+/// other cases. A case counts only for the first of its words. Empty if at most half of the worse
+/// cases have a shared word. `cases` are pairs of `SUITE::CASE` and whether the case got worse.
 pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
     let words = |name: &str| -> BTreeSet<String> {
         let case = name.rsplit("::").next().unwrap_or_default();

@@ -192,7 +192,7 @@ fn product(first: &[String], names: &[Vec<String>]) -> Option<String> {
     is_whole.then(|| choices.iter().map(word).collect::<Vec<_>>().join("-"))
 }
 
-/// The words of a name; `bspline` and its degree form one word.
+/// Splits a name into words; `bspline` and its degree form one word.
 fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for word in name.split('-') {

@@ -62,16 +62,16 @@ pub(super) struct BoxScene {
 }
 
 impl BoxScene {
-    /// A soft body at rest, of `cells` cells along each axis from `from` on, with `room` spare
+    /// A soft body at rest, of `cells` cells along each axis from `from` on, with `margin` empty
     /// cells around it.
-    pub(super) fn of_cells(kind: Kind, from: [f64; 3], cells: f64, room: f64) -> Self {
+    pub(super) fn of_cells(kind: Kind, from: [f64; 3], cells: f64, margin: f64) -> Self {
         let (dimension, law) = kind;
         let low = from[..dimension].to_vec();
         let high = low.iter().map(|x| x + cells * H).collect();
         // Nodes lie at whole multiples of H.
         let node = |x: f64| libm::floor(x / H) * H;
-        let grid_low: Vec<f64> = low.iter().map(|x| node(*x) - room * H).collect();
-        let grid_high = grid_low.iter().map(|x| x + (cells + 1.0 + 2.0 * room) * H).collect();
+        let grid_low: Vec<f64> = low.iter().map(|x| node(*x) - margin * H).collect();
+        let grid_high = grid_low.iter().map(|x| x + (cells + 1.0 + 2.0 * margin) * H).collect();
         Self {
             dimension,
             law,

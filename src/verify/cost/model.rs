@@ -80,8 +80,8 @@ fn residual(rows: &[[f64; COLUMNS]], seconds: &[f64; COLUMNS]) -> f64 {
     rows.iter().map(off).sum()
 }
 
-/// Least squares over the chosen columns by the normal equations, each column scaled to length 1;
-/// `None` if the columns are linearly dependent.
+/// Solves least squares over the chosen columns by the normal equations, each column scaled to
+/// length 1; `None` if the columns are linearly dependent.
 fn solve(rows: &[[f64; COLUMNS]], chosen: &[usize]) -> Option<[f64; COLUMNS]> {
     let n = chosen.len();
     let length = |k: &usize| rows.iter().map(|row| row[*k] * row[*k]).sum::<f64>().sqrt();

@@ -94,12 +94,12 @@ impl PackedField<Node4> {
         FieldView { nodes: &self.nodes, layout: self.layout }
     }
 
-    /// Packs a field of vectors and, optionally, the field `beside` in the lanes after it.
+    /// Packs a field of vectors and, optionally, the field `second` in the lanes after it.
     pub(in crate::mpm) fn pack<const D: usize>(
         &mut self,
         grid: &Grid<D>,
         field: &[Vector<D>],
-        beside: Option<&[Vector<D>]>,
+        second: Option<&[Vector<D>]>,
     ) {
         self.shaped(grid);
         let ([across, rows, planes], [_, row, plane, _]) = (counts(grid), self.layout.strides);
@@ -114,10 +114,10 @@ impl PackedField<Node4> {
             let there = if D == 1 { piece(k) } else { row_of_field(k) };
             let (here, beyond) = here.split_at_mut(there.len());
             let values = here.iter_mut().zip(&field[there.clone()]);
-            if let Some(beside) = beside {
-                for ((Node4(here), value), beside) in values.zip(&beside[there]) {
+            if let Some(second) = second {
+                for ((Node4(here), value), second) in values.zip(&second[there]) {
                     *here = lanes(value);
-                    here[D..2 * D].copy_from_slice(beside.as_slice());
+                    here[D..2 * D].copy_from_slice(second.as_slice());
                 }
             } else {
                 values.for_each(|(Node4(here), value)| *here = lanes(value));
