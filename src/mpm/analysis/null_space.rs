@@ -1,12 +1,12 @@
 //! Null space of the map to the grid: the part of the particles' velocities without nodal momentum.
 //!
-//! With N the map from nodes to particles and M the particle masses, velocities are `v = N w + v0`
-//! in one way in which v0 gives no node any momentum, `N^T M v0 = 0`: v0 lies in the null space of
-//! the map to the grid, and no force ever answers it (Brackbill 1988; Gritton & Berzins 2017, Comp.
-//! Part. Mech. 4). w is the least-squares fit `N^T M N w = N^T M v`, whose matrix is the consistent
-//! mass matrix. That may be singular, which conjugate gradients allow; the lumped one stands
-//! in for its inverse, so that a round applies the map to the grid and back, the operator of PIC
-//! and XPIC, once.
+//! With N the map from nodes to particles and M the particle masses, velocities split uniquely into
+//! `v = N w + v0`, where v0 gives no momentum to any node, `N^T M v0 = 0`: v0 lies in the null
+//! space of the map to the grid, and no force acts against it (Brackbill 1988; Gritton & Berzins
+//! 2017, Comp. Part. Mech. 4). w is the least-squares fit `N^T M N w = N^T M v`, whose matrix is
+//! the consistent mass matrix. It may be singular, which conjugate gradients allow. The
+//! preconditioner is the lumped mass matrix, so that each iteration applies the map to the grid and
+//! back, the operator of PIC and XPIC, once.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;

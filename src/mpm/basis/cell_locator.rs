@@ -5,7 +5,7 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::packed_grid::Layout;
 use crate::mpm::foundation::simd::{F64x4, LANES, Simd};
 
-/// Parts of the functions that a pass needs besides their values.
+/// Parts of the basis functions that a pass needs in addition to their values.
 #[derive(Debug, Clone, Copy)]
 pub struct WeightNeeds {
     /// Derivatives.

@@ -7,9 +7,9 @@ use crate::subject::{Checkpoint, Column};
 /// An advance of the grid's velocities: `v += dt a`.
 ///
 /// Euler-Cromer is a leapfrog: the velocities that move positions from t to t + dt are those of the
-/// middle of that time. So a step takes velocities from t - dt/2 to t + dt/2, and a velocity that
-/// is prescribed in between is followed to second order, whatever the scheme. Only the first step
-/// is shorter, if it starts from the velocities at t = 0.
+/// middle of that time. So a step advances velocities from t - dt/2 to t + dt/2, and a prescribed
+/// velocity is imposed with second order under any scheme. If the run starts from the velocities at
+/// t = 0, the first advance is shorter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advance {
     /// Time of the velocities before the advance (s).

@@ -30,11 +30,11 @@ use crate::subject::{Checkpoint, Column, Failure, Site};
 
 /// Writes the heat per unit mass and time (W/kg) of every particle at a time (s).
 ///
-/// It may depend on T_p at the start of the step. Not on T_i, which would take one more pass: s
-/// belongs to the mass of a particle, and the sum over particles is its integral whatever it is a
-/// function of. A sink s = -r c T adds its rate to that of conduction: with linear functions and
-/// equally spaced particles, forward Euler is stable while dt < 2/(4 k/(rho c h^2) + r). No step is
-/// predicted; the suite states it.
+/// It may depend on T_p at the start of the step, but not on T_i, which would need another pass.
+/// The sum over particles is the integral of s for any such s. A sink s = -r c T adds its rate to
+/// that of conduction: with linear functions and equally spaced particles, forward Euler is stable
+/// for dt < 2/(4 k/(rho c h^2) + r). The stable time step is not predicted; the suite must state
+/// the step.
 pub type HeatSource<const D: usize> = Box<dyn FnMut(f64, &Particles<D>, &mut [f64]) + Send>;
 
 /// Conduction of heat in the body.

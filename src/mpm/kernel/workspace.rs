@@ -15,7 +15,7 @@ use crate::mpm::foundation::particles::Particles;
 use fearless_simd::Level;
 use std::marker::PhantomData;
 
-/// Memory of a pass besides particles and grid.
+/// Memory of a pass in addition to particles and grid.
 #[derive(Debug)]
 pub(in crate::mpm) struct Workspace {
     level: Level,

@@ -81,7 +81,7 @@ fn undrained_shear_of_overconsolidated_clay_has_its_closed_form() {
     assert!((0.97..1.03).contains(&order), "order {order}");
 }
 
-/// `p = p0/2^(1 - kappa/lambda)` and `q = M p`, whatever the number of steps.
+/// `p = p0/2^(1 - kappa/lambda)` and `q = M p`, for any number of steps.
 #[rstest]
 fn undrained_shear_ends_at_a_critical_state(#[values(4, 300)] steps: u32) {
     let mut clay = specimen(clay(100.0));

@@ -61,8 +61,8 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Uniaxial strain: elastic to `Y/(2 mu)`, then `d tau_1 = K d eps` and `tau_1 - tau_2 = Y` but
-    /// for hardening (benchmark V18, in Kirchhoff stress and logarithmic strain); unloading is
+    /// Uniaxial strain: elastic to `Y/(2 mu)`, then `d tau_1 = K d eps` and `tau_1 - tau_2 = Y`
+    /// without hardening (benchmark V18, in Kirchhoff stress and logarithmic strain); unloading is
     /// elastic again, until it yields the other way round.
     #[rstest]
     fn uniaxial_strain_has_its_closed_form(#[values(0.0, 40.0)] hardening: f64) {

@@ -8,7 +8,8 @@
 //! `be = F Cp^-1 F^T`: the trial state follows from F alone, so a body that starts deformed needs
 //! no more than its F, and nothing drifts while it is elastic.
 //!
-//! Plane and uniaxial strain have elastic strain out of the plane: the state is 3-D whatever D.
+//! Plane and uniaxial strain have elastic strain out of the plane: the state is 3-D in any
+//! dimension.
 
 use super::contract::{Contradiction, Material, MaterialProperties};
 use super::linear_elastic::LinearElastic;

@@ -12,7 +12,8 @@
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
 
-/// A few suffice, as each sweep squares what is left; NaN ends here.
+/// Maximum number of sweeps. A few suffice, as each sweep squares the off-diagonal entries; the
+/// limit ends the loop for NaN.
 const MOST_SWEEPS: usize = 12;
 
 /// Eigenvalues of the symmetric matrix `m`, and their axes as columns: `m = A diag(values) A^T`.
