@@ -1,5 +1,5 @@
-//! Stresses and forces of an [`Equation`], whatever its law, and derivatives of a motion in a
-//! plane, completed by the state across the plane.
+//! Stresses and forces of an [`Equation`] with any law, and completion of the derivatives of a
+//! plane motion by the state across the plane.
 
 use super::formula::{Number, Slope};
 use super::law::Equation;

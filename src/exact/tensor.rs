@@ -127,7 +127,7 @@ pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T,
         let cofactors: Tensor<T, D> = tensor(|i, j| cofactor(&before, i, j));
         let det = det(&before, &cofactors);
         turn = tensor(|i, j| half * (before[i][j] + cofactors[i][j] / det));
-        // Each step squares what is left of the values, and derivatives follow a step behind.
+        // Each step squares the error of the values; the derivatives need one step more.
         let step: Tensor<T, D> = tensor(|i, j| turn[i][j] - before[i][j]);
         if size(&step) <= 1e-12 {
             return turn;

@@ -209,7 +209,7 @@ struct Homes {
 }
 
 impl Homes {
-    /// From the results back: whatever is needed, where it is computed.
+    /// Assigns a home to every node that `results` need, from the results backwards.
     fn new(nodes: &[SsaNode], results: &[Operand]) -> Self {
         let mut homes = Self {
             dependence: nodes.iter().map(|node| node.dependence).collect(),
