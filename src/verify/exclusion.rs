@@ -5,7 +5,7 @@
 //! - *Spread*: the difference between repeated runs exceeds [`MOST_SPREAD`] of the error.
 //!
 //! Both apply to observed orders only. Bounds on errors are compared with the errors of these
-//! levels too: a small error is within a bound whatever its cause is.
+//! levels too: a small error meets a bound, for any cause.
 
 use super::convergence::LevelOutcome;
 use super::error::norm::NormName;

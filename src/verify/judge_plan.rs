@@ -13,7 +13,7 @@ use super::order::hypothesis::OrderHypothesis;
 use super::order::level::{Axis, Level};
 use super::verdict::judge::{Judgement, judge};
 
-/// Everything that the judgement of a case depends on, besides its levels.
+/// All inputs of the judgement of a case, except its levels.
 #[derive(Debug, Clone)]
 pub struct JudgePlan<'a> {
     /// Axis of refinement.

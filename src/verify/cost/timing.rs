@@ -59,10 +59,10 @@ impl Timing {
 /// A suite with the seconds of its levels.
 #[derive(Debug, Clone)]
 pub struct TimedSuite {
-    /// Results. Cases besides the suite's own are variants of them.
+    /// Results of the cases of the suite, and of variants of them.
     pub outcome: SuiteOutcome,
-    /// For each case and level what it has to do, and how long that took; none of what could not be
-    /// set up. A run that broke took as long as until then.
+    /// For each case and level the workload, and the time that it took; `None` if the set-up
+    /// failed. The time of a failed run ends at the failure.
     pub levels: Vec<Vec<(Workload, Option<Timing>)>>,
     /// Where.
     pub machine: Machine,

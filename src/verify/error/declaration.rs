@@ -10,7 +10,7 @@ use std::borrow::Cow;
 /// Exact values at all labels in so many dimensions, at a time.
 pub(super) type ExactAtAll = fn(&dyn Truth, usize, &[f64], f64, &mut [f64]);
 
-/// All that is known of a quantity besides its name.
+/// Properties of a quantity, without its name.
 #[expect(clippy::struct_excessive_bools, reason = "four independent questions, each asked by name")]
 pub(super) struct Declaration {
     /// Its unit; empty for a number.
@@ -58,7 +58,7 @@ pub(super) enum ComputedSum {
     Reaction,
 }
 
-/// Need of a sum, besides a body that moves.
+/// Requirement of a sum, in addition to a moving body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SumNeed {
     /// Nothing.

@@ -110,7 +110,7 @@ impl Quantity {
         if self.is_sum() { Self::default() } else { self }
     }
 
-    /// Need of a sum, besides a body that moves; none of a field.
+    /// Requirement of a sum, in addition to a moving body; `None` for a field.
     pub(crate) fn sum_need(self) -> Option<SumNeed> {
         self.sum().map(|sum| sum.needs)
     }

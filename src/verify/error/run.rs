@@ -14,7 +14,7 @@ use crate::verify::energy_rate::energy_rate;
 use crate::verify::order::fit::Interval;
 use serde::{Deserialize, Serialize};
 
-/// Quantities compared in a run, besides the displacement.
+/// Quantities compared in a run, in addition to the displacement.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Comparison<'a> {
     /// The quantity that is judged.
@@ -258,7 +258,7 @@ pub struct RunResult {
 }
 
 impl RunResult {
-    /// Errors of the displacement (m), whatever is compared.
+    /// Errors of the displacement (m), for any judged quantity.
     pub fn errors_of_displacement(&self) -> &RunErrors {
         self.displacement_errors.as_ref().unwrap_or(&self.errors)
     }

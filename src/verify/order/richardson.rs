@@ -13,8 +13,8 @@
 //! the logarithm of an absolute value would turn oscillation and divergence into an order.
 //!
 //! The well-known "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is not offered: with the order
-//! fitted to the same three values it is identically `u1 / u2`, close to one whatever the values
-//! are, and proves nothing. Hold the order against the formal one, or add a level.
+//! fitted to the same three values it is identically `u1 / u2`, close to 1 for any values, and
+//! proves nothing. Compare the order with the formal one, or add a level.
 
 use std::fmt;
 

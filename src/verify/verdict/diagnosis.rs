@@ -54,7 +54,7 @@ pub struct ChangedRun {
     pub ratio: f64,
     /// `ratio` over the ratio of the sizes of the two exact solutions.
     pub relative_ratio: f64,
-    /// Whether levels are finer, so that their error is smaller whatever the cause.
+    /// Whether the levels are finer, which makes their error smaller for any cause.
     pub is_finer: bool,
 }
 
@@ -75,7 +75,7 @@ pub enum KnownCauseKind {
     NotSmooth,
 }
 
-/// A cause that is known from the problem, the levels or the time steps, whatever the method.
+/// A cause that follows from the problem, the levels or the time steps, for any method.
 #[derive(Debug, Clone)]
 pub struct KnownCause {
     /// Its kind.
@@ -151,7 +151,7 @@ impl Diagnosis {
         self.judgement.verdict == Verdict::Converging
     }
 
-    /// Whether a finding is the cause whatever else runs with one thing changed show.
+    /// Whether a finding is certainly the cause, without further runs with one change.
     pub fn is_known(&self) -> bool {
         self.findings.iter().any(|finding| finding.kind < KnownCauseKind::CoarseLevels)
     }
@@ -363,7 +363,7 @@ mod tests {
         assert_eq!(causes(&found), ["the cause", "the finding"]);
     }
 
-    /// Finer levels have a smaller error whatever its cause is.
+    /// Finer levels have a smaller error for any cause.
     #[test]
     fn a_smaller_error_of_finer_levels_is_no_evidence() {
         let mut found = diagnosis((TooLow, order(1.0, 0.05)), (TooLow, order(1.0, 0.05), 0.25));

@@ -1,10 +1,10 @@
-//! The words a judgement may use.
+//! Names of verdicts.
 
 use std::fmt;
 use std::str::FromStr;
 
 /// Behaviour of a series of errors. Only [`Verdict::Converging`] supports a claimed order; every
-/// other word is a different way of not doing so.
+/// other verdict is a reason why it is not supported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Verdict {
