@@ -1,4 +1,4 @@
-//! From what a file says to numbers and formulas, with the place of whatever is wrong.
+//! Evaluates the texts of a file to numbers and formulas; errors have their position.
 
 mod cause;
 mod names;

@@ -43,7 +43,7 @@ pub(crate) enum SuiteSpec {
     Stability(Box<StabilitySpec>),
 }
 
-/// Keys that every suite has, whatever it studies.
+/// Keys of every suite, for any kind of study.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 pub(crate) struct Head {

@@ -171,7 +171,7 @@ impl fmt::Display for Diagnostic {
 
 impl std::error::Error for Diagnostic {}
 
-/// Words that are safe on a terminal: one line, nothing invisible, not too long.
+/// Text that is safe on a terminal: one line, no invisible characters, limited length.
 fn printable(words: &str) -> String {
     let mut safe = String::new();
     for (count, c) in words.chars().enumerate() {

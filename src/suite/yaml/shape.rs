@@ -1,5 +1,5 @@
-//! Rules for every suite file, whatever its keys mean: no key twice, no merge keys, no endless
-//! lists, only finite numbers.
+//! Rules for every suite file, independent of its keys: no duplicate keys, no merge keys, limited
+//! lists, finite numbers only.
 //!
 //! Checked in a walk of its own, because a typed reader notices a second key only after its
 //! value, and a field of type `f64` accepts `.nan`.

@@ -190,7 +190,7 @@ fn refuse_methods_without_heat(
     Ok(())
 }
 
-/// Inputs of a heat problem besides the scene.
+/// Inputs of a heat problem in addition to the scene.
 pub(crate) struct ConductionInputs {
     /// How the body deforms.
     pub(crate) motion: Option<Motion>,

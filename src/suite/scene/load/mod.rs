@@ -1,5 +1,5 @@
-//! Loads and effects of a scene: the family. A member is one file and one line of `members`, and an
-//! effect with physics of its own is a file of the solver's family besides.
+//! Family of the loads and effects of a scene. A member is one file and one line of `members`. An
+//! effect that no other one covers also has a file in the family of the solver.
 
 mod contract;
 mod entry;

@@ -116,7 +116,7 @@ proptest! {
         }
     }
 
-    /// Where a text stands verbatim, its parts are found; whatever the style.
+    /// If a text is verbatim in the file, its parts are located, in any quotation style.
     #[test]
     fn a_part_of_a_formula_is_where_it_says(
         style in prop::sample::select(vec!["", "'", "\""]),
