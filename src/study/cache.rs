@@ -56,8 +56,8 @@ impl ResultCache {
         Ok(Self { others: folders.to_vec(), ..cache })
     }
 
-    /// The result of a level: from the folder, or from `run`. `key` names all that the result
-    /// depends on besides the program; messages call the level `name`.
+    /// The result of a level: from the folder, or from `run`. `key` contains all inputs of the
+    /// result except the program; messages call the level `name`.
     pub(crate) fn level<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,

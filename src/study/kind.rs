@@ -44,9 +44,9 @@ pub(crate) trait Study: StudyPlan {
 pub struct StepWarning {
     /// Index of the case.
     pub case: usize,
-    /// Words of the warning.
+    /// Text of the warning.
     pub text: String,
-    /// Whether the step is too long, which a suite may mean: its expectations tell.
+    /// Whether the step is too long. A suite may intend this, with an expectation of it.
     pub is_too_long: bool,
 }
 

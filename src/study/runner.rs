@@ -1,4 +1,4 @@
-//! Running a suite, of whatever kind of study.
+//! Runs a suite of any kind of study.
 
 use super::cache::ResultCache;
 use super::kind::{CaseRunner, Progress, RunContext, StepWarning, statement, study};

@@ -1,10 +1,11 @@
-//! Time steps of levels: the stable step, the step by rule, and the steps that runs take.
+//! Time steps of levels: the stable step, the automatic step, and the step of a run.
 //!
-//! The stable step comes from [`crate::mpm::Solver::stable_time_step`], for the solver's own stages
-//! and the state at the start, and is at most `h/(c + |v|)`: neither a wave nor a particle crosses
-//! more than a cell. It is predicted before a run and holds for all of it, so that each level has
-//! one step and its order has a meaning. Where particles with linear functions move, later steps
-//! may have shorter limits (`tiny-nodal-mass`). The share of the rule is a margin for these.
+//! The stable step comes from [`crate::mpm::Solver::stable_time_step`], for the stages of the
+//! solver and the state at the start. It is at most `h/(c + |v|)`, so that neither a wave nor a
+//! particle crosses more than a cell. It is predicted before a run and constant during the run,
+//! because an order needs one step per level. If particles with linear functions move, later
+//! stability limits may be smaller (`tiny-nodal-mass`). An automatic step is a share of the stable
+//! step, as a margin for this.
 
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;

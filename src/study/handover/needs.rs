@@ -29,7 +29,7 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     needs
 }
 
-/// The needs of a scene, whatever is asked of it.
+/// The needs of a scene, independent of the judged quantities.
 pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         dimension: scene.dimension(),
