@@ -83,15 +83,15 @@ impl Rank {
 /// Two runs side by side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportComparison {
-    /// Suites whose problem is another one.
+    /// Suites whose problem has changed.
     pub(super) problems: Vec<ProblemMove>,
     /// Cases that changed, the most important first.
     pub(super) moved: Vec<Moved>,
-    /// Words that tell the cases that got worse from the others.
+    /// Words in the names of worse cases that other cases do not have.
     pub(super) shared_words: Vec<SharedWord>,
     /// Target errors whose least work moved, the more expensive first.
     pub(super) cheapest: Vec<CheapestMove>,
-    /// Cases of both runs that are the same.
+    /// Number of cases without a change.
     pub(super) unchanged: usize,
     /// Largest relative change of a figure that counts as none.
     pub(super) tolerance: f64,
@@ -120,7 +120,7 @@ pub(super) struct Moved {
     pub(super) work: Option<f64>,
     /// Transfers for the same error.
     pub(super) equal: Option<EqualError>,
-    /// Remarks besides the columns.
+    /// Remarks in addition to the columns.
     pub(super) notes: Vec<String>,
     /// Within a rank, the larger comes first.
     pub(super) weight: f64,

@@ -1,4 +1,4 @@
-//! Words that the names of worse cases have in common, as a hint to the cause.
+//! Common words in the names of worse cases, as a hint to the cause.
 
 use std::cmp::Reverse;
 use std::collections::BTreeSet;

@@ -271,7 +271,7 @@ fn limits_of_a_sweep(#[case] old: Value, #[case] new: Value, #[case] expected: O
     assert_eq!(rank(&after(&study(&old), |case| *case = new.clone())), expected);
 }
 
-/// The most important first, whatever the order of the suites; within a rank, the largest change.
+/// The most important change is first, for any order of the suites; within a rank, the largest.
 #[test]
 fn what_moved_is_sorted_by_importance() {
     let names = ["gone", "cheap", "costly", "costlier", "worse", "worst", "verdict", "unmet"];

@@ -217,7 +217,7 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
     };
     let (files, plots): (Vec<String>, Vec<HistoryPlot>) =
         studies(outcome).into_iter().filter_map(figure).unzip();
-    // Beside a method that runs away the others would be flat.
+    // On a shared axis with a diverging method, the other curves would be flat.
     let rises = || plots.iter().map(HistoryPlot::rise);
     let least = rises().fold(f64::INFINITY, f64::min);
     let alike = rises().fold(0.0, f64::max) <= MOST_ALIKE * least;

@@ -5,7 +5,7 @@
 pub(super) struct Html(String);
 
 impl Html {
-    /// Plain text, whatever is in it.
+    /// Plain text; special characters are escaped.
     pub(super) fn text(text: &str) -> Self {
         Self(escape(text))
     }

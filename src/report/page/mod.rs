@@ -27,7 +27,7 @@ use html::Html;
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
-/// Nothing may be fetched from anywhere, whatever a suite says.
+/// Content security policy: the page may not fetch anything, also if a suite contains HTML.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 

@@ -4,7 +4,7 @@
 use super::style::{FONT, INK, PAPER, TEXT, TITLE, style_sheet};
 use super::svg::{SvgElement, number};
 
-/// Room at both ends of a title, and above it.
+/// Margin at both ends of a title, and above it.
 const LEFT: f64 = 14.0;
 const TOP: f64 = 18.0;
 /// Height of a line of a title.

@@ -27,7 +27,7 @@ impl Triangle {
 #[derive(Clone, Debug)]
 pub(crate) struct TriangleRow {
     triangles: Vec<Triangle>,
-    /// Maximum width of the row, whatever the vertical axis.
+    /// Maximum width of the row, for any vertical axis.
     widest: f64,
 }
 
