@@ -65,8 +65,8 @@ impl SuiteFolder {
         self
     }
 
-    /// Two snapshots of all suites besides: `OVERVIEW`, what came of each case and the matrix of
-    /// problems and methods, and `profile`, memory and passes of a step.
+    /// Adds two snapshots of all suites: `OVERVIEW`, with the result of each case and the matrix of
+    /// problems and methods, and `profile`, with the memory and passes of a step.
     #[must_use]
     pub fn with_overview(mut self) -> Self {
         self.0.with_overview = true;

@@ -8,10 +8,10 @@ use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::patient::Hindrance;
 use std::f64::consts::SQRT_2;
 
-/// Distance from the rim (cells) up to which functions see nodes beyond it.
+/// Distance from the rim (cells) within which the support of a function reaches nodes beyond it.
 const RIM: f64 = 1.6;
 
-/// Causes that show themselves whatever the size of the error: limits, and cells.
+/// Causes that are visible for any size of the error: limits and cells.
 pub(super) fn plain(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     limit(motion).or_else(|| light_nodes(motion)).or_else(|| crossing(motion))
 }
@@ -42,8 +42,9 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
     Ok(slowed.unwrap_or_else(|| weights(motion, low, high, (way, speed))))
 }
 
-/// Points that slow unevenly, as much in a second whatever the step: weights cost a share of the
-/// speed in each step, or none. `motion` has no stiffness, so that points do not pull each other.
+/// Non-uniform drag: points slow down by different amounts, at a rate per time that does not depend
+/// on the step. A defect of weights would cost a share of the speed per step instead. `motion` has
+/// no stiffness, so that points exert no forces on each other.
 fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
