@@ -122,7 +122,7 @@ enum Color {
 }
 
 impl ColorArgs {
-    /// Tells both streams.
+    /// Sets the choice of colours for both output streams.
     pub(super) fn write_global(&self) {
         match self.color {
             Color::Auto => ColorChoice::Auto,

@@ -47,8 +47,8 @@ impl SolverGate {
         if self.allows_not_applicable { BTreeSet::new() } else { self.named.clone() }
     }
 
-    /// Prints the exceptions, and what keeps the solver from passing besides cases that fail;
-    /// returns whether nothing does.
+    /// Prints the exceptions, and reasons other than failed cases why the solver does not pass.
+    /// Returns whether there are no such reasons.
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {
         for (suite, case) in cases(outcomes) {
             if case.exemption == Some(Exemption::Excepted) {

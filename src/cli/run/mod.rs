@@ -74,8 +74,8 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
     Ok((runs, Judging { kept, solvers, repeat, series, at_interrupt }))
 }
 
-/// Runs suites one after the other, each in parallel; whatever has been finished is printed, also
-/// if something later cannot be used.
+/// Runs suites one after the other, each in parallel. Reports of finished suites are printed, also
+/// if a later file cannot be used.
 fn report(
     args: &ReportArgs,
     choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError>,
