@@ -18,7 +18,7 @@ pub struct Capabilities {
     pub conditions: Vec<String>,
     /// Loads and effects, by their names in suites.
     pub loads: Vec<String>,
-    /// Columns of its state besides displacement and velocity.
+    /// Columns of its state in addition to displacement and velocity.
     pub columns: Vec<String>,
     /// Whether it takes a body force that is known by its values only.
     pub manufactured: bool,

@@ -24,9 +24,9 @@ pub trait SolverFactory: Sync {
         Vec::new()
     }
 
-    /// A number that stands for all that its results depend on besides the problem: its program
-    /// and arguments. Results are kept for a later run of a solver with the same number, and of one
-    /// that has none (the default) not at all.
+    /// Hash of all inputs of the results except the problem: the program and its arguments. Results
+    /// are cached for later runs of a solver with the same hash. `None` (the default): results are
+    /// not cached.
     fn identity(&self) -> Option<u64> {
         None
     }

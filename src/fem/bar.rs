@@ -206,7 +206,8 @@ impl Bar {
         self.count_visits();
     }
 
-    /// Tractions, whose sign is that of the outward normal; the support takes what is left.
+    /// Adds the tractions, whose sign is that of the outward normal. The reaction of the support
+    /// balances the rest.
     fn add_ends(&mut self) {
         let last = self.acceleration.len() - 1;
         for (end, (node, normal)) in [(0, -1.0), (last, 1.0)].into_iter().enumerate() {
@@ -317,7 +318,8 @@ fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
 const PLACES: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
 impl Bar {
-    /// Writes the present state as it is seen at `sampling`, whatever the setup says.
+    /// Writes the present state at the points of `sampling`, which may differ from those of the
+    /// set-up.
     pub fn sample_as(&self, sampling: Sampling, samples: &mut Samples) {
         samples.clear();
         samples.dimension = 1;

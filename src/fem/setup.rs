@@ -110,7 +110,7 @@ pub enum SetupError {
 }
 
 impl BarSetup {
-    /// Refuses whatever has no meaning. Each comparison is such that NaN fails it.
+    /// Refuses invalid values. NaN fails each comparison.
     pub(super) fn check(&self) -> Result<(), SetupError> {
         let Self { from, to, cells, density, .. } = *self;
         if !(1..=MOST_CELLS).contains(&cells) {

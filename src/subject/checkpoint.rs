@@ -1,10 +1,8 @@
-//! The state of a subject in the middle of a run, as bytes: written down, and taken back bit by
-//! bit.
+//! The state of a subject during a run as bytes, recorded and restored bit for bit.
 //!
-//! One visit does both ([`Memory::visit`]), so that nothing can be written and not be read again.
-//! Numbers are eight bytes each, the lowest first, whatever the machine; nothing is named. So bytes
-//! mean something to the same program and the same set-up only, and whoever keeps them must see to
-//! that.
+//! One visit does both ([`Memory::visit`]), so that every number that is written is also read.
+//! Numbers have eight bytes in little-endian order on any machine, and no names. So the bytes are
+//! valid only for the same program and the same set-up, which the caller must ensure.
 
 use super::{Samples, Totals};
 
@@ -275,7 +273,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 
-        /// NaN, -0 and all; whatever was there before.
+        /// All bits are restored, including NaN and -0, for any previous state.
         #[test]
         fn every_bit_comes_back(x in prop::num::f64::ANY, n in any::<u64>(), m in any::<u64>()) {
             let bytes = written(&mut some(x, n));

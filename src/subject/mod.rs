@@ -94,10 +94,10 @@ named! {
     /// Meaning of the initial velocity `v0` in the first step.
     ///
     /// A step of Euler-Cromer, `v += dt a(u)`, `u += dt v`, is a leapfrog whose velocities are half
-    /// a step behind. So the start alone decides the order in time.
+    /// a step behind. So the start determines the order in time.
     pub enum Start {
-        /// `v0` stands in for `v(-dt/2)`, as in the talk. That is a push of `dt/2 a0` too much:
-        /// first order in time, unless the initial acceleration `a0` is zero.
+        /// `v(-dt/2) = v0`, as in the talk. This is a velocity error of `dt/2 a0`: first order in
+        /// time, unless the initial acceleration `a0` is zero.
         AtZero = "at_zero",
         /// `v(-dt/2) = v0 - dt/2 a0`, the "CD" start of Wallstedt & Guilkey (2008): second order.
         HalfStepBack = "half_step_back",

@@ -102,8 +102,8 @@ impl SolverProgram {
     }
 }
 
-/// A hash of the command, of the files that its words name, and of what the solver says of itself.
-/// Modules of its language and the like, which a program reads besides, are known by its version.
+/// Hash of the command, of the files that its arguments name, and of the hello message. Other files
+/// that the program reads, such as modules, are represented by the version in this message.
 fn identity(command: &[String], hello: &Hello) -> u64 {
     let mut all = DefaultHasher::new();
     (command, format!("{hello:?}")).hash(&mut all);
