@@ -22,9 +22,9 @@ const KEYS_IN: &[&str] =
 pub(crate) struct Repository {
     /// Paths of all files.
     pub(crate) files: BTreeSet<String>,
-    /// Words of the code: of sources, tests and benches, with their strings.
+    /// All words in sources, tests and benches, including strings.
     pub(crate) words: BTreeSet<String>,
-    /// Words of `src/report`, with their strings: the keys of the JSON are among them.
+    /// All words in `src/report`, including strings, and so the keys of the JSON.
     pub(crate) keys: BTreeSet<String>,
     /// The text of `Cargo.toml`.
     pub(crate) manifest: String,

@@ -10,7 +10,7 @@ pub(crate) struct Import {
     pub(crate) line: usize,
     /// The name that a `use` gives it in its file; none for a path outside of `use`.
     pub(crate) name: Option<String>,
-    /// Whether it is a `pub use`, of whatever visibility.
+    /// Whether it is a `pub use`, with any visibility.
     pub(crate) exported: bool,
 }
 

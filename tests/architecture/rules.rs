@@ -169,8 +169,8 @@ pub(crate) fn is_in(module: &[String], part: &str) -> bool {
     part.split("::").all(|wanted| names.next().is_some_and(|name| name == wanted))
 }
 
-/// Files besides `allowed` (a path, or a folder that ends in `/`) that have all of `wanted`, each
-/// a run of tokens.
+/// Breaches by files outside `allowed` (a file, or a folder that ends in `/`) with all sequences of
+/// tokens in `wanted`.
 pub(crate) fn mentions(sources: &[Source], wanted: &[&[&str]], allowed: &str) -> Vec<Breach> {
     let elsewhere = sources.iter().filter(|source| !source.file.starts_with(allowed));
     elsewhere

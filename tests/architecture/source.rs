@@ -15,9 +15,9 @@ pub(crate) struct Source {
     /// Path from the root of the repository, with `/`.
     pub(crate) file: String,
     pub(crate) module: Module,
-    /// Without comments, strings and whatever stands under `#[cfg(test)]`.
+    /// Code without comments, strings and items under `#[cfg(test)]`.
     pub(crate) code: Vec<Token>,
-    /// The code that stands there.
+    /// Code under `#[cfg(test)]`.
     pub(crate) tests: Vec<Token>,
     /// Whether all of the file is compiled for tests only.
     pub(crate) for_tests: bool,

@@ -18,7 +18,7 @@ const GATES: [(&str, &str); 12] = [
     ("expected ", "bound"),
 ];
 
-/// The gate that says `line`. A wrong order is a gate of its own, whatever the verdict is called.
+/// The gate that reports `line`. A wrong order is a separate gate, for any verdict.
 pub(crate) fn gate(case: &CaseOutcome, line: &str) -> &'static str {
     if case.study.is_none() {
         return "verdict";

@@ -4,7 +4,7 @@ use super::samples::{BAR, COLUMN, PLATE, PULLED};
 use super::{Edits, refused};
 use rstest::rstest;
 
-/// Refuses, and demands a place, a time and both numbers besides `words`.
+/// Asserts an error with a place, a time and both numbers in addition to `words`.
 fn violated(sound: &str, edits: Edits<'_>, words: &[&str]) {
     let figures = [" is violated at X = (", "), t = ", "expected ", ", found ", " (off by "];
     let label = ["this is not a solution of the problem that the scene states"];

@@ -141,8 +141,8 @@ fn crash<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) 
     ends.into_iter().zip(speeds).map(body).collect()
 }
 
-/// Whatever two bodies that collide are to each other, one far away that is listed before them is
-/// nothing to them, bit for bit.
+/// A distant body that is listed before two colliding bodies does not change their result, bit for
+/// bit.
 #[rstest]
 fn a_body_far_away_changes_no_contact(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
@@ -191,8 +191,8 @@ fn bodies_that_collide_keep_their_momentum(
     in_dimension!(dimension, momentum_is_kept(scheme));
 }
 
-/// Two layers without ends along X, one on the other, pressed together and sliding: impulses on
-/// the upper one along its surface and across it.
+/// Two periodic layers that are pressed together and slide: impulses on the upper layer along the
+/// interface and normal to it.
 fn pressed(method: (BasisName, TransferName), scheme: SchemeName, friction: f64) -> [f64; 2] {
     let layer = |low: f64, v: Vector<2>| {
         let mut setup = free_body::<2>(method, scheme);

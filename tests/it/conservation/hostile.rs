@@ -158,7 +158,7 @@ fn a_field_that_is_no_number_is_named(
     in_dimension!(dimension, names_the_culprit(value));
 }
 
-/// A body in which one particle is whatever the numbers say.
+/// A body in which the numbers set the state of one particle.
 fn survives<const D: usize>(scene: &Scene, numbers: &[f64]) {
     let mut particles = body::<D>();
     let mut numbers = numbers.iter().copied();

@@ -1,5 +1,5 @@
-//! Processes that break the protocol, each in its own way. Whatever they do, the other levels go
-//! on, and the verdict says what happened.
+//! Processes that break the protocol in different ways. The other levels still run, and the verdict
+//! names the violation.
 
 use super::bar;
 use super::program::HELLO;
@@ -115,7 +115,7 @@ fn a_gate_fails_with_its_solver() {
     assert_eq!(run(&script("exit 1"), &["--gate", "--brief"]).0, FAILED);
 }
 
-/// Whatever a process has started dies with it.
+/// Child processes of a solver are killed with it.
 #[test]
 fn no_grandchild_is_left() {
     let folder = Folder::new();

@@ -308,7 +308,7 @@ methods:
   - mpm: {basis: linear, transfer: flip, scheme: usl, frame: total_lagrangian}
 "#;
 
-/// A hundred times what is left is not yet too much.
+/// A tolerance of a hundred times the residual is not noted.
 #[test]
 fn a_tolerance_with_some_room_is_not_noted() {
     let source = embedded::source("acoustic-column").expect("a suite").expect("a text");
