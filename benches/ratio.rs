@@ -195,7 +195,8 @@ fn flip(count: f64) {
     same("1d/linear/flip/g2p", ours_advected.iter().flatten(), advected.iter());
 }
 
-/// Length of a step (s): a body of modulus 1 Pa moves by less than a tenth of a cell in all repeats.
+/// Length of a step (s): a body of modulus 1 Pa moves by less than a tenth of a cell in all
+/// repeats.
 const DT: f64 = 1e-4;
 
 /// Solver of a scene whose velocities are a thousandth, with its Lame constants (Pa).

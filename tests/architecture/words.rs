@@ -112,6 +112,23 @@ pub(crate) const OLD_PHRASES: &[(&str, &str)] = &[
 pub(crate) const PLAIN_FILES: &[(&str, &str)] =
     &[("verification", ".yaml"), ("verification", ".md")];
 
+/// Folders whose comments have none of the `UNCLEAR_PHRASES` and `UNCLEAR_BEGINNINGS`.
+pub(crate) const PLAIN_SOURCES: &[&str] = &["src", "benches", "tests", "examples"];
+
+/// Beginnings of comments that point at a neighbouring item or name no limit, each with a better one.
+pub(crate) const UNCLEAR_BEGINNINGS: &[(&str, &str)] = &[
+    ("What", "a noun phrase"),
+    ("Whatever", "a noun phrase"),
+    ("The same", "the name of the item"),
+    ("Those", "the name of the items"),
+    ("That of", "the name of the item"),
+    ("Most", "Maximum number of"),
+    ("Fewest", "Minimum number of"),
+    ("Longest", "Maximum length of"),
+    ("Shortest", "Minimum length of"),
+    ("Least", "Minimum"),
+];
+
 /// Idioms and archaic phrases that a reader must decode, in lower case, each with a plain one.
 pub(crate) const UNCLEAR_PHRASES: &[(&str, &str)] = &[
     ("of which", "whose, with, or two sentences"),
@@ -226,7 +243,7 @@ pub(crate) fn old_phrases(texts: &[Text]) -> Vec<Breach> {
     texts.iter().flat_map(of_text).collect()
 }
 
-/// Texts with an unclear phrase, in any case of letters, also across the end of a line.
+/// Breaches by texts with an unclear phrase, in upper or lower case, also across the end of a line.
 pub(crate) fn unclear_phrases(texts: &[Text]) -> Vec<Breach> {
     let of_text = |(file, text): &Text| -> Vec<Breach> {
         let lowered = text.to_lowercase();
@@ -312,24 +329,35 @@ fn is_type(token: &Token) -> bool {
     token.text.starts_with(|c: char| c.is_uppercase())
 }
 
-/// Comments that begin with "What", and those whose lines are too long.
+/// The comments of sources, line by line: a line without a comment is empty.
+pub(crate) fn of_comments(texts: &[Text]) -> Vec<Text> {
+    let comment = |line: &str| line.trim_start().strip_prefix("//").map(str::to_owned);
+    let prose = |line: &str| {
+        comment(line).unwrap_or_default().trim_start_matches(['/', '!']).trim().to_owned() + "\n"
+    };
+    texts.iter().map(|(file, text)| (file.clone(), text.lines().map(prose).collect())).collect()
+}
+
+/// Breaches by lines of comments with an unclear beginning, and by those that are too long.
 pub(crate) fn comments(texts: &[Text]) -> Vec<Breach> {
-    let of_line = |file: &String, at: usize, line: &str| -> Option<Breach> {
-        let bare = line.trim_start();
-        let said = bare.strip_prefix("//")?.trim_start_matches(['/', '!']).trim_start();
-        let documented = bare.starts_with("///") || bare.starts_with("//!");
-        let first = said.split(' ').next().unwrap_or_default();
-        let what = if documented && matches!(first, "What" | "Whatever") {
-            "begins with \"What\"".to_owned()
-        } else if line.chars().count() > LONGEST_COMMENT {
-            format!("is a comment of {} columns", line.chars().count())
-        } else {
-            return None;
+    let of_line = |file: &String, at: usize, (line, prose): (&str, &str)| -> Option<Breach> {
+        let begins = |word: &str| {
+            prose.strip_prefix(word).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+        };
+        let unclear = UNCLEAR_BEGINNINGS.iter().find(|(word, _)| begins(word));
+        let columns = line.chars().count();
+        let what = match unclear {
+            Some((word, better)) => format!("begins with \"{word}\": write `{better}`"),
+            None if !prose.is_empty() && columns > LONGEST_COMMENT => {
+                format!("is a comment of {columns} columns")
+            }
+            None => return None,
         };
         Some(Breach { file: file.clone(), line: at + 1, what })
     };
-    let of_text = |(file, text): &Text| -> Vec<Breach> {
-        text.lines().enumerate().filter_map(|(at, line)| of_line(file, at, line)).collect()
+    let of_text = |((file, text), (_, prose)): (&Text, &Text)| -> Vec<Breach> {
+        let lines = text.lines().zip(prose.lines()).enumerate();
+        lines.filter_map(|(at, line)| of_line(file, at, line)).collect()
     };
-    texts.iter().flat_map(of_text).collect()
+    texts.iter().zip(&of_comments(texts)).flat_map(of_text).collect()
 }

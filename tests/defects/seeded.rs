@@ -1,7 +1,7 @@
 //! Switches of seeded defects, in the scratch copy that `ci/defects` builds only.
 //!
-//! The variable `SEEDED` has the number of the defect that is on; with `SEEDED_REACHED` every switch that
-//! is come to is noted in that file.
+//! The variable `SEEDED` has the number of the active defect. With `SEEDED_REACHED`, the number of
+//! every executed switch is written to that file.
 
 use std::env;
 use std::fs::OpenOptions;

@@ -29,8 +29,8 @@ fn column(case: &Value, key: &str) -> Vec<f64> {
     levels.iter().map(|level| level[key].as_f64().expect("a number")).collect()
 }
 
-/// A run takes a whole number of steps: 7e-4 s becomes a 71st of the run. The judge must see what was
-/// taken.
+/// A run has a whole number of steps: a step of 7e-4 s becomes 1/71 of the run. The judge must use
+/// the actual step.
 #[test]
 fn refined_time_steps_are_the_ones_that_are_taken() {
     let text =

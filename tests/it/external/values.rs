@@ -249,7 +249,8 @@ fn fields_agree_with_the_particles(#[case] name: &str) {
     }
 }
 
-/// Nodes on the rim of a disk belong to it, and on the axis of a body of revolution stress is known.
+/// Nodes on the rim of a disk belong to the disk, and the stress on the axis of a body of
+/// revolution is defined.
 #[test]
 fn nodes_on_a_rim_and_on_an_axis_are_inside() {
     let ring = problem_of("expanding-ring");

@@ -239,8 +239,8 @@ fn a_linearised_solution(
     assert!(tripped.to_string().contains(words), "{tripped}");
 }
 
-/// A stiff rod that turns, stretched by the first term of its series: the second, which is left out,
-/// is (w l/c)^4 l/5 = 2e-5 m at the ends. The rod does not drift away as a free mass would.
+/// A stiff rotating rod whose stated stretch is the first term of a series. The omitted second term
+/// is (w l/c)^4 l/5 = 2e-5 m at the ends. The rod does not drift away like a free mass.
 #[test]
 fn a_stiff_body_follows_what_a_linearised_solution_leaves() {
     let source = embedded::source("rotating-rod").expect("a suite").expect("a text");

@@ -1,5 +1,5 @@
-//! The grammar of a suite as its own error messages tell it: a value that can stand nowhere is put at
-//! a place, and the answer lists what may stand there. So every word comes from its registration.
+//! The grammar of a suite, derived from its error messages: an invalid value is put at a path, and
+//! the error lists the allowed keys or names. So every name comes from its registration.
 
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
