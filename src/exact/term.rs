@@ -60,7 +60,7 @@ pub trait Term: Debug + Send + Sync {
 /// The material points in a box.
 #[derive(Debug, Clone)]
 pub struct Region {
-    /// Name that a suite gives it.
+    /// Name in the suite.
     pub name: String,
     /// Lowest corner (m).
     pub from: Vec<f64>,

@@ -30,7 +30,7 @@ pub trait Outline: Debug + Send + Sync {
     /// Lowest and highest corner of the box around the body (m).
     fn ends(&self) -> (Vec<f64>, Vec<f64>);
 
-    /// Whether the point with reference position `label` belongs to the body.
+    /// Whether the body contains the point with reference position `label`.
     fn holds(&self, label: &[f64]) -> bool;
 
     /// Distance (m) of a point from the body, whose holes count as filled.
@@ -68,9 +68,10 @@ pub trait Outline: Debug + Send + Sync {
     /// Centre and half-lengths of a box inside the body.
     fn patch(&self, random: &mut Random) -> (Vec<f64>, Vec<f64>);
 
-    /// Maps of boxes that cover the body: ends of the coordinates of each.
+    /// Charts: maps of boxes that cover the body. Returns the ranges of the coordinates of each.
     fn charts(&self) -> Vec<Vec<(f64, f64)>>;
 
-    /// The point of a chart with such coordinates, and the volume of the body per unit of them.
+    /// The point of a chart at `coordinates`, and the volume of the body per unit of the
+    /// coordinates.
     fn place(&self, chart: usize, coordinates: &[f64]) -> (Vec<f64>, f64);
 }

@@ -1,4 +1,4 @@
-//! The one line that says why, for a reader who has only the figures.
+//! The reason of a verdict, in one line with figures.
 
 use super::name::Verdict;
 use crate::verify::order::fit::{FittedLine, LogPoint};
@@ -34,7 +34,7 @@ pub(crate) enum Reason {
 }
 
 impl Reason {
-    /// The sentence, ended by the order over the window if there is one.
+    /// The sentence, which ends with the order over the window if there is one.
     pub(crate) fn sentence(
         &self,
         levels: &[Level],
