@@ -47,7 +47,7 @@ mod tests {
     use approx::{assert_abs_diff_eq, assert_relative_eq};
     use rstest::rstest;
 
-    /// `n` instants of an energy, all kinetic at some times and all stored at others.
+    /// `n` instants of an energy, which is kinetic at some times and stored at others.
     fn account(n: usize, energy: impl Fn(f64) -> f64) -> Vec<(f64, Totals)> {
         let at = |i: usize| {
             let (t, share) = (i as f64, (i % 3) as f64 / 2.0);
@@ -67,8 +67,8 @@ mod tests {
         assert_abs_diff_eq!(found.half_width(), 0.0, epsilon = 1e-12);
     }
 
-    /// A swing of a tenth, twenty instants long, moves the rate by next to nothing where parts hold
-    /// whole swings, and widens the interval where they do not.
+    /// An oscillation of 10 % with a period of twenty instants hardly changes the rate if parts
+    /// contain whole periods, and widens the interval otherwise.
     #[test]
     fn a_swing_is_no_drift() {
         let swing = |t: f64| 1.0 + 0.1 * libm::sin(t * std::f64::consts::PI / 10.0);

@@ -3,10 +3,9 @@
 //! With an error ~ h^p and a work ~ h^-g the exponent is -g/p: g = D + 1 where cells are refined
 //! and time steps follow h, D where they stay, 1 where time steps alone are refined.
 //!
-//! The line is fitted to `ln error` over `ln work`, since work is counted and has no noise, and
-//! then turned: the exponent is one over its slope, and so are the ends of the interval (the
-//! fiducial limits of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed.,
-//! section 3.2).
+//! The line is fitted to `ln error` over `ln work`, because work is counted and has no noise. The
+//! exponent is the inverse of its slope, and so are the ends of the interval (the fiducial limits
+//! of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed., section 3.2).
 
 use super::sample::{ConvergingPart, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
@@ -71,7 +70,7 @@ impl Exponent {
         let errors = slope(|one| one.spacing, |one| one.error)?.slope;
         let works = slope(|one| one.spacing, |one| one.work)?.slope;
         Some(Self {
-            // Of a falling slope the steep end is the cheap one.
+            // The steep end of a falling slope gives the low cost.
             observed: Interval {
                 value: 1.0 / fall.value,
                 low: 1.0 / fall.high,

@@ -16,11 +16,11 @@ pub struct MethodCost {
     pub samples: Vec<Sample>,
     /// The order of the error in theory.
     pub formal_order: f64,
-    /// The growth of the work in theory, see [`ErrorScale`](crate::verify::ErrorScale).
+    /// Theoretical growth of the work, see [`ErrorScale`](crate::verify::ErrorScale).
     pub growth: f64,
 }
 
-/// A method and what accuracy costs with it.
+/// A method with its cost of accuracy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranked {
     /// The method.
@@ -43,18 +43,18 @@ pub struct Ranked {
 /// The methods of one problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking {
-    /// The problem, in words.
+    /// The problem, as text.
     pub problem: String,
     /// Divisor of the errors.
     pub size: f64,
-    /// The errors that were asked for, coarse to fine.
+    /// Target errors, from coarse to fine.
     pub targets: Vec<f64>,
     /// The methods: by the work at the finest target, then at the next coarser one.
     pub rows: Vec<Ranked>,
 }
 
 impl Ranking {
-    /// Ranks `contenders` by what they take for each of `targets`.
+    /// Ranks `methods` by their work for each of `targets`.
     pub fn new(problem: String, size: f64, targets: &[f64], methods: Vec<MethodCost>) -> Self {
         let all: Vec<(usize, usize, Sample)> = methods
             .iter()
@@ -101,7 +101,7 @@ fn ranked(method: MethodCost, targets: &[f64], front: Vec<usize>) -> Ranked {
 }
 
 impl Ranked {
-    /// Why it does not reach the finest target; none if it does.
+    /// Why it does not reach the finest target; `None` if it does.
     pub fn obstacle(&self) -> Option<End> {
         let reached = self.reaches.last().is_some_and(|reach| reach.work().is_some());
         (!reached).then_some(self.part.end)

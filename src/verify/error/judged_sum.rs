@@ -41,7 +41,7 @@ impl JudgedSum {
         self.exact.size()
     }
 
-    /// The difference from the exact sum at time `t` (s); NaN of a subject that does not say it.
+    /// The difference from the exact sum at time `t` (s); NaN if the subject does not report it.
     pub(super) fn error(&self, subject: &dyn Subject, t: f64) -> [f64; 3] {
         let found = match self.of.sum().map(|sum| sum.computed) {
             Some(ComputedSum::OfTotals(value)) => {

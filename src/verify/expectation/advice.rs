@@ -1,5 +1,5 @@
-//! Comparison of an observed order with the range that a suite could claim, and advice on what
-//! keeps a claim from being stronger.
+//! Comparison of an observed order with the range that a suite could expect, and advice for a
+//! stronger expectation.
 
 use crate::verify::convergence::{Convergence, LevelOutcome};
 use crate::verify::error::norm::NormName;
@@ -36,7 +36,7 @@ pub(crate) fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome
 /// An interval of the order wider than this to each side gains from more levels.
 const WIDE: f64 = 0.03;
 
-/// The reasons why a claim is no stronger, and what would make it so: more levels, or another norm.
+/// The reasons why an expectation cannot be stronger, and remedies: more levels, or another norm.
 pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     let mut advice = Vec::new();
     let usable = counted(study).count();
@@ -70,7 +70,7 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     advice
 }
 
-/// The norm in which the order is clearest, if that is another one than the judged, and by far.
+/// The norm with the clearest order, if it is much clearer than in the judged norm.
 fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     const CLEARLY: f64 = 0.5;
     if judged.half_width() <= WIDE {

@@ -17,9 +17,9 @@ pub type Bounds = (f64, f64);
 /// is present must hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expectation {
-    /// The verdict that must come out; none is asked of a case that only limits bind.
+    /// The expected verdict; `None` for a case with limits only.
     pub verdict: Option<Verdict>,
-    /// Bounds that must hold the whole confidence interval of the observed order.
+    /// Bounds that must contain the whole confidence interval of the observed order.
     pub order: Option<Bounds>,
     /// Bounds on the order between the two finest levels.
     pub finest_pair: Option<Bounds>,

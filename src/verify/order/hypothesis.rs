@@ -20,8 +20,7 @@ impl OrderHypothesis {
     /// the gap between two methods whose orders differ by a half.
     pub const TOLERANCE: f64 = 0.1;
 
-    /// The widest range that still says something: a wider one could not tell neighbouring
-    /// integer orders apart.
+    /// Maximum width of a range: a wider one could not distinguish neighbouring integer orders.
     pub const WIDEST: f64 = 1.0;
 
     /// The formal order, with the usual tolerance.
@@ -29,7 +28,7 @@ impl OrderHypothesis {
         Self { formal_order: order, expected: None, axis: Axis::Space }
     }
 
-    /// The formal order, with a range of its own.
+    /// The formal order, with a stated range.
     pub const fn within(order: f64, low: f64, high: f64) -> Self {
         Self { formal_order: order, expected: Some((low, high)), axis: Axis::Space }
     }

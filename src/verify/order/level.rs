@@ -5,8 +5,8 @@ use crate::named::named;
 use std::cmp::Ordering;
 
 named! {
-    /// An axis of refinement. Errors of the axes add up, so that refining one of them alone ends at
-    /// the error of the others.
+    /// An axis of refinement. Errors of the axes add up, so that refining a single axis ends at the
+    /// error of the others.
     pub enum Axis {
         /// Cells. The time step may follow as a formula of h.
         Space = "space",
@@ -18,7 +18,7 @@ named! {
 }
 
 impl Axis {
-    /// The symbol of the spacing that is judged, as sentences and tables write it.
+    /// The symbol of the refined spacing, for sentences and tables.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Space => "h",
@@ -27,7 +27,7 @@ impl Axis {
         }
     }
 
-    /// The spacing in words.
+    /// Noun for the spacing.
     pub fn noun(self) -> &'static str {
         match self {
             Self::Space => "cell size",
@@ -86,8 +86,9 @@ impl Level {
     }
 }
 
-/// Sorts from coarse to fine and merges identical levels; one that counts and one that does not
-/// merge into one that does not. The diagnostic names the first thing that makes the series void.
+/// Sorts from coarse to fine and merges identical levels; if one of these does not count, the
+/// merged level does not count. The diagnostic names the first defect that makes the series
+/// invalid.
 pub(crate) fn arrange(levels: &[Level], axis: Axis) -> (Vec<Level>, Option<String>) {
     let mut sorted = levels.to_vec();
     sorted.sort_by(|a, b| b.h.total_cmp(&a.h).then(a.error.total_cmp(&b.error)));

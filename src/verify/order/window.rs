@@ -32,7 +32,8 @@ const SELECTION_RISK: f64 = 0.005;
 /// choosing the window of noise-free data, where any departure is statistically significant.
 const MATERIAL: f64 = 0.05;
 
-/// An order below this is no fall: over a halving of `h` the error changes by less than 15 %.
+/// Maximum order that does not count as a fall: over a halving of `h` the error changes by less
+/// than 15 %.
 pub(crate) const FLAT_ORDER: f64 = 0.2;
 
 /// Where the error falls by less than this fraction of the order before (and of the formal
@@ -52,7 +53,7 @@ impl Window {
         Some(Self { range, line })
     }
 
-    /// Whether the error leaves the line at the fine end for a floor.
+    /// Whether the error departs from the line at the fine end because of a floor.
     pub(crate) fn meets_floor(&self, points: &[LogPoint], formal_order: f64) -> bool {
         let end = self.range.end;
         let above = points[end..].iter().all(|p| self.line.departure(p) > 0.0);
@@ -62,7 +63,7 @@ impl Window {
             && FittedLine::through(&points[end - 1..]).is_some_and(|tail| tail.slope.abs() < limit)
     }
 
-    /// Whether what lies outside may be dropped, were there evidence to do so.
+    /// Whether the levels outside this window may be dropped, if there is evidence.
     fn may_drop_rest(&self, points: &[LogPoint], formal_order: f64) -> bool {
         let Range { start, end } = self.range;
         let departures = |rest: &[LogPoint]| -> Vec<f64> {
@@ -77,14 +78,15 @@ impl Window {
             && (fine.is_empty() || self.meets_floor(points, formal_order))
     }
 
-    /// Whether the F-test rejects, at the level `risk`, that what `shorter` drops lies on its line.
+    /// Whether the F-test rejects, at the significance level `risk`, that the levels dropped by
+    /// `shorter` lie on its line.
     fn is_rejected_by(&self, shorter: &Self, risk: f64) -> bool {
         let dropped = self.range.len() - shorter.range.len();
         let freedom = shorter.range.len() - 2;
         variance_ratio::regularised(shorter.line.rss / self.line.rss, freedom, dropped) < risk
     }
 
-    /// The longest shorter window for which there is strong evidence.
+    /// The longest shorter window with strong evidence.
     fn improved(&self, points: &[LogPoint], formal_order: f64) -> Option<Self> {
         let candidates = shorter_ranges(&self.range);
         let risk = SELECTION_RISK / candidates.len() as f64;
@@ -94,8 +96,8 @@ impl Window {
     }
 }
 
-/// The asymptotic window among the points before `end`, where a floor begins if one is known
-/// to; None if there are too few, or no line through them.
+/// The asymptotic window among the points before `end` (the beginning of a floor, if one is known);
+/// `None` if there are too few points, or no line through them.
 pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> Option<Window> {
     if end < FEWEST_LEVELS {
         return None;
@@ -107,7 +109,8 @@ pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> 
     Some(window)
 }
 
-/// Contiguous parts with enough levels, the longest first, of equal ones the finer first.
+/// Contiguous parts with enough levels, sorted by decreasing length, finer parts first among
+/// equals.
 fn shorter_ranges(range: &Range<usize>) -> Vec<Range<usize>> {
     (FEWEST_LEVELS..range.len())
         .rev()

@@ -20,8 +20,8 @@ pub struct StabilityExpectation {
 /// Bounds of a figure; all that are given must hold.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FigureBounds {
-    /// A value, and how far from it the figure may be: a share of the value, or of one if that is
-    /// larger.
+    /// A value, and the maximum difference of the figure: a share of the value, or of one if that
+    /// is larger.
     pub is: Option<(f64, f64)>,
     /// The least.
     pub above: Option<f64>,
@@ -30,7 +30,7 @@ pub struct FigureBounds {
 }
 
 impl FigureBounds {
-    /// Bounds that do not hold, in words. Written so that NaN never holds.
+    /// Bounds that do not hold, as text. NaN meets no bound.
     fn unmet(&self, name: &str, got: f64) -> Vec<String> {
         let mut unmet = Vec::new();
         if let Some((value, within)) = self.is {

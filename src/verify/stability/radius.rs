@@ -6,8 +6,8 @@ use nalgebra::linalg::Schur;
 /// Iterations of the QR algorithm after which powers of the matrix answer instead.
 const PATIENCE: usize = 1_000;
 
-/// An entry below the diagonal counts as zero if it is this share of its neighbours on it. With
-/// less than some tens of roundings the algorithm waits for what rounding does not let happen.
+/// An entry below the diagonal counts as zero below this share of its neighbours on the diagonal. A
+/// threshold below some tens of rounding errors is never reached.
 const SMALL: f64 = 1e-13;
 
 /// Squarings of the matrix: powers up to 2^30.

@@ -1,12 +1,13 @@
-//! Shapes of a series that rule out an order, told by ratios of errors only: no absolute number
-//! enters, so that neither the unit of the error nor that of `h` matters.
+//! Shapes of a series that exclude an order. They are recognised by ratios of errors only, so that
+//! the units of the error and of `h` have no effect.
 
 use std::f64::consts::LN_2;
 
 use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::window::{FEWEST_LEVELS, FLAT_ORDER};
 
-/// A divergence must at least double the error: what grows less may be the noise of a floor.
+/// Minimum total growth of a divergent series: a factor of two. Smaller growth may be noise on a
+/// floor.
 const LEAST_GROWTH: f64 = LN_2;
 
 /// Maximum range of ln(error) on a floor: a factor of two, as for round-off noise of -+ 30 %.
@@ -91,7 +92,7 @@ fn spread(points: &[LogPoint]) -> f64 {
     ys().fold(f64::NEG_INFINITY, f64::max) - ys().fold(f64::INFINITY, f64::min)
 }
 
-/// Whether the error goes up and down by much and without a convincing trend.
+/// Whether the error has large rises and falls, without a clear trend.
 pub(crate) fn oscillates(points: &[LogPoint]) -> bool {
     let steps: Vec<f64> = points.windows(2).map(|pair| pair[1].y - pair[0].y).collect();
     let turns = steps.windows(2).filter(|s| s[0] * s[1] < 0.0).count();

@@ -42,15 +42,15 @@ pub struct Probe {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Floor {
-    /// The error there.
+    /// The error of the finest level.
     pub error: f64,
-    /// One probe for each axis that was tried.
+    /// One probe for each refined axis.
     pub probes: Vec<Probe>,
 }
 
 impl Floor {
-    /// Whose error it is: of the axes that lower it enough the one that lowers it most;
-    /// [`FloorCause::Nothing`] only if every probe came to its end.
+    /// Cause of the floor: of the axes that lower the error enough, the one with the largest
+    /// effect; [`FloorCause::Nothing`] only if every probe reached its end.
     pub fn cause(&self) -> Option<FloorCause> {
         let errors =
             self.probes.iter().filter_map(|probe| Some((probe, *probe.error.as_ref().ok()?)));
@@ -95,7 +95,7 @@ impl Floor {
                 Err(reason) => format!("{halved} fails ({reason})"),
             }
         };
-        // Probes that failed come last, so that the figures stand together.
+        // Failed probes come last, so that the figures are together.
         let (told, failed): (Vec<_>, Vec<_>) =
             self.probes.iter().partition(|probe| probe.error.is_ok());
         let probes: Vec<String> = told.into_iter().chain(failed).enumerate().map(probe).collect();
