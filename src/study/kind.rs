@@ -23,19 +23,19 @@ pub(crate) trait Study: StudyPlan {
     /// Rows of name and value that state the study.
     fn statement(&self) -> Rows;
 
-    /// Abilities that it requires of an external solver; none where there is no such
-    /// study of one.
+    /// Capabilities that it requires of an external solver; `None` if no external solver can run
+    /// the study.
     fn needs(&self) -> Option<ProblemNeeds> {
         None
     }
 
-    /// Profile of a step of the case with this index on the coarsest level, without one effect if
-    /// that is wanted; none of a study without levels, and of a subject that gives none.
+    /// Profile of a step of the case with this index on the coarsest level, optionally without one
+    /// effect; `None` for a study without levels, or if the subject gives none.
     fn profile(&self, _case: usize, _without: Option<Dispensable>) -> Option<Profile> {
         None
     }
 
-    /// Runner of the cases; nothing runs yet.
+    /// Runner of the cases. It does not start any run.
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a>;
 }
 
@@ -50,17 +50,17 @@ pub struct StepWarning {
     pub is_too_long: bool,
 }
 
-/// A run that is to be shown.
+/// A run for output as files.
 pub(crate) struct ShownRun<'a> {
-    /// Its name among those of its case: `64 cells`.
+    /// Name of the run in its case: `64 cells`.
     pub(crate) name: String,
     /// The solver at t = 0.
     pub(crate) subject: Box<dyn Subject>,
-    /// Lengths of the steps (s), taken in turn.
+    /// Lengths of the steps (s), used cyclically.
     pub(crate) dt: Vec<f64>,
     /// Number of steps.
     pub(crate) steps: u64,
-    /// The truth, if there is one.
+    /// The exact solution, if there is one.
     pub(crate) truth: Option<&'a dyn Truth>,
 }
 
@@ -108,9 +108,9 @@ pub(crate) struct RunContext<'a> {
 }
 
 impl RunContext<'_> {
-    /// The cached result of `key`, which messages call `name`, or that of `run`, which is cached.
-    /// A result of an external solver is not cached if it is `broken`: a solver that breaks, or
-    /// does not answer in time, may do better the next time.
+    /// The cached result of `key`, which messages call `name`, or that of `run`, which is then
+    /// cached. A result of an external solver is not cached if it is `broken`: a solver that fails,
+    /// or does not answer in time, may succeed the next time.
     pub(crate) fn cached<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
@@ -159,15 +159,15 @@ pub(crate) fn study(suite: &Suite) -> &dyn Study {
     found.unwrap_or_else(|| panic!("`{}` is of a kind of study that is not listed", suite.name))
 }
 
-/// Rows of name and value that state what a suite computes, for reports.
+/// Rows of name and value that state the problem of a suite, for reports.
 pub fn statement(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = head(suite);
     rows.extend(study(suite).statement());
     rows
 }
 
-/// Profile of a step of the case called `name` on the coarsest level, without one effect if that is
-/// wanted; none of a case without levels, and of a subject that gives none.
+/// Profile of a step of the case named `name` on the coarsest level, optionally without one effect;
+/// `None` for a case without levels, or if the subject gives none.
 pub fn profile(suite: &Suite, name: &str, without: Option<Dispensable>) -> Option<Profile> {
     let case = suite.case_names().into_iter().position(|case| case == name)?;
     study(suite).profile(case, without)

@@ -18,12 +18,12 @@ pub struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    /// A runner of the levels that the gate runs; nothing runs yet.
+    /// A runner of the levels of the gate. It does not start any run.
     pub fn new(suite: &'a Suite) -> Self {
         Self::over(suite, Extent::Usual)
     }
 
-    /// A runner of so many levels.
+    /// A runner of the levels in `extent`.
     pub fn over(suite: &'a Suite, extent: Extent) -> Self {
         let (name, fingerprint) = (suite.name.as_str(), suite.fingerprint);
         let (cache, solver, repeat) = (None, None, 1);
@@ -59,8 +59,8 @@ impl<'a> Runner<'a> {
         self.cases.units()
     }
 
-    /// Warnings before anything runs, about steps longer than the predicted stable time step, or
-    /// not those that the suite asks for.
+    /// Warnings that need no run, about steps longer than the predicted stable time step, or
+    /// different from the requested ones.
     pub fn warnings(&self) -> Vec<StepWarning> {
         let text = |warning: &StepWarning| format!("{}::{}", self.suite.name, warning.text);
         let named = |warning| StepWarning { text: text(&warning), ..warning };

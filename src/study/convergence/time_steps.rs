@@ -27,28 +27,29 @@ pub struct TimeStep {
     pub case: String,
     /// The level.
     pub level: LevelPlan,
-    /// Step that the suite asks for (s).
+    /// Requested time step (s).
     pub wanted: f64,
     /// Steps that are taken.
     pub clock: Clock,
 }
 
 impl TimeStep {
-    /// Share of the wanted step that is taken.
+    /// Ratio of the actual to the requested step.
     pub fn ratio(&self) -> f64 {
         self.clock.dt() / self.wanted
     }
 }
 
-/// The time steps of all cases and levels of `suite`; none for a study that takes no steps or
-/// chooses them as it runs. Levels that cannot be set up are left out: a run says why.
+/// The time steps of all cases and levels of `suite`; empty for a study without steps, or with
+/// steps that it chooses during the run. Excludes levels whose set-up fails: the run reports the
+/// reason.
 pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let steps = StableSteps::default();
     let mut found = Vec::new();
     for case in &plan.cases {
         for level in plan.refine.levels(extent) {
-            // A stated step is known without a look at the particles.
+            // A stated step does not depend on the particles.
             let stepped = match plan.refine.rule {
                 Some(_) => steps.of(plan, case, *level).map(|(level, _)| level),
                 None => Ok(*level),
@@ -79,7 +80,7 @@ pub struct PlannedLevel {
     pub courant: f64,
 }
 
-/// The levels of the gate of each case, in order; none of a study without levels.
+/// The levels of the gate of each case, in order; empty for a study without levels.
 pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let waves = plan.scene.fastest_wave();
@@ -134,8 +135,8 @@ impl StableSteps {
             let limit = limit(ROUNDS)?;
             return Ok((LevelPlan { dt: share * limit, ..level }, Some(limit)));
         }
-        // Iterations that have not settled give more than there is. A level that cannot be set up
-        // says so when it is run.
+        // Unconverged iterations overestimate the limit. The run reports a level whose set-up
+        // fails.
         let taken = taken(plan, case, level);
         let is_suspect = limit(FEW).is_ok_and(|limit| taken > NEAR * limit);
         let limit = if is_suspect { limit(ROUNDS).ok() } else { None };
@@ -188,8 +189,8 @@ fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     case.clock(plan, level.dt).map_or(level.dt, |clock| clock.dt())
 }
 
-/// Warning about a step that is longer than the stable time step, or not the one asked for, and
-/// whether it is too long.
+/// Warning about a step that is longer than the stable time step, or that differs from the
+/// requested one, and whether it is too long.
 fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<(String, bool)> {
     let clock = case.clock(plan, level.dt)?;
     let (dt, name, cells) = (clock.dt(), &case.name, level.cells);

@@ -52,10 +52,10 @@ impl TimingJob<'_> {
     }
 }
 
-/// Seconds that the steps of a level take; of one that breaks, those until then.
+/// Time (s) of the steps of a level; for a run that fails, the time until then.
 ///
 /// # Errors
-/// One line that says why there is no such run.
+/// One line with the reason why there is no such run.
 pub(crate) fn seconds(
     plan: &ConvergencePlan,
     case: &Case,
@@ -64,8 +64,8 @@ pub(crate) fn seconds(
     seconds_of(plan, case, level, || subject(plan, case.method, level))
 }
 
-/// Seconds that the steps of a subject take on a level. Of another process they are those until it
-/// has answered.
+/// Time (s) of the steps of a subject on a level. For an external solver it includes the response
+/// time.
 fn seconds_of(
     plan: &ConvergencePlan,
     case: &Case,

@@ -19,8 +19,9 @@ const SEEN: f64 = 0.3;
 /// Share from which on a few refinements more will show it.
 const SOON: f64 = 0.003;
 
-/// The finding about an error of `size` (m) that comes from `origin`: a warning with `help`, if one
-/// of the suite's levels shows it, a note, if one soon to come will, and none otherwise.
+/// The finding about an error of `size` (m) with the cause `origin`: a warning with `help` if a
+/// level of the suite shows it, a note if one of the next finer levels would show it, otherwise
+/// nothing.
 fn floor_finding(
     preflight: &Preflight<'_>,
     size: f64,
@@ -79,9 +80,9 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     if !is_small || !matches!(case.method, Method::Mpm { .. }) {
         return None;
     }
-    // The neglected forces are of the order of the strain e: they accelerate by e u_tt, which in a
-    // time t comes to e u_tt t^2/2, and over a long run to no more than about e u.
-    // In more than one dimension a body turns, and its initial stress with it.
+    // The neglected forces are of the order of the strain e: they accelerate by e u_tt, which gives
+    // e u_tt t^2/2 after a time t, and at most about e u over a long run. In more than one
+    // dimension a body rotates, and so does its initial stress.
     let turning = if problem.dimension() > 1 { motion.initial_stress } else { 0.0 };
     let neglected = strain + turning / problem.equation.modulus();
     let early = 0.5 * motion.acceleration * case.until * case.until;
@@ -93,8 +94,8 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     Some(ModelError { size: neglected * motion.largest_displacement().min(early), origin, remedy })
 }
 
-/// Says how large the error is, and from which level on it shows: a warning, if that is one of the
-/// suite's, and a note, if it is soon to come.
+/// Reports the size of the error, and the level from which on it is visible: a warning if this is a
+/// level of the suite, a note if it is one of the next finer levels.
 pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     if plan.refine.axis != Axis::Space || plan.manufactured().is_some() {
@@ -131,7 +132,7 @@ pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
 /// Residuals that the tolerance may be worth, before another solution would pass.
 const MOST: f64 = 100.0;
 
-/// Notes a tolerance that is larger than what the solution leaves by orders of magnitude.
+/// Notes a tolerance that exceeds the residual of the solution by orders of magnitude.
 pub(crate) fn loose_tolerance(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let Some(problem) = &preflight.plan.exact else { return Vec::new() };
     let Some(stated) = &problem.linearised else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! Names become types: the only place that knows every family.
+//! Conversion of names to types: the only file that uses every family.
 
 use super::bar::bar;
 use super::body::{Body, conductor, setup};
@@ -12,7 +12,7 @@ use crate::suite::model::refine_plan::LevelPlan;
 /// Builds the subject of `method` for one level.
 ///
 /// # Errors
-/// One line that says why there is no such subject.
+/// One line with the reason why there is no such subject.
 pub fn subject(
     plan: &ConvergencePlan,
     method: Method,
@@ -108,7 +108,7 @@ pub(crate) fn stable_time_step_of(
 /// An MPM subject that can be perturbed: `bodies` of one scene on the cells of `level`.
 ///
 /// # Errors
-/// One line that says why there is no such subject.
+/// One line with the reason why there is no such subject.
 pub(crate) fn perturbable(
     bodies: &[Body<'_>],
     method: Method,

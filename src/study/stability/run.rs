@@ -71,8 +71,7 @@ impl CaseRun<'_> {
         Ok(setup)
     }
 
-    /// The stable time step (s); of an external solver, the time that a wave takes
-    /// to cross a cell.
+    /// The stable time step (s); for an external solver, the transit time of a wave through a cell.
     fn stable_time_step(&self, setup: &RunSetup) -> Result<f64, String> {
         let of_body = |body: &Body<'_>| match self.case.method {
             Method::External { .. } => Ok(setup.level.h / body.own.wave_speed()),
@@ -116,7 +115,7 @@ impl CaseRun<'_> {
         Ok(subject)
     }
 
-    /// The run with these values of the parameters, to be shown.
+    /// The run with these values of the parameters, for output as files.
     pub(super) fn shown(&self, values: &ParameterValues<'_>) -> Result<ShownRun<'static>, String> {
         let setup = self.setup(values)?;
         Ok(ShownRun {

@@ -85,7 +85,7 @@ impl CaseRunner for StabilityRunner<'_> {
 /// The part of an outcome that is known before the case runs.
 fn described(run: &CaseRun<'_>) -> CaseOutcome {
     let case = run.case;
-    // Where no face is held, nothing is to be said of walls.
+    // Without a fixed face there is no statement about walls.
     let walls = run.setup(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
     let mut settings = case.method.settings();
     settings.retain(|(key, _)| walls || key != "walls");

@@ -96,7 +96,7 @@ fn traction(view: &View, load: &ListedLoad, face: &SceneFace, share: f64, t: f64
     (component(0), component(1))
 }
 
-/// Ends of a face (m) along the other axis: of a body with an outline, the part of the rim that
+/// Ends of a face (m) along the other axis; for a body with an outline, the part of the rim that
 /// lies on the face.
 fn ends(view: &View, face: &SceneFace, x: f64) -> [f64; 2] {
     let (scene, other) = (&view.scene, 1 - face.axis);
@@ -177,7 +177,7 @@ const LONGEST: f64 = 24.0;
 /// Arrows along each axis of a body.
 const PER_AXIS: usize = 5;
 
-/// A velocity below this share of the largest is drawn as none.
+/// Minimum velocity that is drawn, as a share of the largest.
 const SMALLEST: f64 = 0.05;
 
 /// An arrow from `tail` to `tip`.

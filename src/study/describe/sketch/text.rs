@@ -21,8 +21,8 @@ fn label(scene: &Scene, number: usize, face: &SceneFace) -> String {
     format!("{}: {state}", face.name)
 }
 
-/// The scene as text, a character for a part of the grid: `.` where it is empty, `#` (or the number
-/// of the body, of several) where there is material. Empty for a suite without a scene.
+/// The scene as text, one character per part of the grid: `.` if it is empty, `#` (or the number of
+/// the body, if there are several) if it contains material. Empty for a suite without a scene.
 pub fn sketch_text(suite: &Suite) -> Vec<String> {
     let Some(view) = View::of(suite) else { return Vec::new() };
     let size = view.size();

@@ -25,7 +25,7 @@ pub(super) struct View {
 }
 
 impl View {
-    /// The view of a suite's scene; a stability study has that of its first row.
+    /// The view of the scene of a suite; for a stability study, of its first row.
     pub(super) fn of(suite: &Suite) -> Option<Self> {
         if let Some(plan) = suite.plan::<ConvergencePlan>() {
             return Some(Self::over(plan.scene.clone(), plan.refine.levels.first()?.h));
@@ -51,7 +51,8 @@ impl View {
         [self.to[0] - self.from[0], self.to[1] - self.from[1]]
     }
 
-    /// Pixels per metre along both axes. They differ for what would be too low to be seen.
+    /// Pixels per metre along both axes. They differ for bodies that would be too low to be
+    /// visible.
     pub(super) fn scale(&self) -> [f64; 2] {
         let size = self.size();
         let equal = f64::min((WIDTH - 2.0 * MARGIN) / size[0], HIGHEST / size[1]);
