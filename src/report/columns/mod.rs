@@ -77,7 +77,7 @@ impl<T: Text> Text for Option<T> {
     }
 }
 
-/// A number with so many decimals.
+/// A number with `count` decimals.
 pub(crate) fn decimals(count: usize) -> impl Fn(f64) -> String {
     move |value| format!("{value:.count$}")
 }
@@ -111,7 +111,7 @@ pub(crate) struct TableColumn<'a, R: ?Sized> {
     pub(crate) key: &'static str,
     /// Meaning, with the unit.
     pub(crate) about: &'static str,
-    /// Whether text is set flush left; numbers are set flush right.
+    /// Whether text is aligned to the left; numbers are aligned to the right.
     pub(crate) flush_left: bool,
     cell: Box<dyn Fn(&R) -> Cell + 'a>,
 }

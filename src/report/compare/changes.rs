@@ -49,7 +49,7 @@ impl Rank {
         Self::Gone,
     ];
 
-    /// In plain words.
+    /// Text in reports.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Broken => "no longer as expected",
@@ -93,11 +93,11 @@ pub struct ReportComparison {
     pub(super) cheapest: Vec<CheapestMove>,
     /// Number of cases without a change.
     pub(super) unchanged: usize,
-    /// Largest relative change of a figure that counts as none.
+    /// Largest relative change of a figure that counts as no change.
     pub(super) tolerance: f64,
 }
 
-/// A suite whose problem is another one: its figures say nothing about a solver.
+/// A suite whose problem has changed: its figures say nothing about a solver.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ProblemMove {
     pub(super) suite: String,
@@ -122,14 +122,14 @@ pub(super) struct Moved {
     pub(super) equal: Option<EqualError>,
     /// Remarks in addition to the columns.
     pub(super) notes: Vec<String>,
-    /// Within a rank, the larger comes first.
+    /// Sort key within a rank, in decreasing order.
     pub(super) weight: f64,
 }
 
 /// An error that moved.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ErrorMove {
-    /// None where the level broke.
+    /// `None` if the level failed.
     pub(super) old: Option<f64>,
     /// `None` if the level fails.
     pub(super) new: Option<f64>,
@@ -167,7 +167,7 @@ impl ErrorMove {
         Some(self.new? / self.old?)
     }
 
-    /// How much it moved, in either direction; endless where a level breaks.
+    /// Size of the change, in either direction; infinite if a level newly fails.
     pub(super) fn weight(&self) -> f64 {
         self.ratio().map_or(f64::INFINITY, |ratio| libm::log(ratio).abs())
     }

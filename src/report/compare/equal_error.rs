@@ -1,9 +1,9 @@
 //! Work for the same error in two runs.
 //!
-//! Methods and versions reach different errors on the same grid; what a user pays is the work for
-//! the error that is wanted. Between two levels of a converging series, ln(work) is interpolated
-//! linearly in ln(error), which is exact for `error = C h^p` and `work = c h^-q`. There is no
-//! extrapolation: beyond the last level a series may have a floor.
+//! Methods and versions reach different errors on the same grid; the relevant cost is the work for
+//! a target error. Between two levels of a converging series, ln(work) is interpolated linearly in
+//! ln(error), which is exact for `error = C h^p` and `work = c h^-q`. There is no extrapolation:
+//! beyond the last level a series may have a floor.
 
 /// Error and work of a level.
 pub(super) type ErrorAndWork = (f64, f64);
@@ -31,8 +31,8 @@ pub(super) fn compare(old: &[ErrorAndWork], new: &[ErrorAndWork]) -> Option<Equa
     Some(EqualError { target, ratio })
 }
 
-/// The longest run of levels over which the error falls and the work grows; of equally long ones
-/// the coarser.
+/// The longest run of levels with falling error and growing work; the coarser of two equally long
+/// ones.
 fn converging(points: &[ErrorAndWork]) -> Option<&[ErrorAndWork]> {
     let usable = |(error, work): ErrorAndWork| error > 0.0 && work > 0.0;
     let goes_on =
@@ -53,7 +53,7 @@ fn round_above(x: f64) -> Option<f64> {
     rungs.into_iter().find(|rung| *rung >= x)
 }
 
-/// The work for an error between those of two neighbours.
+/// The work for an error between those of two neighbouring levels.
 fn work(run: &[ErrorAndWork], target: f64) -> Option<f64> {
     let (a, b) = run.windows(2).map(|pair| (pair[0], pair[1])).find(|(_, b)| b.0 <= target)?;
     let share = libm::log(a.0 / target) / libm::log(a.0 / b.0);
@@ -98,7 +98,7 @@ mod tests {
         assert_eq!(converging(points).map(<[ErrorAndWork]>::len), levels);
     }
 
-    /// Both converge, and at no error that the other has: nothing is extrapolated.
+    /// Both series converge, but have no common error: nothing is extrapolated.
     #[test]
     fn series_that_do_not_meet_are_not_compared() {
         assert_eq!(compare(&series(1.0, 1.0, 4), &series(1e-4, 1.0, 4)), None);

@@ -25,8 +25,8 @@ pub use changes::{Rank, ReportComparison};
 pub use document::{ReportDocument, Unreadable};
 pub use output::{json, markdown, text};
 
-/// Largest relative change of a figure that counts as none, unless a caller says otherwise: that of
-/// the [drift gate](super::text::drift).
+/// Default of the largest relative change of a figure that counts as no change, as in the [drift
+/// gate](super::text::drift).
 pub const TOLERANCE: f64 = super::text::drift::RELATIVE;
 
 /// Changes from `old` to `new` by more than the relative `tolerance`.

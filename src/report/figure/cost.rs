@@ -11,8 +11,8 @@ const MOST_NAMED: usize = 7;
 /// Maximum relative difference of points of two methods that are drawn as one line.
 const SAME: f64 = 0.02;
 
-/// The diagram of each ranking of a suite; `work` labels the horizontal axis, `unit` goes into the
-/// name of the file.
+/// The diagram of each ranking of a suite; `work` labels the horizontal axis, `unit` is part of the
+/// file name.
 pub fn cost_figures(
     outcome: &SuiteOutcome,
     rankings: &[Ranking],
@@ -75,7 +75,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
     }
 }
 
-/// Whether one line would hide the other.
+/// Whether one line would cover the other.
 fn coincide(a: &Ranked, b: &Ranked) -> bool {
     let (a, b) = (&a.method.samples, &b.method.samples);
     let near = |x: f64, y: f64| (x / y - 1.0).abs() <= SAME;
@@ -87,7 +87,8 @@ fn coincide(a: &Ranked, b: &Ranked) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(same)
 }
 
-/// The levels; those in the window of a series that diverges are not in that of one that converges.
+/// The points of the levels. Levels in the window of a divergent series are not marked like those
+/// of a converging one.
 fn points(row: &Ranked) -> Vec<PlotPoint> {
     let levels = row.method.samples.iter().enumerate();
     levels.map(|(level, one)| point(&row.part.levels, level, one)).collect()

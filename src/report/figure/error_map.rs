@@ -105,7 +105,7 @@ impl ErrorMap {
     }
 }
 
-/// A path of squares for each shade; crosses where an error is no number.
+/// A path of squares for each shade; crosses where an error is not finite.
 fn drawn(panel: &mut SvgElement, field: &ErrorField, window: &BodyWindow, scale: ColourScale) {
     let BodyWindow { low, high, zoom, width, height, .. } = window;
     let mut paths: BTreeMap<i64, String> = BTreeMap::new();
@@ -115,7 +115,7 @@ fn drawn(panel: &mut SvgElement, field: &ErrorField, window: &BodyWindow, scale:
         let across = libm::round((x - low[0]) * zoom - 0.5 * side);
         let down = if field.is_plane { (high[1] - y) * zoom - 0.5 * side } else { 0.0 };
         let down = libm::round(down);
-        // An error of zero has the darkest shade, one that is no number none.
+        // An error of zero has the darkest shade; an error that is not finite has none.
         let share = if *error > 0.0 { scale.share(*error) } else { 0.0 };
         let shade = if error.is_finite() { libm::round(share * SHADES) as i64 } else { -1 };
         let path = paths.entry(shade).or_default();

@@ -28,7 +28,7 @@ pub struct Map {
 /// One field.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapField {
-    /// Value that gives the colour; white for none, or one that is not finite.
+    /// Value that determines the colour; white for `None` or a value that is not finite.
     pub value: Option<f64>,
     /// Text printed in it.
     pub text: String,

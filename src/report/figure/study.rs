@@ -53,8 +53,8 @@ fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
 /// Width and height of a thumbnail (px).
 const THUMBNAIL: (f64, f64) = (96.0, 40.0);
 
-/// The lines of all convergence plots of a suite, without axes and texts; none if there is nothing
-/// to draw.
+/// The lines of all convergence plots of a suite, without axes and texts; `None` if there is
+/// nothing to draw.
 pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
     let line = |(name, study): &(&str, &Convergence)| {
         let drawn = |value: f64| value.is_finite() && value > 0.0;
@@ -231,8 +231,8 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
     files.into_iter().zip(&plots).map(figure).collect()
 }
 
-/// The energy over time, relative to that of the start, on the finest level of every case that is
-/// asked for its rate.
+/// The energy over time, relative to its initial value, on the finest level of every case whose
+/// energy rate is reported.
 fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
     let curve = |(name, study): (&str, &Convergence)| {
         let account = &study.levels.last().filter(|_| study.rated)?.run.account;

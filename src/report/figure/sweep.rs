@@ -1,4 +1,4 @@
-//! Figures of what runs have shown over a swept parameter: curves over many values, a map of few.
+//! Figures of runs over a swept parameter: curves for many values, a map for few.
 
 use super::drawing::Figure;
 use super::map::{column_head, merged_fields};

@@ -21,7 +21,7 @@ impl Html {
         Self(format!("<{name}{}>{}</{name}>", self::attributes(attributes), content.0))
     }
 
-    /// An element with each part of its content on a line of its own.
+    /// An element with each part of its content on a separate line.
     pub(super) fn block(name: &str, attributes: &[(&str, &str)], content: &[Self]) -> Self {
         let lines: Vec<&str> = content.iter().map(|part| part.0.as_str()).collect();
         let (open, inside) = (self::attributes(attributes), lines.join("\n"));

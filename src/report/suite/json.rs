@@ -69,7 +69,7 @@ pub fn json(outcomes: &[SuiteOutcome]) -> String {
     format!("{:#}\n", json!({ "version": version, "commit": commit(), "suites": suites }))
 }
 
-/// The commit that is tested, where a CI service says so.
+/// The tested commit, if a CI service names it.
 pub(crate) fn commit() -> Option<String> {
     let said = |name: &&str| std::env::var(name).ok().filter(|commit| !commit.is_empty());
     ["GITHUB_SHA", "CI_COMMIT_SHA"].iter().find_map(said)

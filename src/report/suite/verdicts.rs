@@ -1,4 +1,4 @@
-//! The head of a report: what came of each case, and what was expected of it.
+//! The head of a report: results and expectations of each case.
 
 use crate::report::columns::{TableColumn, decimals, scientific};
 use crate::report::grouping::{distinct, grouped};
@@ -34,7 +34,7 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
     remarks(lines, cases);
 }
 
-/// How many cases came as expected, in words.
+/// The number of cases with the expected result, as text.
 pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
     let count = |word: &str| cases.iter().filter(|case| case.result() == word).count();
     let (expected, failing) =
@@ -110,7 +110,7 @@ fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColu
     ]
 }
 
-/// The work of a case for the target error, over that of the cheapest one.
+/// The work of a case for the target error, over that of the cheapest case.
 fn cost(case: &CaseOutcome, rankings: &[Ranking]) -> Option<f64> {
     let of_case = |ranking: &Ranking| {
         let k = ranking.targets.iter().position(|target| *target == TARGET)?;

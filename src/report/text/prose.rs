@@ -20,7 +20,7 @@ pub(crate) fn row(lines: &mut Vec<String>, key: &str, value: &str) {
     beside(lines, 14, key, value);
 }
 
-/// A paragraph with a mark in front of it.
+/// A paragraph with a bullet.
 pub(crate) fn hanging(lines: &mut Vec<String>, mark: &str, paragraph: &str) {
     beside(lines, 4, mark, paragraph);
 }

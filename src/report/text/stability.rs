@@ -48,7 +48,7 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     trials(lines, &others);
 }
 
-/// Values that could not be tried, and runs that did not come to their end.
+/// Remarks on values without a run, and runs that did not reach their end.
 pub(crate) fn remarks(study: &StabilityStudy) -> Vec<String> {
     let remark = |row: &StabilityRow| {
         let why = row.trial.as_ref().and_then(|trial| trial.why.as_ref());

@@ -4,7 +4,7 @@ use crate::report::columns::TableColumn;
 use crate::report::grouping::{distinct, grouped};
 use std::borrow::Borrow;
 
-/// A line of headings and rows of cells, set flush right unless their column says otherwise.
+/// A line of headings and rows of cells, which are aligned to the right by default.
 #[derive(Debug)]
 pub(crate) struct Table {
     rows: Vec<Vec<String>>,
@@ -27,7 +27,7 @@ impl Table {
         }
     }
 
-    /// Rows of cells under headings, the first column flush left.
+    /// Rows of cells under headings, the first column aligned to the left.
     pub(crate) fn of_cells(headings: Vec<String>, rows: Vec<Vec<String>>) -> Self {
         let flush_left = (0..headings.len()).map(|column| column == 0).collect();
         Self { rows: std::iter::once(headings).chain(rows).collect(), flush_left }
@@ -53,7 +53,7 @@ impl Table {
         self
     }
 
-    /// Drops every column with dashes in all rows but the headings.
+    /// Drops every column with dashes in all rows except the headings.
     pub(crate) fn without_empty_columns(self) -> Self {
         self.without_columns_of("-")
     }
@@ -85,8 +85,8 @@ impl Table {
         self.aligned(&(0..columns).map(width).collect::<Vec<_>>())
     }
 
-    /// The lines with columns of fixed widths by heading: a wider cell moves the rest of its own
-    /// line, and no other line. Columns that `widths` does not list are as wide as their headings.
+    /// The lines, with fixed column widths by heading: a wider cell shifts the rest of its line
+    /// only. Columns that `widths` does not list are as wide as their headings.
     pub(crate) fn lines_of_widths(&self, widths: &[(&str, usize)]) -> Vec<String> {
         let width = |heading: &String| {
             let listed = widths.iter().find(|(known, _)| known == heading);
@@ -139,7 +139,7 @@ fn merged(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     kept.into_iter().map(row).collect()
 }
 
-/// Different values, each with the names of those that have it in brackets, where not all do.
+/// Distinct values, each with the names that have it in brackets, unless all have the same value.
 pub(crate) fn shared<'a>(
     values: impl Iterator<Item = (&'a str, String)>,
 ) -> impl Iterator<Item = (String, String)> {
@@ -156,7 +156,7 @@ pub(crate) fn shared<'a>(
     })
 }
 
-/// Names as one, with what differs between braces: `mpm-{linear,ugimp}-flip-usl`.
+/// Several names as one, with the differences in braces: `mpm-{linear,ugimp}-flip-usl`.
 pub(crate) fn together(names: &[&str]) -> String {
     let names: Vec<Vec<String>> = names.iter().map(|name| words(name)).collect();
     let Some((first, others)) = names.split_first() else { return String::new() };
@@ -177,7 +177,7 @@ pub(crate) fn together(names: &[&str]) -> String {
     })
 }
 
-/// Names of all combinations of words: `mpm-{linear,ugimp}-{flip,apic}`.
+/// One text for the names of all combinations of words: `mpm-{linear,ugimp}-{flip,apic}`.
 fn product(first: &[String], names: &[Vec<String>]) -> Option<String> {
     let at = |k: usize| {
         names.iter().map(|name| name.get(k)).collect::<Option<Vec<&String>>>().map(distinct)
