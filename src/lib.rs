@@ -7,7 +7,7 @@
 //!
 //! # From a suite to a report
 //!
-//! A suite is a YAML file: a problem with its solution, methods, and what is expected of them.
+//! A suite is a YAML file: a problem with its solution, methods, and expectations.
 //!
 //! ```
 //! use mpm_verify::prelude::*;

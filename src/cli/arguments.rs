@@ -10,7 +10,7 @@ use thiserror::Error;
 pub(super) struct Targets {
     /// Suites: a file, a folder of files, a name, a group (a folder of verification/, such as
     /// `heat`), a pattern (`mms-*`), or `-` for standard input; default: all of verification/, or
-    /// the built-in suites where there is no such folder
+    /// the built-in suites if there is no such folder
     #[arg(value_name = "SUITE")]
     pub(super) targets: Vec<PathBuf>,
 }
@@ -109,7 +109,7 @@ pub(super) fn share(text: &str) -> Result<f64, Expected> {
 
 #[derive(Debug, Args)]
 pub(super) struct ColorArgs {
-    /// Colour of verdicts and complaints; `auto` is that of a terminal, unless NO_COLOR is set
+    /// Colour of verdicts and errors; `auto`: only on a terminal, unless NO_COLOR is set
     #[arg(long, value_enum, value_name = "WHEN", global = true, default_value_t = Color::Auto)]
     color: Color,
 }

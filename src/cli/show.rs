@@ -1,4 +1,4 @@
-//! Pages about suites, one after the other, or all in one JSON document.
+//! Pages about suites, one after the other, or in one JSON document.
 
 use super::status::{CommandError, Status};
 use super::{output, select};
@@ -32,7 +32,7 @@ pub(super) fn try_each(
     code
 }
 
-/// Prints one document of all suites that can be loaded, and the complaints about others.
+/// Prints one document of all suites that can be loaded, and diagnostics about the other suites.
 pub(super) fn json(
     targets: &[PathBuf],
     value: impl Fn(&Source, &Suite) -> Result<Value, CommandError>,
