@@ -1,7 +1,7 @@
-//! The grammar of a suite: what may stand in a YAML file, before any number is known.
+//! The grammar of a suite: the allowed contents of a YAML file, before any number is computed.
 //!
-//! Every map refuses keys that it does not know. A number may be a formula of declared parameters;
-//! a method's entries may be lists, whose product gives the cases.
+//! Every map refuses unknown keys. A number may be a formula of declared parameters; the entries of
+//! a method may be lists, whose product gives the cases.
 
 pub(crate) mod convergence;
 pub(crate) mod expect;

@@ -62,7 +62,7 @@ pub(crate) struct OneBodySpec {
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
 }
 
-/// A symmetric stress (Pa) by its components; those that are not stated are zero.
+/// A symmetric stress (Pa) by its components; missing components are zero.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

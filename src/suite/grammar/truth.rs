@@ -1,4 +1,4 @@
-//! A truth that is given by formulas.
+//! An exact solution by formulas.
 
 use crate::exact::Equation;
 use crate::fem::BarLaw;
@@ -6,7 +6,7 @@ use crate::suite::yaml::NumberText;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
-/// A solution, or the state in which the body comes to rest.
+/// An exact solution, or an equilibrium.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -15,20 +15,20 @@ pub(crate) struct ExactSpec {
     pub(crate) equation: Option<EquationName>,
     /// Displacement (m), formulas of `X`, `Y`, `Z` and `t`.
     pub(crate) displacement: Option<Vec<NumberText>>,
-    /// Of a body in which heat flows.
+    /// Temperature (K), in a body that conducts heat.
     pub(crate) temperature: Option<NumberText>,
-    /// Share of the terms of a condition that may be left, up to 1e-2; 1e-8 unless stated.
+    /// Maximum residual relative to the terms of a condition, up to 1e-2; default 1e-8.
     pub(crate) tolerance: Option<NumberText>,
-    /// Of a solution that meets its law to first order only.
+    /// For a solution that satisfies its law to first order only.
     pub(crate) linearised: Option<LinearisedSpec>,
 }
 
-/// The share of the equations that a linearised solution may leave, and why.
+/// The residual that a linearised solution may leave, and the reason.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LinearisedSpec {
-    /// Share of the terms that may be left.
+    /// Maximum residual relative to the terms.
     pub(crate) tolerance: NumberText,
     /// The reason for accepting it.
     pub(crate) because: String,
@@ -55,7 +55,7 @@ impl EquationName {
         Self::all().find(|known| known.0 == name)
     }
 
-    /// The name as suites and reports spell it.
+    /// The name in suites and reports.
     pub fn name(self) -> &'static str {
         self.0
     }

@@ -18,7 +18,7 @@ pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
 mod tests {
     use super::*;
 
-    /// Each bit of each byte counts, wherever it stands, and so does every byte.
+    /// Each bit of each byte affects the hash, at any position, and so does every byte.
     #[test]
     fn texts_that_differ_have_other_numbers() {
         let text: Vec<u8> = (1..20).collect();
@@ -38,7 +38,7 @@ mod tests {
         assert_eq!(seen.len(), all);
     }
 
-    /// Two differences must not make up for one another, as they would if high bits stayed high.
+    /// Two differences must not cancel each other, as they would if high bits were not moved.
     #[test]
     fn differences_spread() {
         let changed = |words: [u64; 2]| {

@@ -10,8 +10,8 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
     /// Names of the cases, in order.
     fn case_names(&self) -> Vec<&str>;
 
-    /// Summary of the expectation of the case with this index, and the suite's reason for it; none
-    /// of a suite that explores.
+    /// Summary of the expectation of the case with this index, and its reason; `None` if the suite
+    /// explores.
     ///
     /// # Panics
     /// If there is no such case.
@@ -20,8 +20,8 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
     /// This study with only the cases for whose index `keep` returns true.
     fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan>;
 
-    /// The study with an external solver in place of its methods, gated on `terms` if there are
-    /// any; `None` for a study of the inside of a method.
+    /// The study with an external solver in place of its methods, gated on `terms`, if any; `None`
+    /// for a study of the inside of a method.
     fn of_external(
         &self,
         _solver: ExternalMethod<'_>,

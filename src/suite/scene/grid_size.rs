@@ -33,15 +33,14 @@ impl Scene {
         self.each().iter().map(Self::wave_speed).fold(0.0, f64::max)
     }
 
-    /// Length (m) of an axis: of the grid that the suite asks for, otherwise of the body.
+    /// Length (m) of an axis of the stated grid, otherwise of the body.
     pub fn period(&self, axis: usize) -> f64 {
         let (from, to) = self.grid.as_ref().map_or((&self.from, &self.to), |(from, to)| (from, to));
         to[axis] - from[axis]
     }
 }
 
-/// Cell size (m) for `cells` cells along the first axis of the grid, or of the body where the
-/// suite asks for no grid.
+/// Cell size (m) for `cells` cells along the first axis of the stated grid, otherwise of the body.
 pub(crate) fn cell_size(scene: &Scene, cells: u64) -> f64 {
     let (from, to) = scene.grid.as_ref().map_or((&scene.from, &scene.to), |(from, to)| (from, to));
     (to[0] - from[0]) / cells as f64

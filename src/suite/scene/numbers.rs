@@ -49,7 +49,7 @@ impl LoadNumbers {
         Self { region: Some(region.clone()), ..self }
     }
 
-    /// Whether there is no number.
+    /// Whether there are no numbers.
     pub(crate) fn is_empty(&self) -> bool {
         self.constants.is_empty() && self.field.is_none()
     }

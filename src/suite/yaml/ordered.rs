@@ -6,7 +6,7 @@ use std::collections::HashSet;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Names and what they stand for, in the order of the file; no name twice.
+/// Names and their values, in the order of the file, without duplicates.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ordered<T>(Vec<(String, T)>);
 

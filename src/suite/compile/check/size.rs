@@ -1,4 +1,4 @@
-//! Whether every level fits into a machine, and has nodes where a face is held.
+//! Checks that every level fits into memory, and has nodes on fixed faces.
 
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
@@ -55,7 +55,8 @@ fn fits(
     sets(evaluator, path, scene, level)
 }
 
-/// Refuses a fine grid that is no level, or whose particles at all instants are too many to keep.
+/// Refuses a fine grid that is not a valid level, or whose particles at all instants need too much
+/// memory.
 pub(crate) fn fine_grid(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -73,7 +74,7 @@ pub(crate) fn fine_grid(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses a body with a free rim that is smaller than what one of its particles stands for.
+/// Refuses a body with a free rim that is smaller than the volume of one of its particles.
 fn vacant(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -111,8 +112,8 @@ fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
     (scene.to[axis] - scene.from[axis]) * per_axis / level.h
 }
 
-/// The nodes that are held lie on the last face of the grid, which must be that of the body; a
-/// periodic grid must end where the suite says.
+/// The fixed nodes are on the last face of the grid, which must be the face of the body; a periodic
+/// grid must end at the period of the suite.
 pub(crate) fn held_faces(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -151,7 +152,7 @@ fn sets(
     let cells = level.cells;
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
     for set in &scene.sets {
-        // Centres lie at from + length (i + 1/2)/count, see `Particles::fill`.
+        // Centres are at from + length (i + 1/2)/count, see `Particles::fill`.
         let some = |axis: usize| {
             let (from, length) = (scene.from[axis], scene.to[axis] - scene.from[axis]);
             let count = libm::round(along(scene, axis, level)).max(1.0);
@@ -176,7 +177,7 @@ fn sets(
     Ok(())
 }
 
-/// A reference keeps its state at every instant.
+/// A reference stores its state at every instant.
 fn reference(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
     let Some(fine) = &plan.reference else { return Ok(()) };
     let stored = fine.cells as f64 * plan.instants as f64;

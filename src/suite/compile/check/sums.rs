@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// The judged sum with its exact value, if `judge` names a sum.
 ///
 /// # Errors
-/// The reason why a subject or the truth cannot tell it.
+/// The reason why a subject or the exact solution does not define the sum.
 pub(crate) fn judged(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -70,7 +70,7 @@ fn no_face(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Diagnostic {
     diagnostic.with_help("remove it, or judge the `reaction`")
 }
 
-/// Refuses an energy that the law of the solver or that of the truth does not store.
+/// Refuses an energy that the law of the solver or of the exact solution does not define.
 fn stored_energy(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -110,7 +110,7 @@ fn rotation(
     Ok(())
 }
 
-/// Numbers of the walls whose reaction is judged.
+/// Indices of the walls whose reaction is judged.
 fn walls(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

@@ -16,7 +16,7 @@ pub(crate) struct MethodDraft {
     pub(crate) method: Method,
     /// Name of an external solver.
     solver: Option<String>,
-    /// Which of its settings the name says.
+    /// Which of its settings are part of the name.
     said: Vec<bool>,
 }
 
@@ -38,7 +38,7 @@ impl MethodDraft {
     }
 }
 
-/// First word of the names of a method, and its settings in the order in which they follow.
+/// First word of the names of a method, and its settings in the order of names.
 fn settings(method: &Method) -> (&'static str, Vec<String>) {
     match *method {
         Method::Mpm { basis, transfer, scheme, start, mass, frame } => {
@@ -58,8 +58,8 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
     }
 }
 
-/// The product of entry number `entry` of `methods`. A setting enters the name where the entry
-/// lists several, or where one always has to be chosen.
+/// The product of entry number `entry` of `methods`. A setting is part of the name if the entry
+/// lists several values, or if it must always be chosen.
 pub(crate) fn methods(
     evaluator: &Evaluator<'_>,
     entry: usize,

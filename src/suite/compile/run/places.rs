@@ -14,7 +14,7 @@ const MOST: f64 = 0.5;
 /// layer of particles at the face is distinct from the next one.
 const MOST_AT_LOADS: f64 = 0.25;
 
-/// The seed of a suite that states none.
+/// The default seed.
 const SEED: u64 = 1;
 
 /// Offsets of particles from their lattice, as stated by the suite.

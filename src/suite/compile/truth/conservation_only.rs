@@ -1,4 +1,5 @@
-//! Suites without a truth: no error is taken, and expectations bound only what a run keeps.
+//! Suites without exact solution or reference: there are no errors, and expectations only bound
+//! conserved quantities.
 
 use crate::exact::Truth;
 use crate::suite::evaluator::Evaluator;
@@ -6,7 +7,7 @@ use crate::suite::grammar::{ConvergenceSpec, ExpectSpec};
 use crate::suite::model::{ConvergencePlan, SameMethod};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// The truth of a suite that states none: only conserved sums are judged.
+/// Placeholder for a suite without exact solution: only conserved sums are judged.
 pub(crate) struct Unknown;
 
 impl Truth for Unknown {

@@ -100,7 +100,7 @@ impl SceneLoad for BodyForceLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for BodyForceLoad {
-    /// The formula of a force may be too long to be taken apart.
+    /// The formula of a force may be too long to be split.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         if self.depends_on_displacement() {
             return Ok(Box::new(self.of_displacement(site.particles)));
