@@ -56,8 +56,8 @@ pub(crate) use each_material;
 /// `effect thermal_expansion::ThermalExpansion, needs [Heat];`
 ///
 /// gives its member of `EffectName` and its name in suites; the file and the type of its keys in
-/// `suite/scene/load`; the file and the type of the effect in `mpm/effect`, where it has one of
-/// its own; and the members without which it means nothing, where there are any.
+/// `suite/scene/load`; the file and the type of the effect in `mpm/effect`, if it has its own; and
+/// the members that it requires, if any.
 macro_rules! each_effect {
     ($declare:ident) => {
         $declare! {

@@ -29,19 +29,19 @@ pub struct Checkpoint<'a>(Way<'a>);
 #[derive(Debug)]
 enum Way<'a> {
     Out(Vec<u8>),
-    /// Bytes that are still to be read.
+    /// Bytes that remain to be read.
     In(&'a [u8]),
-    /// Reading has failed: from here on nothing is replaced.
+    /// Reading has failed: nothing more is replaced.
     Misfit,
 }
 
 impl<'a> Checkpoint<'a> {
-    /// Nothing yet, to be written.
+    /// An empty checkpoint for recording.
     pub fn empty() -> Self {
         Self(Way::Out(Vec::new()))
     }
 
-    /// A checkpoint to be read from the bytes of [`Checkpoint::into_bytes`] by the same visits.
+    /// A checkpoint that is read from the bytes of [`Checkpoint::into_bytes`] by the same visits.
     pub fn from_bytes(bytes: &'a [u8]) -> Self {
         Self(Way::In(bytes))
     }
@@ -54,8 +54,7 @@ impl<'a> Checkpoint<'a> {
         }
     }
 
-    /// Whether all that was to be read has been, and has fitted. If not, what has been visited is
-    /// spoilt.
+    /// Whether all bytes were read and matched. Otherwise the visited state is invalid.
     pub fn is_used_up(&self) -> bool {
         matches!(self.0, Way::In([]))
     }
@@ -65,8 +64,7 @@ impl<'a> Checkpoint<'a> {
         memory.visit(self);
     }
 
-    /// Notes something that setting up gives again: it must be the same when the rest is taken
-    /// back.
+    /// Records a number that the set-up determines: it must be equal when the state is restored.
     pub fn same(&mut self, number: usize) {
         let mut found = number as u64;
         self.visit(&mut found);
@@ -114,7 +112,7 @@ impl Memory for f64 {
         *self = Self::from_bits(checkpoint.word(self.to_bits()));
     }
 
-    /// All at once: analyses take a state back before each of their many steps.
+    /// All entries in one call: analyses restore a state before each of their many steps.
     fn visit_each(entries: &mut [Self], checkpoint: &mut Checkpoint<'_>) {
         match &mut checkpoint.0 {
             Way::Out(bytes) => bytes.extend(entries.iter().flat_map(|entry| entry.to_le_bytes())),
@@ -141,7 +139,7 @@ impl Memory for bool {
     }
 }
 
-/// As long as it is.
+/// The length is fixed.
 impl<T: Memory> Memory for [T] {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.same(self.len());
@@ -157,7 +155,8 @@ impl<T: Memory, const N: usize> Memory for [T; N] {
     }
 }
 
-/// As long as it was: for what grows during a run. No entry may take no bytes.
+/// The length is stored, for vectors that grow during a run. Every entry must take at least one
+/// byte.
 impl<T: Memory + Default> Memory for Vec<T> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let mut len = self.len() as u64;

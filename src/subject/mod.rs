@@ -21,51 +21,49 @@ pub trait Subject {
     /// Advances the state by one step of length `dt` (s).
     ///
     /// # Errors
-    /// [`Failure`] says what broke and where. After a failure the subject is not stepped again.
+    /// [`Failure`] names the failure and its place. After a failure the subject must not be stepped
+    /// again.
     fn step(&mut self, dt: f64) -> Result<(), Failure>;
 
-    /// Writes the present state, seen at the subject's own reference labels, into `samples`.
-    /// The labels and their order do not change during a run.
+    /// Writes the present state at the reference labels of the subject into `samples`. The labels
+    /// and their order do not change during a run.
     fn sample(&self, samples: &mut Samples);
 
     /// Counters of the run so far.
     fn counters(&self) -> RunCounters;
 
-    /// Passes of a step in their order, as reports list them (`P2G(mass, momentum)`); empty from a
-    /// subject that does not say.
+    /// Passes of a step in their order, as in reports (`P2G(mass, momentum)`); empty by default.
     fn passes(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// Fields of each body, for files that viewers read; none from a subject that keeps no more
-    /// than its samples show.
+    /// Fields of each body, for files for viewers; empty if the subject has no fields except its
+    /// samples.
     fn fields(&self) -> Vec<BodyFields> {
         Vec::new()
     }
 
-    /// The sums over the body that a free motion keeps; `None` from a subject that does not say.
+    /// The conserved sums over the body; `None` by default.
     fn totals(&self) -> Option<Totals> {
         None
     }
 
-    /// Reaction of all walls on which the body stands still, or of that on one face (axis of the
-    /// normal, and whether it is the high end); `None` from a subject that does not say, and before
-    /// the first step.
+    /// Reaction of all fixed walls, or of that on one face (axis of the normal, and whether it is
+    /// the high end); `None` by default, and before the first step.
     fn reaction(&self, _face: Option<(usize, bool)>) -> Option<Reaction> {
         None
     }
 
-    /// Shows to `checkpoint` all that the steps to come depend on and that setting up does not give
-    /// again: with it, a subject that was set up alike goes on from here and gives the same bits.
-    /// False from one that cannot.
+    /// Passes to `checkpoint` the complete state that later steps depend on and that the set-up
+    /// does not restore. A subject with an equal set-up can then be resumed, and gives the same
+    /// bits. Returns false if the subject does not support this.
     fn checkpoint(&mut self, _checkpoint: &mut Checkpoint<'_>) -> bool {
         false
     }
 
-    /// Kinetic energy (J) of the part of the velocities that the discretisation cannot see: of
-    /// particles, the part in the null space of their map to the grid. It may take as much as some
-    /// tens of steps, and is asked for only where a figure wants it; `None` from a subject that
-    /// does not say.
+    /// Kinetic energy (J) of the part of the velocities that the discretisation does not resolve:
+    /// for particles, the part in the null space of the map to the grid. It may cost as much as
+    /// some tens of steps, and is computed only if a figure needs it; `None` by default.
     fn null_space_energy(&self) -> Option<f64> {
         None
     }
@@ -104,9 +102,8 @@ named! {
     }
 }
 
-/// A state seen at reference labels: `n` labels in `dimension` dimensions, point after point. A
-/// subject that has no stress, no F or no temperature leaves that column empty, and cannot be
-/// judged by it.
+/// A state at reference labels: `n` labels in `dimension` dimensions, point after point. A subject
+/// without stress, F or temperature leaves that column empty, and cannot be judged by it.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Samples {
@@ -118,7 +115,7 @@ pub struct Samples {
     pub displacement: Vec<f64>,
     /// Velocities, `n * D` numbers (m/s).
     pub velocity: Vec<f64>,
-    /// Reference volume that each label stands for, `n` numbers (m^D): the weight in L1 and L2.
+    /// Reference volume of each label, `n` numbers (m^D): the weight in L1 and L2.
     pub weight: Vec<f64>,
     /// Cauchy stresses, `n * D * D` numbers, row after row (Pa); may be empty.
     pub stress: Vec<f64>,
@@ -134,7 +131,7 @@ impl Samples {
         self.weight.len()
     }
 
-    /// Whether there is no label.
+    /// Whether there are no labels.
     pub fn is_empty(&self) -> bool {
         self.weight.is_empty()
     }
@@ -146,7 +143,7 @@ impl Samples {
     }
 
     /// Adds a point: reference position (m), displacement (m) and velocity (m/s), D numbers each,
-    /// and the reference volume (m^D) that it stands for.
+    /// and its reference volume (m^D).
     pub fn push(&mut self, label: &[f64], displacement: &[f64], velocity: &[f64], weight: f64) {
         self.dimension = label.len();
         self.label.extend_from_slice(label);
@@ -155,7 +152,7 @@ impl Samples {
         self.weight.push(weight);
     }
 
-    /// Empties the columns and keeps their memory.
+    /// Empties the columns without freeing their memory.
     pub fn clear(&mut self) {
         self.label.clear();
         self.displacement.clear();
@@ -186,7 +183,7 @@ pub struct RunCounters {
 }
 
 impl RunCounters {
-    /// Counters of a subject that knows no more than its `transfers`.
+    /// Counters of a subject that only counts `transfers`.
     pub fn new(transfers: u64) -> Self {
         let (particles, crossings, left_domain) = (None, None, None);
         Self { particles, transfers, crossings, left_domain, min_j: f64::NAN }
@@ -247,8 +244,8 @@ pub enum Failure {
     External(String),
 }
 
-/// Sums over the body, p, of what a motion without outer forces keeps; components beyond the
-/// dimension are zero.
+/// Sums over the particles p that are conserved in a motion without external forces; components
+/// beyond the dimension are zero.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Totals {
     /// `sum m_p` (kg).
@@ -257,14 +254,14 @@ pub struct Totals {
     pub momentum: [f64; 3],
     /// `sum m_p |v_p|`, against which a change of the momentum is small or not (kg m/s).
     pub momentum_size: f64,
-    /// `sum m_p x_p x v_p` about the origin, and what particles carry within themselves (kg m2/s).
+    /// `sum m_p x_p x v_p` about the origin, plus the angular momentum within particles (kg m2/s).
     /// In 2-D the third component only; zero in 1-D.
     pub angular_momentum: [f64; 3],
-    /// The sum of the magnitudes of those terms (kg m2/s).
+    /// The sum of the magnitudes of the terms of the angular momentum (kg m2/s).
     pub angular_momentum_size: f64,
     /// `sum m_p v_p^2 / 2` (J).
     pub kinetic_energy: f64,
-    /// Energy that the material stores (J); `None` if its law has none.
+    /// Stored energy of the material (J); `None` if its law has no energy.
     pub strain_energy: Option<f64>,
 }
 
@@ -303,8 +300,8 @@ impl Totals {
     }
 }
 
-/// Force of walls on the body, at the beginning of the last step: those of its end are not known
-/// before another step computes them.
+/// Force of walls on the body at the beginning of the last step: the forces at its end are computed
+/// by the next step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reaction {
     /// Time of the force (s).

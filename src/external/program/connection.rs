@@ -1,7 +1,8 @@
 //! A solver's process, within limits of time and memory.
 //!
-//! Two threads read what it writes, and one writes what it should read: a process that does none
-//! of this blocks nobody. Each ends when its pipe does, which a kill brings about.
+//! Two threads read the output of the process, and one writes its input: a process that neither
+//! reads nor writes blocks nothing. Each thread ends with its pipe, at the latest when the process
+//! is killed.
 
 use super::answer::Answer;
 use super::error::{ProgramError, printable};
@@ -17,7 +18,7 @@ use std::time::{Duration, Instant};
 /// Maximum length of an answer before a problem is known (bytes).
 const SHORT: usize = 1 << 20;
 
-/// Number of bytes of standard error that are kept.
+/// Maximum number of bytes of standard error that are stored.
 const LAST_BYTES: usize = 2000;
 
 /// Maximum number of lines of standard error in a message.
@@ -74,7 +75,7 @@ impl Connection {
         let mut errors = child.stderr.take().ok_or(ProgramError::Pipe)?;
         let (requests, to_write) = channel::<Vec<u8>>();
         thread::spawn(move || {
-            // A process that reads no more has its answer judged, not its ears.
+            // A process that stopped reading is detected by its answers, not here.
             while let Ok(message) = to_write.recv() {
                 if input.write_all(&message).and_then(|()| input.flush()).is_err() {
                     break;
@@ -102,19 +103,19 @@ impl Connection {
         Ok(Self { child, requests, answers, longest, last_bytes, listener, silence })
     }
 
-    /// Lets answers have so many bytes from now on.
+    /// Sets the maximum number of bytes of later answers.
     pub(super) fn expect_up_to(&mut self, bytes: usize) {
         self.longest.store(SHORT.max(bytes), Ordering::Relaxed);
     }
 
-    /// Sends a message. A process that takes none is found by its silence.
+    /// Sends a message. A process that does not read it is detected by the response timeout.
     pub(super) fn send(&mut self, message: Outgoing) {
         if let Some(requests) = &self.requests {
             let _ = requests.send(message.into_bytes());
         }
     }
 
-    /// Waits for the next answer, with the block of bytes that came with it.
+    /// Waits for the next answer, with its block of bytes.
     ///
     /// # Errors
     /// The failure; the process is killed then.
@@ -157,11 +158,11 @@ impl Connection {
     }
 
     fn with_standard_error(&self, error: ProgramError) -> ProgramError {
-        // The process is dead, but what it said may still be on its way.
+        // The process is dead, but its last output may not have arrived yet.
         patiently(GRACE, || self.listener.is_finished().then_some(()));
         let kept = self.last_bytes.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);
-        // Of a trace of Python, these are the place, the line there and the error.
+        // For a Python traceback, these are the place, the source line and the error.
         let says = |line: &&str| line.contains(char::is_alphanumeric);
         let mut last: Vec<String> = text
             .lines()
@@ -208,7 +209,7 @@ impl Drop for Connection {
     }
 }
 
-/// The finding of `look`, if there is one within a time.
+/// The first result of `look` within a time.
 fn patiently<T>(most: Duration, mut look: impl FnMut() -> Option<T>) -> Option<T> {
     let start = Instant::now();
     loop {

@@ -1,4 +1,4 @@
-//! Messages as they cross the pipe: written, and read as they come.
+//! Messages of the protocol: writing and reading.
 
 use super::error::ProgramError;
 use serde::Deserialize;
@@ -47,7 +47,7 @@ impl Outgoing {
         }
     }
 
-    /// Sets a column of its own.
+    /// Sets a column with its numbers.
     pub(super) fn set_numbers(&mut self, key: &str, numbers: &[f64]) {
         let column = self.numbers(numbers);
         self.set(key, column);
@@ -62,7 +62,7 @@ impl Outgoing {
         json!({"f64": [offset, numbers.len()]})
     }
 
-    /// The message as it is written.
+    /// The message as bytes.
     pub(super) fn into_bytes(mut self) -> Vec<u8> {
         if !self.bytes.is_empty() {
             self.message.insert("bytes".to_owned(), json!(self.bytes.len()));
@@ -117,7 +117,7 @@ pub(super) fn read_one(
     output: &mut impl BufRead,
     longest: &AtomicUsize,
 ) -> Result<Option<MessageFrame>, ProgramError> {
-    // The limit is read again while a line grows: the first answer comes before the problem is
+    // The limit is read again while a line grows: the first answer arrives before the problem is
     // known.
     let check_size = |size: usize| {
         let most = longest.load(Ordering::Relaxed);

@@ -1,4 +1,4 @@
-//! A solver behind a command, as a maker of subjects.
+//! A solver program, as a factory of subjects.
 
 use super::answer::{Answer, Hello};
 use super::connection::{Connection, ProgramLimits};
@@ -25,7 +25,7 @@ pub(super) const VERSIONS: [u64; 2] = [1, PROTOCOL];
 /// Maximum number of requests for values before a solver is ready.
 const SETUP_QUESTIONS: u64 = 10_000;
 
-/// A solver behind a command.
+/// A solver that is run by a command.
 #[derive(Debug, Clone)]
 pub struct SolverProgram {
     command: Vec<String>,
@@ -37,10 +37,10 @@ pub struct SolverProgram {
 }
 
 impl SolverProgram {
-    /// Starts `command` (words as a shell splits them) and asks who it is.
+    /// Starts `command` (split into arguments like in a shell) and requests its identity.
     ///
     /// # Errors
-    /// The command cannot be used, or its answer breaks the protocol.
+    /// The command cannot be run, or its answer breaks the protocol.
     pub fn greet(command: &str, limits: ProgramLimits) -> Result<Self, ProgramError> {
         let command = shlex::split(command).ok_or(ProgramError::Quotes)?;
         if command.is_empty() {
@@ -108,7 +108,7 @@ fn identity(command: &[String], hello: &Hello) -> u64 {
     let mut all = DefaultHasher::new();
     (command, format!("{hello:?}")).hash(&mut all);
     for word in command {
-        // A folder or a device is no program.
+        // A folder or a device is not a program.
         let is_file = fs::metadata(word).is_ok_and(|found| found.is_file());
         is_file.then(|| fs::read(word).ok()).flatten().hash(&mut all);
     }

@@ -34,28 +34,28 @@ pub(super) fn conclude(
     }
 }
 
-/// A subject behind a connection. Steps are asked for in one message up to each instant, since the
-/// state between instants is nobody's concern.
+/// A subject in a solver process. Steps are requested in one message up to each instant, because
+/// the state between instants is not used.
 pub(super) struct ProgramSubject {
     connection: Connection,
     dimension: usize,
     dt: f64,
-    /// Steps after which the state is wanted, from the next one on.
+    /// Steps after which the state is requested, from the next one on.
     instants: std::vec::IntoIter<u64>,
     next: Option<u64>,
-    /// Steps that were called for, and those that were asked of the process.
+    /// Number of steps that the caller has made, and that the process was asked for.
     called: u64,
     taken: u64,
     inquiry: Inquiry,
-    /// Masses of the points (kg): those of the particles, or the weights of the solver's own points
-    /// times the reference density. `None` for own points in bodies of several materials.
+    /// Masses of the points (kg): those of the particles, or the weights of sample points times the
+    /// reference density. `None` for sample points in bodies of several materials.
     mass: Option<Vec<f64>>,
     samples: Samples,
     counters: RunCounters,
 }
 
 impl ProgramSubject {
-    /// The subject in the initial state of `problem`; its places are `points`, if there are any.
+    /// The subject in the initial state of `problem`, with the sample points `points`, if any.
     ///
     /// # Errors
     /// The points are not usable.
