@@ -25,7 +25,7 @@ impl InitialStress {
         Self { components }
     }
 
-    /// Whether there is none.
+    /// Whether there is no initial stress.
     pub fn is_none(&self) -> bool {
         self.components.is_empty()
     }
@@ -159,7 +159,7 @@ mod tests {
         Problem { initial_stress, ..held(dimension) }
     }
 
-    /// The force has the stress in it, which the weak form sees by another way.
+    /// The manufactured force includes the stress, which enters the weak form in another way.
     #[rstest]
     fn a_manufactured_force_balances_it(#[values(1, 2, 3)] dimension: usize) {
         let (problem, bare) = (prestressed(dimension), held(dimension));
@@ -172,7 +172,7 @@ mod tests {
         assert_eq!(found[0], force);
     }
 
-    /// A stress that nothing balances.
+    /// A stress without balancing force.
     #[test]
     fn a_truth_without_its_force_is_none() {
         let equation = SmallStrainLaw::new(10.0, 0.3).into();

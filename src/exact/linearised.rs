@@ -47,7 +47,7 @@ mod tests {
         }
     }
 
-    /// A law that is linear leaves rounding, and a condition that has no law in it has no residual.
+    /// A linear law leaves rounding only, and a condition without the law has no residual.
     #[test]
     fn the_residual_is_that_of_the_law() {
         let wave = "sin(pi*X)*cos(pi*t)/50";

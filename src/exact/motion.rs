@@ -4,8 +4,8 @@ use super::formula::{Formula, Hoisted, Jet, Number, NumberBatch, Slope};
 use super::truth::Truth;
 use crate::dimension::with_dimension;
 
-/// A displacement field u(X, t) with one formula for each component, each a function of the
-/// reference coordinates (as many as there are components) and of t, in this order.
+/// A displacement field u(X, t) with one formula for each component. Each is a function of the
+/// reference coordinates (one per component) and of t, in this order.
 #[derive(Debug, Clone)]
 pub struct Motion {
     components: Vec<Formula>,
@@ -60,7 +60,7 @@ impl Motion {
         self.components[i].eval(&variables(label, t)[..=label.len()])
     }
 
-    /// All derivatives, by automatic differentiation over as many variables as there are.
+    /// All derivatives, by automatic differentiation with respect to all coordinates and t.
     pub fn derivatives(&self, label: &[f64], t: f64) -> Derivatives {
         with_dimension!(self.dimension(), D => self.over_jets::<{ D + 1 }>(label, t))
     }
@@ -108,9 +108,9 @@ pub trait Places: Send {
     /// Moves on to the time `t` (s).
     fn set_time(&mut self, t: f64);
 
-    /// Fills in the derivatives at a place, in the order in which they were given, with the bits
-    /// of [`Motion::derivatives`]; components and axes beyond the dimension are left alone.
-    /// Allocates nothing.
+    /// Writes the derivatives at a place, by its index in `labels`, with the bits of
+    /// [`Motion::derivatives`]; components and axes beyond the dimension are not written. Does not
+    /// allocate.
     fn derivatives(&mut self, place: usize, into: &mut Derivatives);
 }
 

@@ -22,7 +22,7 @@ use crate::subject::PlaneState;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// An initial-boundary-value problem on a box or a body of another outline, with its claimed
+/// An initial-boundary-value problem on a box or a body of another outline, with its stated
 /// solution.
 #[derive(Debug, Clone)]
 pub struct Problem {
@@ -67,9 +67,9 @@ pub struct Problem {
     pub motion: Motion,
     /// Largest residual that passes, relative to the terms of the condition.
     pub tolerance: f64,
-    /// The share that may be left of the law, if the motion solves the linearised problem only.
+    /// The residual that the law may leave, if the motion solves the linearised problem only.
     pub linearised: Option<Linearised>,
-    /// Where runs of this problem keep the manufactured forces that they have computed, if they do.
+    /// Cache of manufactured forces for the runs of this problem, if any.
     pub shared_forces: Option<Arc<SharedForces>>,
 }
 

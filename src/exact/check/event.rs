@@ -87,8 +87,8 @@ pub(crate) struct SpaceTimeBox<'a> {
 }
 
 impl SpaceTimeBox<'_> {
-    /// At most `count` events, each at a random place of one cell of a regular raster. Axes of no
-    /// extent, and axes along which nothing `varies`, are not divided.
+    /// At most `count` events, each at a random place of one cell of a regular raster. Axes of zero
+    /// length, and axes along which nothing `varies`, are not divided.
     pub(crate) fn spread(
         &self,
         count: usize,

@@ -1,9 +1,9 @@
 //! Conditions checked point by point.
 //!
-//! The rims of a body that is no box: free of traction, P n = 0.
+//! Rims of a body that is not a box: free of traction, P n = 0.
 //!
-//! Laws with a memory are known to the truth for loading that never reverses: that it does not is
-//! checked here.
+//! For laws with a memory, exact solutions require loading that never reverses, which is checked
+//! here.
 
 use super::event::{AXES, Event};
 use super::survey;
@@ -59,8 +59,8 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
     found.into_iter().try_for_each(LargestViolation::into_result)
 }
 
-/// Component i of an initial condition: what is `stated`, or else that of the motion (which must
-/// be a number: nothing is near to NaN or infinity) or zero.
+/// Component i of an initial condition: the `stated` value, by default that of the motion (which
+/// must be finite) or zero.
 fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion: f64) -> f64 {
     if stated.is_empty() && problem.follows_motion {
         return motion;
@@ -98,8 +98,8 @@ pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     found.into_result().map(|()| left)
 }
 
-/// Holds the traction on every rim against zero, and returns the largest that is left, relative to
-/// the stress.
+/// Checks that the traction on every rim is zero, and returns the largest residual, relative to the
+/// stress.
 pub(crate) fn traction_free_rims(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     let Some(outline) = &problem.outline else { return Ok(0.0) };
     let size = survey.largest.stress;
@@ -125,7 +125,7 @@ pub(crate) fn traction_free_rims(problem: &Problem, survey: &Survey) -> Result<f
     Ok(left)
 }
 
-/// In uniaxial strain: where the body flows, the stretch never turns back.
+/// Checks in uniaxial strain that the stretch does not reverse while the body flows.
 pub(crate) fn monotone_loading(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     if !problem.equation.has_history() {
         return Ok(());
@@ -152,7 +152,7 @@ mod tests {
     use crate::exact::tests::{bar, free};
     use rstest::rstest;
 
-    /// The bar flows beyond a strain of 0.01, and turns back at half of the time.
+    /// The bar flows beyond a strain of 0.01, and reverses at half of the time.
     #[rstest]
     #[case::pulled("0.05*X*t", true)]
     #[case::pressed("-0.05*X*t", true)]

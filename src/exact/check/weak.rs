@@ -3,7 +3,7 @@
 //! Waves behind a sudden load have kinks: `u_X` jumps, and the equation holds point by point on
 //! both sides for any speed of the front. Only the weak form constrains the speed: for any smooth
 //! `phi` that vanishes on the boundary of a patch, `int int (rho0 u_t phi_t - P : grad phi + rho0 b
-//! phi) dX dt = 0`; For a body of revolution, dX is replaced by `R dX`, and `P_tT phi` is
+//! phi) dX dt = 0`. For a body of revolution, dX is replaced by `R dX`, and `P_tT phi` is
 //! subtracted in the radial component.
 //!
 //! The motion is evaluated once for all points of a raster that differ only along an axis on which
@@ -84,9 +84,9 @@ pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violati
     Ok(())
 }
 
-/// Compares gain and loss over a patch by the midpoint rule. An imbalance counts if it is about the
-/// same with twice as many points per axis, and with four times as many. Otherwise the points do
-/// not resolve the fields: the half of the patch about its largest term is compared instead.
+/// Compares gain and loss over a patch by the midpoint rule. An imbalance counts if it hardly
+/// changes with twice and four times as many points per axis. Otherwise the points do not resolve
+/// the fields, and the half of the patch around its largest term is compared instead.
 ///
 /// `condition` ends with the name of the equation.
 pub(crate) fn balances<const N: usize>(
@@ -145,7 +145,7 @@ impl Sums {
         Self { smallest, ..Self::default() }
     }
 
-    /// Adds what is gained and lost at a point, the `size` of the terms there.
+    /// Adds gain and loss at a point, where the terms have the magnitude `size`.
     pub(crate) fn add(&mut self, gain: f64, loss: f64, size: f64, at: &[AxisPoint]) {
         self.gain += gain;
         self.loss += loss;
@@ -168,8 +168,8 @@ impl Sums {
         (self.gain - self.loss).abs() <= share * self.size.max(self.smallest)
     }
 
-    /// Whether there is an imbalance that is about the same on half of the points per axis, `share`
-    /// of as many points, as are the terms.
+    /// Whether imbalance and terms hardly differ from those of the coarse raster, with half of the
+    /// points per axis and `share` of the points.
     fn has_settled(&self, coarse: &Self, share: f64) -> bool {
         let (fine, before) = (self.imbalance(), coarse.imbalance());
         let same_size = (coarse.size - share * self.size).abs() <= 0.05 * coarse.size;

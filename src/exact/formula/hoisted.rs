@@ -24,9 +24,9 @@ pub struct Hoisted<T> {
     /// The variables: the coordinates last added, and the present time.
     variables: Vec<T>,
     registers: Vec<T>,
-    /// Inputs of the remaining steps: values kept for the time, then those of one place.
+    /// Inputs of the remaining steps: values stored for the time, then those of one place.
     inputs: Vec<T>,
-    /// Values kept for each place, place after place.
+    /// Values stored for each place, place after place.
     kept: Vec<T>,
 }
 
@@ -54,7 +54,7 @@ impl<T: Number> Hoisted<T> {
     /// Adds a place; the first has the number 0.
     ///
     /// # Panics
-    /// If `coordinates` are not all variables but the last.
+    /// If `coordinates` are not all variables except the last.
     pub fn add(&mut self, coordinates: &[T]) {
         let last = self.variables.len() - 1;
         self.variables[..last].copy_from_slice(coordinates);
@@ -72,7 +72,7 @@ impl<T: Number> Hoisted<T> {
         self.inputs[..time.kept].copy_from_slice(&self.registers[..time.kept]);
     }
 
-    /// The values of the formulas at a place, at the present time. Allocates nothing.
+    /// The values of the formulas at a place, at the present time. Does not allocate.
     ///
     /// # Panics
     /// If there is no such place.
@@ -84,7 +84,7 @@ impl<T: Number> Hoisted<T> {
         self.split.results.iter().map(|result| read(*result, &self.inputs, &self.registers))
     }
 
-    /// Operations that are left for each evaluation.
+    /// Number of remaining operations for each evaluation.
     pub fn operations(&self) -> usize {
         self.split.rest.code.len()
     }
@@ -111,12 +111,12 @@ struct SsaNode {
     dependence: Dependence,
 }
 
-/// A program that leaves what others need of it in its first registers.
+/// A program whose first registers contain the values that other programs need.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PartProgram {
     pub(super) code: Vec<Instruction>,
     pub(super) registers: usize,
-    /// Number of values that are left for the rest.
+    /// Number of these values.
     pub(super) kept: usize,
 }
 
@@ -125,11 +125,12 @@ pub(super) struct PartProgram {
 pub(super) struct Split {
     /// Steps that depend on the place only, over the variables.
     pub(super) place: PartProgram,
-    /// Steps that depend on the time at most, over the variables.
+    /// Steps that depend at most on the time; its variables include the time.
     pub(super) time: PartProgram,
-    /// The rest. Its variables are the values kept by `time`, followed by those kept by `place`.
+    /// The remaining steps. Their variables are the values stored by `time`, followed by those
+    /// stored by `place`.
     pub(super) rest: PartProgram,
-    /// Where the rest leaves the values of the formulas.
+    /// Locations of the values of the formulas after the rest.
     pub(super) results: Vec<Operand>,
 }
 
@@ -275,8 +276,8 @@ impl Homes {
     }
 }
 
-/// The part that computes what `reader` reads. What depends on nothing is computed where it is
-/// read; for the rest, which runs most often, it is computed with what depends on the time.
+/// The part that computes the inputs of `reader`. Constants are computed where they are read. For
+/// the rest, which runs most often, they are computed with the part that depends on the time.
 fn home(dependence: Dependence, reader: Dependence) -> Dependence {
     match (dependence, reader) {
         (NOTHING, BOTH) => TIME,

@@ -18,9 +18,9 @@ macro_rules! elementary {
 
 /// A number that a formula can be evaluated over.
 ///
-/// `f64` has inherent methods of the same names, which call the platform's mathematical library
-/// and win over those of this trait. Call them in code generic over `Number`, or as
-/// `Number::sin(x)`, if the bits have to be the same everywhere.
+/// `f64` has inherent methods with these names, which call the mathematical library of the platform
+/// and take precedence over those of this trait. Call them in code generic over `Number`, or as
+/// `Number::sin(x)`, if results must be bit-identical everywhere.
 pub trait Number:
     Copy
     + PartialEq

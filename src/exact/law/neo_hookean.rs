@@ -55,9 +55,9 @@ impl ConstitutiveLaw for NeoHookeanLaw {
     }
 
     /// `lambda (ln J + eps) + mu (exp(2 eps) - 1) = 0` with the J of the plane and `eps = ln F_33`,
-    /// by Newton's method. The left side is convex, and not negative where its tangent at rest
-    /// vanishes: from there each step goes down to the root, until rounding stops it. Two more
-    /// carry the derivatives.
+    /// by Newton's method. The left side is convex, and not negative at the zero of its tangent at
+    /// rest: from there each step decreases monotonically to the root, until rounding stops it. Two
+    /// more steps carry the derivatives.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let log = Number::ln(area(grad));
         let mut eps = -self.0.thinning() * log.value();
