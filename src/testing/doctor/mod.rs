@@ -28,8 +28,8 @@ use crate::external::SolverFactory;
 use examination::ALL;
 use patient::{Examination, Hindrance, Patient};
 
-/// Examines a solver, the plainest question first. One that says nothing as long as another has
-/// defects is left out then. `progress` is called with the name of each.
+/// Examines a solver, with the simplest examination first. An examination that depends on others is
+/// skipped if these report defects. `progress` is called with the name of each.
 pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorReport {
     let mut report = DoctorReport {
         solver: solver.name().to_owned(),
@@ -54,7 +54,7 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
     report
 }
 
-/// Why nothing can be examined, by the first examination.
+/// Why nothing can be examined, from the first examination.
 fn silent(first: &ExaminationResult) -> Option<String> {
     match first {
         ExaminationResult::Examined { findings, .. } => {
@@ -68,7 +68,7 @@ fn silent(first: &ExaminationResult) -> Option<String> {
     }
 }
 
-/// Name of the finding that a solver does not get through an examination.
+/// Name of the finding on a solver that does not complete an examination.
 const BROKE: &str = "does-not-get-through";
 
 fn examined(examination: &Examination, patient: &Patient<'_>) -> ExaminationResult {

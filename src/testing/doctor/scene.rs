@@ -1,4 +1,4 @@
-//! Small scenes, written as suites and handed over like those.
+//! Small scenes, written as suites and passed to the solver in the same way.
 
 use super::course::{AffineField, Course};
 use crate::external::{LevelProblem, ProblemNeeds};
@@ -17,20 +17,20 @@ pub(super) const FINITE: [&str; 4] = ["linear_elastic", "neo_hookean", "corotate
 pub(super) const ELASTIC: [&str; 5] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2"];
 
-/// All laws, for scenes in which the law has no effect, or the effect is not judged.
+/// All laws, for scenes in which the law has no effect, or its effect is not examined.
 pub(super) const ANY: [&str; 7] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2", "newtonian", "linear_fluid"];
 
 /// Cell size (m): a power of two, so that a lattice can lie on cell faces without rounding.
 pub(super) const H: f64 = 0.125;
 
-/// Factor of a stiffness without effect, even at nodes whose mass is nothing but rounding.
+/// Factor of a stiffness without effect, even at nodes whose mass is only rounding error.
 pub(super) const SOFT: f64 = 1e-24;
 
 /// Names of the faces of a box: those with the lower and the higher coordinate of each axis.
 pub(super) const FACES: [[&str; 2]; 3] = [["left", "right"], ["bottom", "top"], ["back", "front"]];
 
-/// A box of particles on a grid. Vectors have as many numbers as the scene has dimensions.
+/// A box of particles on a grid. Vectors have one number per dimension of the scene.
 #[derive(Debug, Clone)]
 pub(super) struct BoxScene {
     pub(super) dimension: usize,
@@ -81,7 +81,7 @@ impl BoxScene {
             grid: (grid_low, grid_high),
             young: 0.1,
             poisson: 0.3,
-            // No power, product or ratio of the other figures: see `fall::factors`.
+            // Not a power, product or ratio of the other figures: see `fall::factors`.
             density: 1.7,
             velocity: AffineField::default(),
             displacement: AffineField::default(),
@@ -146,7 +146,7 @@ impl BoxScene {
         }
     }
 
-    /// The material, as suites write it.
+    /// The material, in the notation of suites.
     fn material(&self) -> String {
         let Self { law, young, poisson, density, .. } = self;
         let bulk = young / (3.0 * (1.0 - 2.0 * poisson));
@@ -194,10 +194,10 @@ impl BoxScene {
         )
     }
 
-    /// The scene as a problem, with its needs. The state is asked for after every step.
+    /// The scene as a problem, with its requirements. The state is requested after every step.
     ///
     /// # Errors
-    /// One line with the reason why the scene is no problem.
+    /// One line with the reason why the scene is not a valid problem.
     pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), String> {
         let suite = self.suite("basis: linear, transfer: flip, scheme: musl")?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
@@ -214,7 +214,7 @@ impl BoxScene {
         suite.map_err(|diagnostic| diagnostic.to_string())
     }
 
-    /// The run of this crate's MPM with PIC and the named basis: what averaging alone does.
+    /// A run of the built-in MPM with PIC and the named basis: the effect of averaging alone.
     ///
     /// # Errors
     /// One line with the reason why there is none.

@@ -37,14 +37,14 @@ impl Gate {
             Ok(files) => files,
             Err(error) => return nothing(format!("{shown}: {error}")),
         };
-        // The check of a truth takes a tenth of a second; there may be many.
+        // The check of an exact solution takes 0.1 s, and there may be many suites.
         let found: Vec<_> = files.par_iter().map(|file| self.of_file(file)).collect();
         let (mut trials, mut suites) = (Vec::new(), Vec::new());
         for (cases, suite) in found {
             trials.extend(cases);
             suites.extend(suite);
         }
-        // A report waits for all cases of its suite, and its thread does nothing meanwhile.
+        // A report waits for all cases of its suite, and its thread is idle meanwhile.
         trials.extend(suites.iter().map(report));
         if self.with_overview {
             trials.extend(self.of_all(suites));
