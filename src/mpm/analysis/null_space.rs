@@ -21,9 +21,9 @@ const ROUNDING: f64 = 1e-26;
 const MOST: usize = 200;
 
 impl<const D: usize> Solver<D> {
-    /// Kinetic energy (J) of the part of the particles' velocities that lies in the null space of
-    /// the map to the grid, where the particles are now. Walls do not matter: they hold nodes, and
-    /// this part gives nothing to any.
+    /// Kinetic energy (J) of the part of the particle velocities in the null space of the map to
+    /// the grid, at the current positions. Walls do not matter: they fix nodes, and this part has
+    /// no effect on nodes.
     pub fn null_space_energy(&self) -> f64 {
         0.5 * square(&self.setup.particles, &self.null_space_velocity())
     }
@@ -69,8 +69,8 @@ fn null_part<const D: usize>(
     rest
 }
 
-/// Nodal masses (kg) where the particles are now; those of the grid are of the step that has moved
-/// them.
+/// Nodal masses (kg) at the current positions of the particles; those of the grid are from before
+/// the last motion.
 fn masses<const D: usize>(
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,

@@ -1,7 +1,7 @@
 //! Stable time step, by power iteration with the passes of the solver itself.
 //!
-//! Velocities of nodes strain the particles, the stresses make forces, and these accelerate the
-//! nodes: `L = M^-1 K`, applied by running the stages of a step on a small velocity. Its largest
+//! Nodal velocities strain the particles, the stresses give forces, and these accelerate the nodes:
+//! `L = M^-1 K`, applied by running the stages of a step on a small velocity. Its largest
 //! eigenvalue, the square of the highest frequency, is found by power iteration. With it an
 //! explicit step is stable up to `dt^2 L = 4/((2 - a) l)` under USL, where a, between 0 and 1, is
 //! the share of a velocity that the particles return to the grid; so `dt = sqrt(2/L)` is stable for
@@ -105,7 +105,7 @@ impl<const D: usize> Solver<D> {
             for (found, rest) in found.iter_mut().zip(&rest) {
                 *found = (*found - rest) / dt;
             }
-            // Written so that NaN comes through.
+            // Written so that NaN propagates.
             let ratio = (self.size(&found) / self.size(mode)).sqrt();
             square = if square > ratio { square } else { ratio };
             // The next mode is (L - shift) mode, up to its sign.
@@ -159,7 +159,7 @@ impl<const D: usize> Solver<D> {
         self.visit_state(&mut Checkpoint::from_bytes(start));
     }
 
-    /// All that a response changes, and with it what material and effects keep between stresses.
+    /// All state that a response changes, including the state of material and effects.
     fn visit_state(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.setup);
         checkpoint.visit(&mut self.velocity_time);
@@ -172,11 +172,11 @@ fn strains_by_mapped_velocity(scheme: SchemeName, kind: TransferKind) -> bool {
     scheme != SchemeName::Usl && kind == TransferKind::Velocity
 }
 
-/// The simplest scheme and transfer with the stable time step of these, to the last bit, so that
-/// it is computed once for all methods that share it. A response has neither P2G of momentum nor
-/// G2P of velocities unless velocities pass through particles, and then only the passage itself;
-/// forces and velocity gradients are those of the basis for all transfers but fits, and so are
-/// accelerations for all but series and cells.
+/// The simplest scheme and transfer with the same stable time step, to the last bit, so that it is
+/// computed once for all methods that share it. A response contains no P2G of momentum and no G2P
+/// of velocities, unless velocities pass through particles, and then only this passage. Forces and
+/// velocity gradients are those of the basis for all transfers except fits, and accelerations are
+/// those of the basis for all except series and cells.
 pub fn simplest_with_same_response(
     scheme: SchemeName,
     transfer: TransferChoice,

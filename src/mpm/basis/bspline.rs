@@ -1,10 +1,10 @@
 //! B-splines of degree 2 and 3: gradients without jumps.
 //!
-//! At walls the knots are open (repeated), so that the functions conform to the wall: the first one
-//! is 1 there, and holding it holds the boundary (Steffen, Kirby & Berzins 2008, IJNME 76,
-//! section 4; Tielen, Wobbes, Moeller & Beuth 2017). On a periodic axis the knots are uniform. The
-//! functions are evaluated by the recursion of Cox and de Boor (Piegl & Tiller, The NURBS Book,
-//! algorithm A2.2).
+//! At walls the knots are open (repeated), so that the functions conform to the wall: the first
+//! function is 1 there, and prescribing its coefficient prescribes the boundary value (Steffen,
+//! Kirby & Berzins 2008, IJNME 76, section 4; Tielen, Wobbes, Moeller & Beuth 2017). On a periodic
+//! axis the knots are uniform. The functions are evaluated by the recursion of Cox and de Boor
+//! (Piegl & Tiller, The NURBS Book, algorithm A2.2).
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain, FourLanes};
@@ -147,7 +147,7 @@ fn along_wall<const D: usize, const K: usize>(
     }
 }
 
-/// Replaces the functions of those of four particles that are near a wall.
+/// Recomputes the functions of those of four particles that are near a wall.
 #[cold]
 #[inline(never)]
 fn put_right<const D: usize, const K: usize>(

@@ -87,7 +87,7 @@ pub(in crate::mpm) fn all_finite<const R: usize, const C: usize>(
     ) && rest.iter().all(is_finite)
 }
 
-/// Searches for the particle only if there is one.
+/// Searches for the particle only if there is an invalid one.
 fn first_matrix<const R: usize, const C: usize>(
     quantity: &'static str,
     column: &[SMatrix<f64, R, C>],

@@ -27,7 +27,7 @@ fn join_any(one: &mut (dyn FnMut() + Send), other: &mut (dyn FnMut() + Send)) {
     rayon::join(one, other);
 }
 
-/// The first `count` entries of a column, if there is one, and the others.
+/// The first `count` entries of a column, if there is one, and the remaining entries.
 pub(in crate::mpm) fn split<T>(
     column: Option<&mut [T]>,
     count: usize,

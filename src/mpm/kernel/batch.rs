@@ -150,7 +150,7 @@ pub(super) fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(
     }
 }
 
-/// Columns of `matrix D_p^-1`, each in a register from lane `from` on, with the inertia tensor of
+/// Columns of `matrix D_p^-1`, each in a register from lane `from` on. Uses the inertia tensor of
 /// all patches of the particle, or without it that of its only patch.
 #[inline(always)]
 pub(super) fn divide<B: Basis, S: Simd, const D: usize>(

@@ -78,8 +78,8 @@ pub(super) trait ClosedForms {
     /// Cauchy stress (Pa) under simple shear in the plane: components 11, 12 and 22.
     fn simple_shear(&self, gamma: f64) -> [f64; 3];
 
-    /// Cauchy stress (Pa) along and across a uniaxial stretch, the other axes held; `None` if the
-    /// law has a history, which a test in its own file covers.
+    /// Cauchy stress (Pa) along and across a uniaxial stretch, with the other axes fixed; `None` if
+    /// the law has a history, which a test in its own file covers.
     fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]>;
 
     /// The energy density (J/m3) whose derivative is the stress, up to a constant, as long as
@@ -99,10 +99,10 @@ pub(super) trait ClosedForms {
 
 /// A constitutive law, with its private state. The solver makes one virtual call per step.
 pub trait Material<const D: usize>: Send {
-    /// Whether the law reads F: the column exists only then, or if the basis asks for it.
+    /// Whether the law reads F: the column exists only then, or if the basis reads F.
     fn reads_deformation(&self) -> bool;
 
-    /// Whether the law keeps the stretch across the plane: the column exists only then.
+    /// Whether the law stores the stretch across the plane: the column exists only then.
     fn keeps_stretch_across(&self) -> bool {
         false
     }
@@ -118,12 +118,12 @@ pub trait Material<const D: usize>: Send {
         false
     }
 
-    /// State of each particle that the law keeps.
+    /// State that the law stores for each particle.
     fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
     }
 
-    /// Visits the state that the law keeps.
+    /// Visits the state of the law.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
     /// This law in plane stress, sigma_33 = 0; `None` if it is not implemented there.

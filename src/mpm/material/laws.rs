@@ -13,7 +13,7 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 #[path = "../../../tests/exercises/st_venant_kirchhoff.rs"]
 mod exercise;
 
-/// A rotation about an oblique axis (Rodrigues); in 1-D there is only the identity.
+/// A rotation about an oblique axis (Rodrigues); in 1-D the identity.
 fn rotation<const D: usize>(angle: f64) -> Matrix<D> {
     let w = 1.0 / 3.0_f64.sqrt();
     let spin = match D {
@@ -31,9 +31,9 @@ fn in_space<const D: usize>(m: &Matrix<D>, beyond: f64) -> Matrix<3> {
     space
 }
 
-/// Whether the law reads F, so that its stress is objective through any rotation in one step. A law
-/// of the velocity gradient is objective in the rate only: a step that turns by some angle leaves
-/// an error of the second order in that angle.
+/// Whether the law reads F, so that its stress is objective under any rotation in one step. A law
+/// of the velocity gradient is objective in the rate only: a step with a rotation has an error of
+/// second order in the angle.
 fn reads_deformation(plan: MaterialPlan) -> bool {
     plan.build::<1>().reads_deformation()
 }
@@ -129,7 +129,7 @@ fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(found, turned, epsilon = 1e-12 * turned.norm() + rounding);
 }
 
-/// The state kept after a step, plastic flow too, gives the same stress again.
+/// The state after a step, including plastic flow, gives the same stress again.
 fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
     let mut specimen = Specimen::<D>::new(plan);
     let first = specimen.deform(&(Matrix::identity() + scattered(0.25, 0.3)), SLOW);
@@ -219,7 +219,7 @@ fn simple_shear_has_its_closed_forms() {
     }
 }
 
-/// Along and across a uniaxial stretch, the others held.
+/// Along and across a uniaxial stretch, with the other axes fixed.
 #[test]
 fn stretch_has_its_closed_forms() {
     let stretch = 1.3;

@@ -1,8 +1,7 @@
 //! Neo-Hookean elasticity, a law of the whole deformation.
 //!
 //! `sigma = (lambda ln(J)/J) I + (mu/J) (F F^T - I)` (Wallstedt & Guilkey 2008; Kamojjala et al.
-//! 2015). Nothing is integrated in time but F. Fewer than three dimensions mean plane or uniaxial
-//! strain.
+//! 2015). Only F is integrated in time. In 2-D and 1-D the strain is plane and uniaxial.
 
 use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{set_stress_by_batch, stored_energy};
@@ -77,7 +76,7 @@ impl FreeAcross for NeoHookean {
         let (Self { lambda, mu }, log) = (*self, libm::log(area));
         let mut above = -thinning(lambda, mu) * log;
         for _ in 0..MOST_STEPS {
-            // s^2 - 1, which for small strains keeps its digits.
+            // s^2 - 1, without cancellation for small strains.
             let excess = libm::expm1(2.0 * above);
             let slope = lambda + 2.0 * mu * (1.0 + excess);
             let next = above - (lambda * (log + above) + mu * excess) / slope;

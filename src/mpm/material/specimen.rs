@@ -9,8 +9,8 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::{Block, Particles};
 use crate::subject::{Checkpoint, PlaneState};
 
-/// Length of a step (s) in which nothing viscous counts, and of one in which nothing else does.
-/// Powers of two, so that velocity gradients times the step are exact.
+/// Length (s) of a step in which viscous stresses are negligible, and of one in which all others
+/// are. Powers of two, so that velocity gradients times the step are exact.
 pub(super) const SLOW: f64 = 1_099_511_627_776.0;
 pub(super) const FAST: f64 = 1.0 / SLOW;
 
@@ -86,7 +86,7 @@ impl<const D: usize> Specimen<D> {
         particles.sigma[0]
     }
 
-    /// Another one, made of `plan`, that goes on from the state of this one.
+    /// Another specimen of `plan`, resumed from the state of this one.
     pub(super) fn interrupted(&mut self, plan: MaterialPlan) -> Self {
         let mut checkpoint = Checkpoint::empty();
         self.0.checkpoint(&mut checkpoint);
@@ -99,7 +99,7 @@ impl<const D: usize> Specimen<D> {
         other
     }
 
-    /// The stored energy (J), of a volume of one.
+    /// The stored energy (J) of a unit volume.
     pub(super) fn energy(&self) -> Option<f64> {
         self.0.energy(&self.1)
     }

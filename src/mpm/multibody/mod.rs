@@ -4,10 +4,9 @@
 //! grid over the same geometry. Each pass is run by all of them; at nodes to which more than one
 //! body gives mass they are then coupled:
 //!
-//! - [`SharedVelocity`]: they have one velocity and one acceleration there, as in the original
-//!   MPM, which does not know bodies (Sulsky, Chen & Schreyer 1994): they stick together
-//!   permanently;
-//! - [`Contact`]: each keeps its own, and they push each other apart where they approach.
+//! - [`SharedVelocity`]: they have one velocity and one acceleration there, as in the original MPM,
+//!   which does not distinguish bodies (Sulsky, Chen & Schreyer 1994): they are bonded permanently;
+//! - [`Contact`]: each has its own velocity, and they exchange impulses if they approach.
 //!
 //! A single body has no coupling.
 
@@ -25,7 +24,7 @@ use crate::subject::{
 use contact::Contact;
 use coupling::{Coupling, SharedVelocity};
 
-/// Bodies that meet on a grid; particles are those of all bodies, one after the other.
+/// Bodies on a common grid; particles are those of all bodies, one after the other.
 pub struct Bodies<const D: usize> {
     solvers: Vec<Solver<D>>,
     /// None of a single body.
@@ -81,7 +80,7 @@ impl<const D: usize> Bodies<D> {
         Tally::take(&tallies.collect::<Vec<_>>())
     }
 
-    /// Compiles the schedule, that of the first body with the coupling of all.
+    /// Compiles the schedule: that of the first body with the coupling of all.
     fn compile(&mut self, fixed_configuration: bool) {
         let reads_velocity = self.coupling.as_ref().is_some_and(|c| c.reads_velocity());
         let coupled = Coupled { bodies: self.coupling.is_some(), reads_velocity };
@@ -128,7 +127,7 @@ impl<const D: usize> Subject for Bodies<D> {
         for solver in &self.solvers {
             solver.particles().sample(samples);
         }
-        // A column that some body lacks is none.
+        // A column is empty if a body does not have it.
         if samples.deformation_gradient.len() != samples.len() * D * D {
             samples.deformation_gradient.clear();
         }

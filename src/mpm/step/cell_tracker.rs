@@ -208,7 +208,7 @@ mod tests {
         assert_eq!((tracker.crossings, tracker.left_domain), (5, 3));
     }
 
-    /// Moves of one particle in cells of size 1, one after the other: the crossings that each adds.
+    /// Moves of one particle in cells of size 1, one after the other, and the crossings of each.
     #[rstest]
     #[case::within_its_cell(false, &[(0.25, 0), (1.0, 1), (1.75, 0)])]
     #[case::back_and_forth(false, &[(1.0, 1), (0.5, 1)])]

@@ -39,7 +39,7 @@ pub(in crate::mpm) enum CouplingPoint {
     Velocity,
     /// After P2G of velocities that strain the bodies next.
     StrainVelocity,
-    /// After strains from velocities that are still to be advanced.
+    /// After strains from velocities that are advanced later.
     Strained,
     /// After accelerations.
     Acceleration,
@@ -131,7 +131,7 @@ impl StepSchedule {
         }
     }
 
-    /// Passes of each step as reports list them; `state` are those of the effects' own state.
+    /// Passes of each step, as in reports; `state` are those of the state of effects.
     pub(in crate::mpm) fn texts(&self, state: &[&str]) -> Vec<String> {
         self.passes.iter().flat_map(|pass| pass.texts(state)).collect()
     }

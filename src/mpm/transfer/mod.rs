@@ -65,7 +65,7 @@ impl TransferName {
     }
 }
 
-/// A transfer, ready to be made.
+/// A transfer with its parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TransferChoice {
     /// A registered one.

@@ -40,7 +40,7 @@ pub(in crate::mpm) struct PackedField<N> {
     layout: Layout,
 }
 
-/// Nodes along each axis, one where there is no axis.
+/// Nodes along each axis, one if there is no such axis.
 fn counts<const D: usize>(grid: &Grid<D>) -> [usize; 3] {
     std::array::from_fn(|axis| grid.counts.get(axis).copied().unwrap_or(1))
 }
@@ -143,7 +143,7 @@ pub(in crate::mpm) struct Columns<'a, const D: usize> {
     pub(in crate::mpm) mass: Option<&'a mut [f64]>,
     /// From the first lanes.
     pub(in crate::mpm) momentum: Option<&'a mut [Vector<D>]>,
-    /// From the lanes after it, or from the first ones where they hold nothing else.
+    /// From the lanes after it, or from the first lanes if there is nothing else.
     pub(in crate::mpm) force: Option<&'a mut [Vector<D>]>,
     /// Nodes of the grid before the first one of these columns.
     pub(in crate::mpm) before: usize,
@@ -269,8 +269,8 @@ mod tests {
     }
 
     proptest! {
-        /// Every place of the packed field stands for one node of the grid: packing writes the
-        /// value of that node there, and folding adds it back.
+        /// Every place of the packed field represents one node of the grid: packing writes the
+        /// value of the node there, and folding adds it back.
         #[test]
         fn packing_and_folding_are_transposes(
             counts in [1_usize..6, 1..6],
