@@ -172,8 +172,8 @@ mod tests {
         assert_relative_eq!(here.second[2][2][0], slope, max_relative = 1e-8, epsilon = 1e-9);
     }
 
-    /// On the axis the hoop strain and its derivatives are the limits for r -> 0: for `u_r = a r +
-    /// b r^2 + c r z` the hoop strain `u_r/r` is `a + b r + c z`.
+    /// On the axis the hoop strain and its derivatives are the limits for r -> 0: for
+    /// `u_r = a r + b r^2 + c r z` the hoop strain `u_r/r` is `a + b r + c z`.
     #[rstest]
     fn the_hoop_is_smooth_on_the_axis(#[values(0.0, 1e-3, 0.5)] radius: f64) {
         let (a, b, c, z) = (0.1, 0.3, 0.2, 0.7);

@@ -273,8 +273,9 @@ impl Problem {
         std::array::from_fn(|i| force[i] + initial[i])
     }
 
-    /// The part of Div P (N/m3) of a body of revolution without a derivative: `((P_rR - P_tT)/R,
-    /// P_zR/R)` at the radius R (Malvern 1969, appendix II). Zero for other bodies.
+    /// The part of Div P (N/m3) of a body of revolution without a derivative:
+    /// `((P_rR - P_tT)/R, P_zR/R)` at the radius R (Malvern 1969, appendix II). Zero for other
+    /// bodies.
     pub(super) fn hoop_force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         if self.plane != PlaneState::Axisymmetric {
             return [0.0; 3];

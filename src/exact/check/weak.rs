@@ -2,9 +2,9 @@
 //!
 //! Waves behind a sudden load have kinks: `u_X` jumps, and the equation holds point by point on
 //! both sides for any speed of the front. Only the weak form constrains the speed: for any smooth
-//! `phi` that vanishes on the boundary of a patch, `int int (rho0 u_t phi_t - P : grad phi + rho0 b
-//! phi) dX dt = 0`. For a body of revolution, dX is replaced by `R dX`, and `P_tT phi` is
-//! subtracted in the radial component.
+//! `phi` that vanishes on the boundary of a patch,
+//! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`. For a body of revolution, dX
+//! is replaced by `R dX`, and `P_tT phi` is subtracted in the radial component.
 //!
 //! The motion is evaluated once for all points of a raster that differ only along an axis on which
 //! the motion does not vary.

@@ -2,9 +2,9 @@
 //! deformed body.
 //!
 //! The heat flux refers to the reference configuration. Fourier's law holds in the current
-//! configuration, `q = -k grad T` per current area. Per reference area it is `Q = -k J C^-1 Grad
-//! T`, `C = F^T F` (Holzapfel 2000, *Nonlinear Solid Mechanics*, section 7.1), and the balance is
-//! `rho0 c T_t = -Div Q + rho0 s`. A body at rest has F = I.
+//! configuration, `q = -k grad T` per current area. Per reference area it is
+//! `Q = -k J C^-1 Grad T`, `C = F^T F` (Holzapfel 2000, *Nonlinear Solid Mechanics*, section 7.1),
+//! and the balance is `rho0 c T_t = -Div Q + rho0 s`. A body at rest has F = I.
 
 use crate::dimension::with_dimension;
 use crate::exact::formula::{Formula, Hoisted, Jet, Number, Slope};

@@ -60,8 +60,8 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// The closed form holds along the axes, also for equal stretches, and after a rotation: `P(Q
-    /// F) = Q P(F)`.
+    /// The closed form holds along the axes, also for equal stretches, and after a rotation:
+    /// `P(Q F) = Q P(F)`.
     #[rstest]
     fn stress_has_its_closed_form_along_the_axes(
         #[values([1.3, 0.6, 1.0], [1.2; 3], [4.0, 0.2, 1.0], [1.0 + 1e-9, 1.0, 1.0])]

@@ -3,9 +3,9 @@
 //! As long as the logarithmic strain `eps` grows along one direction, the plastic strain is a
 //! function of it, and the law is one of the total deformation (Hencky 1924; the integral of the
 //! flow theory for proportional loading): the Kirchhoff stress is `tau = K tr(eps) I + s dev(eps)`,
-//! with `s = 2 mu` up to `q = sqrt(3/2) |2 mu dev(eps)| = Y`, and beyond such that `q = Y + H
-//! alpha`, `3 mu alpha = q_elastic - q`. The law is used in uniaxial strain, where all loading is
-//! along one direction; `loading` checks that it never reverses.
+//! with `s = 2 mu` up to `q = sqrt(3/2) |2 mu dev(eps)| = Y`, and beyond such that
+//! `q = Y + H alpha`, `3 mu alpha = q_elastic - q`. The law is used in uniaxial strain, where all
+//! loading is along one direction; `loading` checks that it never reverses.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;

@@ -42,9 +42,9 @@ impl Piece {
 
     /// Half-lengths (m) of a parallelogram of its volume, row after row, with the same mean
     /// products of coordinates in shape: the columns are those of the symmetric root of Q, three
-    /// times the matrix of these products, `(Q + s I)/t` with `s = sqrt(det Q)` and `t = sqrt(tr Q
-    /// + 2 s)` (Higham 2008, *Functions of Matrices*, problem 6.2). For a rectangle along the axes
-    /// it is this rectangle.
+    /// times the matrix of these products, `(Q + s I)/t` with `s = sqrt(det Q)` and
+    /// `t = sqrt(tr Q + 2 s)` (Higham 2008, *Functions of Matrices*, problem 6.2). For a rectangle
+    /// along the axes it is this rectangle.
     pub fn domain(&self) -> [f64; 4] {
         let [xx, xy, yy] = self.spread.map(|product| 3.0 * product);
         let root = (xx * yy - xy * xy).sqrt();

@@ -39,21 +39,21 @@
 //! error^k.
 //!
 //! `null` marks a missing value; numbers that are not finite are the strings `"nan"`, `"inf"`,
-//! `"-inf"`. Internal-force studies have no levels; their `forces` are a list of `{"position",
-//! "n_left", "n_right", "force", "predicted"}`. Stability studies have no levels either; their
-//! `stability` is `{"swept", "sought", "rows"}`. Each row has the `value` of the swept parameter
-//! and either the `run`, with its verdict and figures, or the limit of the sought parameter:
-//! `predicted`, `observed` (each with `at`, or `above` or `below` the range) and the runs that
-//! `confirmed` it. `axis` is the refined axis (`space`, `time`, `particles`) and `spacing` the
-//! spacing on this axis; there is no formal order for `particles`. `energy_rate` is d ln E/dt
-//! (1/s), and both ends of its 95 % interval. For a law without an energy the drift of `energy` is
-//! `"nan"`. `stable_time_step` (s) is present if the step is automatic, or if the stated step is
-//! longer. `profile` is the cost of one step on the coarsest level, if the subject reports it
-//! (MPM): its `passes` in their order, the particles that each part of them `visits`, and the
-//! `columns` of memory, with the `bytes` of one entry. `floor` has the error of the finest level
-//! with another spacing halved, if that was run. Its `cause` is one of the axes, or `none`, or null
-//! if it could not be determined. Keys may be added; no key is renamed or removed without a new
-//! major version. `docs/columns.md` lists the keys of rows.
+//! `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
+//! `{"position", "n_left", "n_right", "force", "predicted"}`. Stability studies have no levels
+//! either; their `stability` is `{"swept", "sought", "rows"}`. Each row has the `value` of the
+//! swept parameter and either the `run`, with its verdict and figures, or the limit of the sought
+//! parameter: `predicted`, `observed` (each with `at`, or `above` or `below` the range) and the
+//! runs that `confirmed` it. `axis` is the refined axis (`space`, `time`, `particles`) and
+//! `spacing` the spacing on this axis; there is no formal order for `particles`. `energy_rate` is d
+//! ln E/dt (1/s), and both ends of its 95 % interval. For a law without an energy the drift of
+//! `energy` is `"nan"`. `stable_time_step` (s) is present if the step is automatic, or if the
+//! stated step is longer. `profile` is the cost of one step on the coarsest level, if the subject
+//! reports it (MPM): its `passes` in their order, the particles that each part of them `visits`,
+//! and the `columns` of memory, with the `bytes` of one entry. `floor` has the error of the finest
+//! level with another spacing halved, if that was run. Its `cause` is one of the axes, or `none`,
+//! or null if it could not be determined. Keys may be added; no key is renamed or removed without a
+//! new major version. `docs/columns.md` lists the keys of rows.
 
 use crate::report::json::cost;
 use crate::report::study::KINDS;

@@ -1,9 +1,9 @@
 //! The state in which bodies start.
 //!
 //! If the exact solution is a motion and the stress of the material depends on the deformation
-//! only, the initial state is that of the motion at t = 0: `x = X + u(X, 0)`, `F = I + grad u`, `v
-//! = u_t`. Otherwise it is the state in the scene, by default at rest and undeformed. The initial
-//! stress is always that of the scene.
+//! only, the initial state is that of the motion at t = 0: `x = X + u(X, 0)`, `F = I + grad u`,
+//! `v = u_t`. Otherwise it is the state in the scene, by default at rest and undeformed. The
+//! initial stress is always that of the scene.
 
 use crate::exact::formula::Formula;
 use crate::exact::{Derivatives, InitialStress, Motion};

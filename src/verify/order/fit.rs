@@ -89,8 +89,9 @@ impl FittedLine {
         Interval { value: self.slope, low: self.slope - half_width, high: self.slope + half_width }
     }
 
-    /// The value of another point at `x`, with its 95 % prediction interval: `line(x) -+ t s sqrt(1
-    /// + 1/n + (x - mean)^2 / Sxx)`; the ends are NaN for fewer than three points.
+    /// The value of another point at `x`, with its 95 % prediction interval:
+    /// `line(x) -+ t s sqrt(1 + 1/n + (x - mean)^2 / Sxx)`; the ends are NaN for fewer than three
+    /// points.
     pub(crate) fn another(&self, x: f64) -> Interval {
         let (freedom, offset) = (self.points.saturating_sub(2), x - self.mean_x);
         let spread = 1.0 + 1.0 / self.points as f64 + square(offset) / self.sxx;
