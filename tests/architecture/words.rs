@@ -115,7 +115,8 @@ pub(crate) const PLAIN_FILES: &[(&str, &str)] =
 /// Folders whose comments have none of the `UNCLEAR_PHRASES` and `UNCLEAR_BEGINNINGS`.
 pub(crate) const PLAIN_SOURCES: &[&str] = &["src", "benches", "tests", "examples"];
 
-/// Beginnings of comments that point at a neighbouring item or name no limit, each with a better one.
+/// Beginnings of comments that point at a neighbouring item or name no limit, each with a better
+/// one.
 pub(crate) const UNCLEAR_BEGINNINGS: &[(&str, &str)] = &[
     ("What", "a noun phrase"),
     ("Whatever", "a noun phrase"),

@@ -2,8 +2,8 @@
 //! program in a scratch copy of the repository, with the defects of this folder behind switches.
 //!
 //! Arguments: the file of a suite, and the folder of snapshots. Output: one line of JSON with the
-//! keys `suite`, `load` (null, or why the suite is refused), `cases` (case, gate and message of each
-//! failure) and `drift` (whether the report has changed).
+//! keys `suite`, `load` (null, or why the suite is refused), `cases` (case, gate and message of
+//! each failure) and `drift` (whether the report has changed).
 
 mod gate;
 
