@@ -14,8 +14,8 @@ pub trait Condition: Debug + Send + Sync {
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation>;
 }
 
-/// A point of a face at a time of the run, with the elementary requirements of which conditions
-/// consist. There are few of them, because each residual needs a scale of the whole motion.
+/// A point of a face at a time of the run, with elementary requirements, which form the conditions.
+/// There are few of them, because each residual needs a scale of the whole motion.
 pub trait FacePoint {
     /// Number of space dimensions.
     fn dimension(&self) -> usize;

@@ -109,7 +109,7 @@ pub trait Basis: Sized + Sync + Send + 'static {
 
     /// Runs a loop over this basis. It is a method of the basis, so that the loops of each file of
     /// bases are a separate code-generation unit: they take most of the compile time, and a change
-    /// of one file does not recompile the loops of others.
+    /// of one file does not recompile the loops of other files.
     fn run<P: SimdPass>(level: Level, pass: P) {
         simd::run(level, pass);
     }

@@ -13,10 +13,11 @@
 //! grad N_i = 2^-D sum_c S_i(x_c) R^-T s_c
 //! ```
 //!
-//! which in 2-D are the paper's, and in 1-D `(S_i(x + l) + S_i(x - l))/2` and `(S_i(x + l) - S_i(x
-//! - l))/(2l)`: the gradient of contiguous-particle GIMP with another weight. `grad N_i` is the
-//! average of a gradient, not the gradient of the average `N_i`. Both reproduce linear fields:
-//! `sum_i x_i N_i = x`, `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
+//! which in 2-D are those of the paper, and in 1-D `(S_i(x + l) + S_i(x - l))/2` and
+//! `(S_i(x + l) - S_i(x - l))/(2l)`: the gradient of contiguous-particle GIMP with another weight.
+//! `grad N_i` is the average of a gradient, not the gradient of the average `N_i`. Both reproduce
+//! linear fields: `sum_i x_i N_i = x`,
+//! `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
 //!
 //! At walls the domain is compressed along the axis until it ends there, like the cut-off domain of
 //! GIMP: the map of the whole domain is affine, so that the sign of det R does not change. Moving

@@ -12,8 +12,8 @@ use crate::subject::{Failure, Samples, Subject};
 use crate::verify::conservation::{Balance, ConservationError, Conserved};
 use crate::verify::error::norm::larger;
 
-/// Number of first steps after each of which the state is checked; later checks are equally spaced.
-/// Growth that matters in ten thousand steps is slow, and fast growth shows in these first steps.
+/// Number of first steps with a check after every step; later checks are equally spaced. Growth
+/// that matters in ten thousand steps is slow, and fast growth shows in these first steps.
 const FIRST: u64 = 64;
 const EVERY: u64 = 16;
 
