@@ -18,7 +18,7 @@ const SUITES: [(&str, &[f64]); 4] = [
     ("column-hencky", &[1e-2, 1e-3]),
 ];
 
-/// Most methods of each.
+/// Maximum number of methods per suite.
 const METHODS: usize = 3;
 
 fn suite(name: &str) -> Suite {

@@ -1,10 +1,10 @@
-//! The loops against the yardstick: a textbook loop that is generic over nothing.
+//! Time of the loops of this crate over that of textbook loops without generic parameters.
 //!
-//! `cargo bench --bench ratio` compares both in one run, repeat by repeat, and tells the median of
-//! the ratios with its quartiles: on a machine whose speed varies, ratios of neighbours in time are
-//! what can be compared. `best` is the ratio of the shortest times of each, which others disturb
-//! least. `cargo bench --bench ratio -- 1e6 step` takes as many particles, and only what has the word in
-//! its name. Both are first checked to give the same numbers.
+//! `cargo bench --bench ratio` runs both in turn and prints the median of the ratios with its
+//! quartiles: on a machine whose speed varies, only ratios of consecutive times are comparable.
+//! `best` is the ratio of the minimum times, which other processes disturb least.
+//! `cargo bench --bench ratio -- 1e6 step` sets the number of particles, and selects measurements
+//! with `step` in their name. The program first checks that both loops give the same numbers.
 
 #[path = "common/one_thread.rs"]
 mod one_thread;
@@ -195,7 +195,8 @@ fn flip(count: f64) {
     same("1d/linear/flip/g2p", ours_advected.iter().flatten(), advected.iter());
 }
 
-/// Length of a step (s): a body of modulus 1 Pa moves by less than a tenth of a cell in all repeats.
+/// Length of a step (s): a body of modulus 1 Pa moves by less than a tenth of a cell in all
+/// repeats.
 const DT: f64 = 1e-4;
 
 /// Solver of a scene whose velocities are a thousandth, with its Lame constants (Pa).

@@ -21,16 +21,16 @@ use rayon::ThreadPoolBuilder;
 use scene::{Method, Order, total};
 use std::time::Instant;
 
-/// Length of a step (s): no particle leaves its cell, however many steps are made.
+/// Length of a step (s), so short that no particle leaves its cell in any number of steps.
 const DT: f64 = 1e-12;
 
-/// Shortest times of a pass (s), on one thread and on two.
+/// Minimum times of a pass (s), on one thread and on two.
 struct PassTime {
     name: String,
     shortest: [f64; 2],
 }
 
-/// Steps on `threads` threads until at least five, and half a second of them, are made.
+/// Runs at least five steps, for at least 0.5 s, on `threads` threads.
 fn step<const D: usize>(solver: &mut Solver<D>, threads: usize, passes: &mut Vec<PassTime>) {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
     let (begin, mut steps) = (Instant::now(), 0);

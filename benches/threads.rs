@@ -1,10 +1,10 @@
-//! Speedup of P2G and G2P on a second thread, beside that of loops that share nothing.
+//! Speedup of P2G and G2P by a second thread, compared with that of independent loops.
 //!
-//! `cargo bench --bench threads` runs each pass with 1e6 particles on one thread and on two in
-//! turn, and in the same turns two probes: products and sums in registers, and two columns of
-//! memory read and one written. On a machine that others use, a second thread may bring little to
-//! any of them; what counts is the pass beside the probe. `-- 1e5` takes as many particles. The
-//! bits are first checked to be the same.
+//! `cargo bench --bench threads` runs in turn each pass with 1e6 particles and two probes, on one
+//! thread and on two. The probes are multiply-adds in registers, and a loop that reads two columns
+//! of memory and writes one. On a machine with other load, the speedup of all may be small; compare
+//! that of a pass with that of the probes. `-- 1e5` sets the number of particles. The program first
+//! checks that results are bit-identical.
 
 #[path = "common/random.rs"]
 mod random;

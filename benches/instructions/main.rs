@@ -1,10 +1,10 @@
-//! Steps to be counted, not timed: `instructions SCENE STEPS` makes so many steps of a scene, and
-//! `ci/instructions` counts the instructions of a step from two such runs.
+//! Program for counting instructions: `instructions SCENE STEPS` runs a scene for a number of
+//! steps, and `ci/instructions` computes the instructions of a step from two such runs.
 //!
-//! `minimal` is the general solver on a bar without any effect; `by_hand` the same bar in a loop
-//! that can do nothing else. Both are checked to give the same motion before anything is counted.
-//! Other scenes are kernels, whose passes are repeated so many times; `kernels` lists them with
-//! their particles, and `processor` tells for which registers the loops are compiled.
+//! `minimal` is the general solver on a bar without effects; `by_hand` is a loop written for this
+//! bar only. The program first checks that both give the same motion. Other scenes are kernels,
+//! whose passes are repeated STEPS times; `kernels` lists them with their particles. `processor`
+//! prints for which registers the loops are compiled.
 
 mod by_hand;
 mod kernels;
@@ -23,7 +23,7 @@ const H: f64 = 0.1;
 const DT: f64 = 1e-3;
 const YOUNG: f64 = 100.0;
 
-/// A free bar with a cell of room at both ends, thrown in one of its modes.
+/// A free bar with one empty cell at each end, whose initial velocity is one of its modes.
 fn bar() -> Particles<1> {
     let (from, to) = (Vector::<1>::new(H), Vector::<1>::new(H * (1 + CELLS) as f64));
     let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, H, PER_CELL);

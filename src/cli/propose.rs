@@ -21,7 +21,7 @@ pub(super) struct ProposeArgs {
     solver: SolverArgs,
 }
 
-/// Runs each suite as if it expected nothing, and prints what it could expect.
+/// Runs each suite without its expectations, and prints possible expectations.
 pub(super) fn propose(args: &ProposeArgs) -> Result<Status, CommandError> {
     let targets = &args.targets.targets;
     let solver = solver::greeted(&args.solver)?;

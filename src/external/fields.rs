@@ -102,7 +102,7 @@ impl<'a> FieldPlaces<'a> {
     }
 }
 
-/// Reason for which there are no values.
+/// Reason why there are no values.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum FieldError {
     /// The request is wrong: one line.
@@ -124,7 +124,7 @@ pub(crate) trait FieldSource: Send + Sync {
     /// [`ProblemFields::check_places`].
     fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError>;
 
-    /// [`ProblemFields::values`], of all fields but the body force.
+    /// [`ProblemFields::values`], for all fields except the body force.
     fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError>;
 }
 
@@ -148,7 +148,7 @@ impl ProblemFields {
         self.0.nearest_body(label)
     }
 
-    /// Checks that each place is in the body that is given for it, up to rounding.
+    /// Checks that each place is in its stated body, up to rounding.
     ///
     /// # Errors
     /// [`FieldError::Request`] for the first place that is not.
@@ -237,7 +237,7 @@ impl BodyForceField {
     }
 }
 
-/// Places with their bodies, to be kept.
+/// Copies of places with their bodies.
 pub(crate) fn owned(bodies: &[usize], labels: &[&[f64]]) -> Vec<(usize, Vec<f64>)> {
     bodies.iter().copied().zip(labels.iter().map(|label| label.to_vec())).collect()
 }

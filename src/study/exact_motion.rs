@@ -27,7 +27,7 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
     format!("largest |u| {displacement:.3e} m, largest |grad u| {gradient:.3e}")
 }
 
-/// Points of the body on a raster of its box, with so many intervals along each axis.
+/// Points of the body on a raster of its box, with `intervals` intervals along each axis.
 pub(crate) fn raster(problem: &Problem, intervals: usize) -> Vec<Vec<f64>> {
     let point = |mut rest: usize| {
         let corners = problem.from.iter().zip(&problem.to);
@@ -51,17 +51,17 @@ const OVER: usize = 8;
 /// The largest values that a motion takes.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Extremes {
-    /// Of |u| (m), axis by axis.
+    /// Largest |u| (m), axis by axis.
     pub(crate) displacement: [f64; 3],
-    /// Of the displacement gradient.
+    /// Largest displacement gradient.
     pub(crate) gradient: f64,
-    /// Of the second derivatives of the displacement along the axes (1/m).
+    /// Largest second derivative of the displacement along the axes (1/m).
     pub(crate) curvature: f64,
-    /// Of the speed (m/s).
+    /// Largest speed (m/s).
     pub(crate) speed: f64,
-    /// Of the acceleration (m/s^2).
+    /// Largest acceleration (m/s^2).
     pub(crate) acceleration: f64,
-    /// Of the components of the initial stress (Pa).
+    /// Largest component of the initial stress (Pa).
     pub(crate) initial_stress: f64,
     /// The lowest and the highest place (m) that the body reaches, axis by axis.
     pub(crate) reach: [(f64, f64); 3],
@@ -134,15 +134,15 @@ impl Linearisation {
     /// The linearisation of `problem` after a time `t` (s), if it is linearised; `motion` are its
     /// extremes.
     ///
-    /// The error is the root mean square of the first correction where that is computed
-    /// ([`Problem::first_correction`]), for motions along one axis. For others it is estimated from
-    /// the residual, to about a factor of ten:
+    /// For motions along one axis the error is the root mean square of the first correction, if
+    /// that is computed ([`Problem::first_correction`]). For other motions it is estimated from the
+    /// residual, to about a factor of ten:
     ///
-    /// Inertia and stress are of the size of the acceleration a = omega^2 u each, so that a
-    /// residual r is a force 2 r a per unit mass. It comes to r a t^2; later, where it swings with
-    /// a mode as the second harmonic of a wave without dispersion does, to r a t/omega. A body so
-    /// stiff that it follows at once is moved by no more than a held bar of its length L,
-    /// r a L^2/c^2. At rest the error is about a share r of u.
+    /// Inertia and stress terms are each of the size of the acceleration a = omega^2 u, so that a
+    /// residual r is a force 2 r a per unit mass. It causes an error r a t^2 at first and r a
+    /// t/omega later, if it is in resonance with a mode, as the second harmonic of a wave without
+    /// dispersion. A body so stiff that it follows quasi-statically is displaced at most like a
+    /// fixed bar of its length L, r a L^2/c^2. At rest the error is about a share r of u.
     pub(crate) fn of(problem: &Problem, motion: &Extremes, t: f64, norm: NormName) -> Option<Self> {
         problem.linearised.as_ref()?;
         let (residual, u) = (problem.residual(), motion.largest_displacement());

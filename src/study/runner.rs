@@ -1,4 +1,4 @@
-//! Running a suite, of whatever kind of study.
+//! Runs a suite of any kind of study.
 
 use super::cache::ResultCache;
 use super::kind::{CaseRunner, Progress, RunContext, StepWarning, statement, study};
@@ -18,12 +18,12 @@ pub struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    /// A runner of the levels that the gate runs; nothing runs yet.
+    /// A runner of the levels of the gate. It does not start any run.
     pub fn new(suite: &'a Suite) -> Self {
         Self::over(suite, Extent::Usual)
     }
 
-    /// A runner of so many levels.
+    /// A runner of the levels in `extent`.
     pub fn over(suite: &'a Suite, extent: Extent) -> Self {
         let (name, fingerprint) = (suite.name.as_str(), suite.fingerprint);
         let (cache, solver, repeat) = (None, None, 1);
@@ -59,8 +59,8 @@ impl<'a> Runner<'a> {
         self.cases.units()
     }
 
-    /// Warnings before anything runs, about steps longer than the predicted stable time step, or
-    /// not those that the suite asks for.
+    /// Warnings that need no run, about steps longer than the predicted stable time step, or
+    /// different from the requested ones.
     pub fn warnings(&self) -> Vec<StepWarning> {
         let text = |warning: &StepWarning| format!("{}::{}", self.suite.name, warning.text);
         let named = |warning| StepWarning { text: text(&warning), ..warning };
@@ -92,10 +92,10 @@ impl<'a> Runner<'a> {
     }
 
     /// Runs a case again and gives its particles and its grid over time to `write`, as files for
-    /// ParaView: on the first level (or row) that broke or grew in `outcome`, or on the finest.
+    /// ParaView: on the first level (or row) that failed or grew in `outcome`, or on the finest.
     ///
     /// # Errors
-    /// Those of `write`, and one line that says why the case has nothing to show.
+    /// The errors of `write`, or one line with the reason why the case has no run to write.
     pub fn time_series(
         &self,
         outcome: &CaseOutcome,

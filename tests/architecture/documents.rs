@@ -1,6 +1,7 @@
-//! The documents, held to the repository: links, paths, names of the crate, commands and JSON.
+//! Checks of the documents against the repository: links, paths, names of the crate, commands and
+//! JSON.
 //!
-//! `tests/it/documents.rs` does what needs the program: it parses its command lines, and loads the
+//! `tests/it/documents.rs` has the checks that need the program: it parses command lines, and loads
 //! suites.
 
 use crate::markdown::{Block, Document, Span};
@@ -21,9 +22,9 @@ const KEYS_IN: &[&str] =
 pub(crate) struct Repository {
     /// Paths of all files.
     pub(crate) files: BTreeSet<String>,
-    /// Words of the code: of sources, tests and benches, with their strings.
+    /// All words in sources, tests and benches, including strings.
     pub(crate) words: BTreeSet<String>,
-    /// Words of `src/report`, with their strings: the keys of the JSON are among them.
+    /// All words in `src/report`, including strings, and so the keys of the JSON.
     pub(crate) keys: BTreeSet<String>,
     /// The text of `Cargo.toml`.
     pub(crate) manifest: String,
@@ -52,7 +53,8 @@ impl Repository {
         })
     }
 
-    /// Whether `path` is there from the root, from `src/`, or beside the document `from`.
+    /// Whether `path` exists relative to the root, to `src/`, or to the folder of the document
+    /// `from`.
     fn finds(&self, path: &str, from: &str) -> bool {
         let beside = join(from, path);
         let later = MADE_LATER.iter().any(|(made, _)| *made == path.trim_end_matches('/'));

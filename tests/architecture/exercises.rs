@@ -1,7 +1,7 @@
 //! The exercises, `docs/exercises/FAMILY.md`: pages that add one member to a family.
 //!
-//! Each member is a file of `tests/exercises`, which the tests of its family compile. A page shows it in
-//! a block of Rust after a line `File: tests/exercises/NAME.rs`.
+//! Each member is a file of `tests/exercises`, which the tests of its family compile. A page shows
+//! it in a block of Rust after a line `File: tests/exercises/NAME.rs`.
 
 use crate::markdown::Document;
 use crate::source;

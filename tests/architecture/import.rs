@@ -10,11 +10,11 @@ pub(crate) struct Import {
     pub(crate) line: usize,
     /// The name that a `use` gives it in its file; none for a path outside of `use`.
     pub(crate) name: Option<String>,
-    /// Whether it is a `pub use`, of whatever visibility.
+    /// Whether it is a `pub use`, with any visibility.
     pub(crate) exported: bool,
 }
 
-/// Every path of `code`, but for the bodies of `macro_rules!`: those are code of their callers.
+/// Every path of `code`, except in the bodies of `macro_rules!`, which are code of their callers.
 pub(crate) fn imports(code: &[Token]) -> Vec<Import> {
     let mut reader = Reader { code, at: 0, found: Vec::new() };
     while reader.at < code.len() {

@@ -233,12 +233,27 @@ fn no_two_types_have_one_name() {
     );
 }
 
+/// The sources whose comments follow the rules for prose.
+fn plain_sources() -> Vec<words::Text> {
+    words::PLAIN_SOURCES.iter().flat_map(|folder| source::texts(folder, ".rs")).collect()
+}
+
 #[test]
 fn comments_are_short_and_name_the_thing() {
     hold(
-        "no doc comment begins with \"What\", and no line of a comment is longer than 100 columns",
-        "a noun phrase says what the thing is, and can be searched for",
-        &words::comments(&source::texts("src", ".rs")),
+        "no comment begins with \"What\", \"The same\" or another of UNCLEAR_BEGINNINGS \
+         (tests/architecture/words.rs), and no line of a comment is longer than 100 columns",
+        "a noun phrase that names the thing is understood without its neighbours",
+        &words::comments(&plain_sources()),
+    );
+}
+
+#[test]
+fn comments_have_no_unclear_phrase() {
+    hold(
+        "comments are in plain English (UNCLEAR_PHRASES in tests/architecture/words.rs)",
+        "a reader understands each sentence at the first reading",
+        &words::unclear_phrases(&words::of_comments(&plain_sources())),
     );
 }
 

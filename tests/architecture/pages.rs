@@ -1,7 +1,7 @@
 //! Tables of documents that follow from the suites: written by `ci/pages`, held by a test.
 //!
-//! A table stands between `<!-- suites of FOLDER -->` and `<!-- end -->`. What a page quotes of a report
-//! is in a snapshot.
+//! A table is between `<!-- suites of FOLDER -->` and `<!-- end -->`. Quotations of reports must be
+//! in a snapshot.
 
 use crate::markdown::Document;
 use crate::source::texts;
@@ -88,7 +88,7 @@ fn words(value: &Value) -> Vec<String> {
     }
 }
 
-/// The page with its tables made anew, and the folders that have none in it.
+/// The page with regenerated tables, and the folders without a table in the page.
 pub(crate) fn with_tables(page: &str, suites: &[Row]) -> (String, Vec<String>) {
     let mut folders: BTreeMap<&str, String> = BTreeMap::new();
     for row in suites {
@@ -115,8 +115,8 @@ pub(crate) fn with_tables(page: &str, suites: &[Row]) -> (String, Vec<String>) {
 /// Pages that quote reports, in blocks of text that are indented as reports are.
 pub(crate) const QUOTING: [&str; 2] = ["docs/judge.md", "docs/cost.md"];
 
-/// Lines at which a page quotes what no snapshot has: the lines of a quotation stand in one of them, in
-/// their order.
+/// Lines of wrong quotations in a page. The lines of a correct quotation are in one snapshot, in
+/// this order.
 pub(crate) fn misquoted(page: &Document) -> (usize, Vec<usize>) {
     let snapshots = texts("verification", ".snap");
     let is_of = |quoted: &str, (_, report): &(String, String)| {

@@ -1,23 +1,23 @@
-//! The rules of the house, each with its reason; a breach says which file and which line.
+//! Rules for the sources, each with its reason; a breach has a file and a line.
 
 use crate::graph::Edge;
 use crate::source::Source;
 use crate::token::Token;
 
-/// Most lines of a file, without its tests.
+/// Maximum number of lines of a file, without its tests.
 pub(crate) const MOST_LINES: usize = 500;
 
 /// Files that may be longer, each with its reason.
 pub(crate) const LONGER: [(&str, &str); 0] = [];
 
-/// A folder (or file) of `src/` and what it may import besides itself, as paths of modules.
+/// A folder (or file) of `src/`, and the other modules that it may import, as paths.
 pub(crate) struct Wall {
     pub(crate) around: &'static str,
     pub(crate) may: &'static [&'static str],
     pub(crate) why: &'static str,
 }
 
-/// `study` has no wall: it builds and runs whatever a suite asks for.
+/// `study` may import every module: it builds and runs all that suites describe.
 pub(crate) const WALLS: &[Wall] = &[
     Wall { around: "named", may: &[], why: "every part is built on it" },
     Wall { around: "nearest", may: &[], why: "whatever has names to suggest reads it" },
@@ -169,8 +169,8 @@ pub(crate) fn is_in(module: &[String], part: &str) -> bool {
     part.split("::").all(|wanted| names.next().is_some_and(|name| name == wanted))
 }
 
-/// Files besides `allowed` (a path, or a folder that ends in `/`) that have all of `wanted`, each
-/// a run of tokens.
+/// Breaches by files outside `allowed` (a file, or a folder that ends in `/`) with all sequences of
+/// tokens in `wanted`.
 pub(crate) fn mentions(sources: &[Source], wanted: &[&[&str]], allowed: &str) -> Vec<Breach> {
     let elsewhere = sources.iter().filter(|source| !source.file.starts_with(allowed));
     elsewhere

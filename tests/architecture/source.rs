@@ -15,9 +15,9 @@ pub(crate) struct Source {
     /// Path from the root of the repository, with `/`.
     pub(crate) file: String,
     pub(crate) module: Module,
-    /// Without comments, strings and whatever stands under `#[cfg(test)]`.
+    /// Code without comments, strings and items under `#[cfg(test)]`.
     pub(crate) code: Vec<Token>,
-    /// The code that stands there.
+    /// Code under `#[cfg(test)]`.
     pub(crate) tests: Vec<Token>,
     /// Whether all of the file is compiled for tests only.
     pub(crate) for_tests: bool,
@@ -71,7 +71,8 @@ pub(crate) fn of_files(files: &[(String, String)]) -> Vec<Source> {
     sources
 }
 
-/// The same with files that are compiled for tests only, all of whose code is tests.
+/// The sources among `files`, including files that are compiled for tests only. All code of these
+/// counts as tests.
 pub(crate) fn with_tests(files: &[(String, String)]) -> Vec<Source> {
     let mut for_tests = BTreeSet::new();
     let mut sources: Vec<Source> =

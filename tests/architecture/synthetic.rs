@@ -1,4 +1,4 @@
-//! The scanner, held to small crates with planted breaches.
+//! Tests of the scanner of imports, on small crates with planted breaches.
 
 use crate::graph::{Edge, cycles, edges};
 use crate::rules;

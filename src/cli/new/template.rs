@@ -82,7 +82,7 @@ pub(super) struct NamedChoice {
 }
 
 /// Variables of the templates that depend on the dimension. Levels run within seconds, in 3-D the
-/// coarse ones only; steps divide the time between instants. The motion has another phase along
+/// coarse ones only; steps divide the time between instants. The motion has a different phase along
 /// each axis, so that some parts are stretched while others are compressed.
 const SHAPES: [[(&str, &str); 9]; 3] = [
     [

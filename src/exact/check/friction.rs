@@ -1,7 +1,7 @@
-//! Coulomb friction on a face, checked at a point: the wall presses and does not pull, the face
-//! keeps to it, and what slides is resisted by mu times the pressure.
+//! Coulomb friction on a face, checked at a point: the wall exerts pressure but no tension, the
+//! face does not penetrate it, and sliding is resisted by mu times the pressure.
 //!
-//! Forces are those on the reference area, which is the same on both sides of Coulomb's law.
+//! Forces are per reference area, which cancels in Coulomb's law.
 
 use super::event::{AXES, Event};
 use crate::exact::condition::Face;
@@ -43,11 +43,11 @@ pub(crate) fn at_wall(
 pub(crate) struct InterfaceTraction {
     /// On the surface in question (Pa).
     pub(crate) traction: [f64; 3],
-    /// Of that surface, relative to the other (m/s).
+    /// Velocity of this surface relative to the other (m/s).
     pub(crate) velocity: [f64; 3],
     /// Between them (Pa).
     pub(crate) pressure: f64,
-    /// Of friction.
+    /// Coefficient of friction.
     pub(crate) coefficient: f64,
 }
 
@@ -55,7 +55,7 @@ pub(crate) struct InterfaceTraction {
 /// stress (Pa) and velocity (m/s).
 ///
 /// # Errors
-/// Where the traction along the surface is not that of friction.
+/// If the traction along the surface does not follow Coulomb's law.
 pub(crate) fn coulomb(
     event: &Event,
     axis: usize,

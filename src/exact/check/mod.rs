@@ -26,7 +26,7 @@ impl Problem {
         self.check_with(&Survey::new(self))
     }
 
-    /// Checks the motion as [`check`](Self::check) does, with a `survey` that shares its magnitudes
+    /// Checks the motion like [`check`](Self::check), with a `survey` that shares its magnitudes
     /// with those of other bodies.
     ///
     /// # Errors
@@ -43,9 +43,9 @@ impl Problem {
         weak::momentum(self, survey)
     }
 
-    /// Residual of the conditions that the law enters, relative to their terms: the equation of
-    /// motion, tractions on faces and rims. NaN where another condition is violated, or this is no
-    /// number.
+    /// Residual of the conditions with the law, relative to their terms: the equation of motion,
+    /// tractions on faces and rims. NaN if another condition is violated, or if the residual is not
+    /// finite.
     pub fn residual(&self) -> f64 {
         let problems =
             if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies };

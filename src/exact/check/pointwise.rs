@@ -1,9 +1,9 @@
 //! Conditions checked point by point.
 //!
-//! The rims of a body that is no box: P n = 0, or P n = -p J F^-T n under a pressure.
+//! Rims of a body that is not a box: P n = 0, or P n = -p J F^-T n under a pressure.
 //!
-//! Laws with a memory are known to the truth for loading that never reverses: that it does not is
-//! checked here.
+//! For laws with a memory, exact solutions require loading that never reverses, which is checked
+//! here.
 
 use super::event::{AXES, Event};
 use super::survey;
@@ -60,8 +60,8 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
     found.into_iter().try_for_each(LargestViolation::into_result)
 }
 
-/// Component i of an initial condition: what is `stated`, or else that of the motion (which must
-/// be a number: nothing is near to NaN or infinity) or zero.
+/// Component i of an initial condition: the `stated` value, by default that of the motion (which
+/// must be finite) or zero.
 fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion: f64) -> f64 {
     if stated.is_empty() && problem.follows_motion {
         return motion;
@@ -150,7 +150,7 @@ pub(crate) fn tractions_on_rims(problem: &Problem, survey: &Survey) -> Result<f6
     Ok(left)
 }
 
-/// In uniaxial strain: where the body flows, the stretch never turns back.
+/// Checks in uniaxial strain that the stretch does not reverse while the body flows.
 pub(crate) fn monotone_loading(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     if !problem.equation.has_history() {
         return Ok(());
@@ -177,7 +177,7 @@ mod tests {
     use crate::exact::tests::{bar, free};
     use rstest::rstest;
 
-    /// The bar flows beyond a strain of 0.01, and turns back at half of the time.
+    /// The bar flows beyond a strain of 0.01, and reverses at half of the time.
     #[rstest]
     #[case::pulled("0.05*X*t", true)]
     #[case::pressed("-0.05*X*t", true)]

@@ -1,5 +1,5 @@
-//! Effects: the family. A member is one file and one line of `members`. A solver has a list of
-//! effects, and one that it does not list costs nothing: no call, no column, no branch.
+//! Family of the effects. A member is one file and one line of `members`. A solver has a list of
+//! effects; an effect that is not in the list has no cost: no call, no column, no branch.
 
 mod contract;
 mod hoop;

@@ -1,9 +1,8 @@
 //! A pressure on a face or a round rim of the body, which follows it: `t = -p n` per present area.
 //!
-//! Per reference area that is `P N = -p J F^-T N = -p cof(F) N` (Nanson's formula), so the force on
-//! the particles of the layer needs their F, and a face that is stretched or turned carries another
-//! force than before. Where the force is put at the surface ([`Placement`]), F is continued to
-//! there.
+//! The force per reference area is `P N = -p J F^-T N = -p cof(F) N` (Nanson's formula), so that it
+//! depends on F of the particles of the layer, and changes if the face stretches or rotates. If the
+//! force acts at the surface ([`Placement`]), F is extrapolated to it.
 
 use super::contract::Effect;
 use super::rim::{Facet, RimCircle, facets, press};

@@ -7,7 +7,7 @@ use crate::mpm::transfer::{TransferChoice, TransferKind};
 use crate::subject::{PlaneState, Start};
 use thiserror::Error;
 
-/// A combination of parts that means nothing: one line that names the parts and gives the reason.
+/// An invalid combination of parts: one line with the parts and the reason.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct CombinationError(String);
@@ -19,10 +19,10 @@ macro_rules! refusal {
     };
 }
 
-/// Refuses a combination that means nothing.
+/// Refuses an invalid combination.
 ///
 /// # Errors
-/// One line that names both parts and says why they do not go together.
+/// One line with both parts and the reason.
 pub fn combine(
     basis: BasisName,
     transfer: impl Into<TransferChoice>,
@@ -77,11 +77,11 @@ pub fn combine(
     Ok(())
 }
 
-/// Refuses a combination that means nothing for several bodies on one grid, with `contact` or one
-/// velocity field.
+/// Refuses an invalid combination for several bodies on one grid, with `contact` or one velocity
+/// field.
 ///
 /// # Errors
-/// One line that names the part and says why it does not go with several bodies.
+/// One line with the part and the reason.
 pub fn combine_bodies(
     transfer: TransferChoice,
     mass: MassName,
@@ -110,10 +110,10 @@ pub fn combine_bodies(
     }
 }
 
-/// Refuses a combination that means nothing in a body with this state across its plane.
+/// Refuses an invalid combination in a body with this state across its plane.
 ///
 /// # Errors
-/// One line that names the part and says why it does not go with the state.
+/// One line with the part and the reason.
 pub fn combine_across(
     plane: PlaneState,
     basis: BasisName,

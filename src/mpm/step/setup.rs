@@ -57,7 +57,7 @@ impl<const D: usize> Setup<D> {
     }
 
     /// All columns for particles and nodes, with those `of_solver`; the factors of a consistent
-    /// mass matrix, computed anew in each step, are left out.
+    /// mass matrix, which are recomputed in each step, are excluded.
     pub(in crate::mpm) fn columns<'a>(&'a self, of_solver: [Column<'a>; 2]) -> Vec<Column<'a>> {
         let Self { grid, particles, transfer, material, effects, boundary, .. } = self;
         let mut columns = particles.columns();

@@ -1,4 +1,4 @@
-//! The solver: the passes of a step, one by one. [`schedule`](super::schedule) has their order.
+//! The solver: the passes of a step. [`schedule`](super::schedule) has their order.
 
 use super::cell_tracker::CellTracker;
 use super::initial;
@@ -23,7 +23,7 @@ pub struct Solver<const D: usize> {
     pub(in crate::mpm) setup: Setup<D>,
     pub(in crate::mpm) schedule: StepSchedule,
     pub(in crate::mpm) time: f64,
-    /// Time of the velocities (s): once steps are made, half a step behind.
+    /// Time of the velocities (s): after the first step, half a step behind.
     pub(in crate::mpm) velocity_time: f64,
     /// The last advance of velocities.
     pub(in crate::mpm) advance: Advance,
@@ -73,7 +73,7 @@ impl<const D: usize> Solver<D> {
         })
     }
 
-    /// The particles as they are now.
+    /// The particles in their current state.
     pub fn particles(&self) -> &Particles<D> {
         &self.setup.particles
     }
@@ -272,7 +272,7 @@ impl<const D: usize> Solver<D> {
         if least_j.is_none() { particles.stressed_finite() } else { Ok(()) }
     }
 
-    /// `J = V / V0` of every particle, of which one may fail: the smallest so far is kept.
+    /// Checks `J = V / V0` of every particle and updates the smallest J of the run.
     fn jacobians(&mut self) -> Result<(), Failure> {
         let Particles { vol, vol0, .. } = &self.setup.particles;
         for (p, (vol, vol0)) in vol.iter().zip(vol0).enumerate() {

@@ -95,7 +95,7 @@ pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     columns
 }
 
-/// A target, and how many times the least work it takes.
+/// Where a target is reached, and its work over the least work of all methods.
 type Reached = (Reach, Option<f64>);
 
 fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
@@ -144,7 +144,7 @@ pub(crate) fn models<'a>() -> Vec<TableColumn<'a, FittedModel>> {
     std::iter::once(name.flush_left()).chain(terms).chain([finest]).collect()
 }
 
-/// Whether theory is met, and if not, what differs.
+/// Text on the agreement with theory, or on the main difference.
 fn agreement(found: &Exponent) -> String {
     match found.agreement() {
         Agreement::Agrees => "agrees".to_owned(),
@@ -159,13 +159,13 @@ fn agreement(found: &Exponent) -> String {
     }
 }
 
-/// With as many decimals as tell the numbers apart.
+/// Observed and expected number, with as many decimals as distinguish them.
 fn differing(name: &str, observed: f64, expected: f64) -> String {
     let decimals = if (observed - expected).abs() < 0.015 { 4 } else { 2 };
     format!("{name} {observed:.decimals$}, not {expected:.decimals$}")
 }
 
-/// Work: at most so much where the coarsest level is good enough.
+/// The work as text; an upper bound if the coarsest level is accurate enough.
 pub(crate) fn reach_text(reach: Reach) -> String {
     match reach {
         Reach::At { work, .. } => short(work),

@@ -40,7 +40,7 @@ fn ppc<'a>() -> LevelColumn<'a> {
     LevelColumn::new("ppc", "ppc", "particles per cell (MPM)", |row| Cell::plain(row.level.ppc))
 }
 
-/// The refined axis, by which tables name a level.
+/// The spacing of the refined axis, which names a level in tables.
 pub(crate) fn name<'a>(axis: Axis) -> LevelColumn<'a> {
     match axis {
         Axis::Space => cells(),
@@ -49,7 +49,7 @@ pub(crate) fn name<'a>(axis: Axis) -> LevelColumn<'a> {
     }
 }
 
-/// Names of the levels of a study, by which its tables are headed.
+/// Names of the levels of a study, as headings of its tables.
 pub(crate) fn names(study: &Convergence) -> Vec<String> {
     let name = name(study.axis);
     rows(study).map(|row| name.cell(&row).text).collect()
@@ -87,7 +87,7 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
     ]
 }
 
-/// The largest error at the end, where another norm is judged, and its order.
+/// The largest error at the end and its order, if another norm is judged.
 pub(crate) fn largest_error<'a>() -> [LevelColumn<'a>; 2] {
     let about = "order of linf between the next coarser level and this one";
     [
@@ -125,7 +125,7 @@ pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
     })
 }
 
-/// Work, and what a reader must know beside an error.
+/// Columns of the work, and of figures that explain the error of a level.
 pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
     vec![
         LevelColumn::new("particles", "particles", "particles (MPM)", |row| {
@@ -257,13 +257,13 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
 }
 
 impl LevelRow<'_> {
-    /// An error, where there is a truth to compare with.
+    /// An error, if there is a solution to compare with.
     fn error(&self, error: f64) -> Cell {
         let error = self.study.compared.then_some(error);
         Cell::number(error, scientific).or_failed(self.level.run.failure.as_ref())
     }
 
-    /// The largest error at the end, of the primary unknown of the study.
+    /// The largest error at the end, for the primary unknown of the study.
     fn linf(&self) -> f64 {
         let run = &self.level.run;
         let errors =
@@ -271,7 +271,7 @@ impl LevelRow<'_> {
         errors.at_end.linf
     }
 
-    /// A figure printed with one digit; a dash also on a failed level that has none.
+    /// A figure printed with one digit; a dash if the level failed and has none.
     fn unless_failed(&self, figure: Option<f64>) -> Cell {
         let cell = Cell::number(figure, |value| format!("{value:.0e}"));
         cell.or_failed(figure.and(self.level.run.failure.as_ref()))

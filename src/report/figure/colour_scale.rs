@@ -36,8 +36,7 @@ impl ColourScale {
         self.0.fraction(value)
     }
 
-    /// A bar of all colours with numbers below, its upper left corner at `corner`, and `label` on
-    /// its left.
+    /// A colour bar with numbers below, its upper left corner at `corner`, and `label` on its left.
     pub(super) fn bar(self, corner: Pt, label: &str) -> SvgElement {
         let (x, y) = corner;
         let mut group = SvgElement::new("g");
@@ -67,8 +66,8 @@ impl ColourScale {
     }
 }
 
-/// Texts over dark and over light fields. They are not colours of the palette: a field keeps its
-/// colour on dark paper, and so does the text in it.
+/// Text colours on dark and on light fields. They are not colours of the palette: fields, and so
+/// their texts, have the same colours on dark paper.
 const OVER_DARK: &str = "#fff";
 const OVER_LIGHT: &str = "#222";
 
@@ -82,7 +81,7 @@ const COLOURS: [[f64; 3]; 6] = [
     [253.0, 234.0, 69.0],
 ];
 
-/// The colour at `share` of the way from dark to light, and that of a text over it.
+/// The colour at `share` between dark and light, and that of a text on it.
 pub(super) fn colour(share: f64) -> (String, &'static str) {
     let last = COLOURS.len() - 1;
     let place = share.clamp(0.0, 1.0) * last as f64;

@@ -26,8 +26,8 @@ pub struct HistoryPlot {
 pub struct Curve {
     /// Name in the legend; a curve without a name has no entry.
     pub name: String,
-    /// Number of its colour: the same for a method in all figures of a suite. The exact solution
-    /// has a colour of its own.
+    /// Index of its colour, equal for a method in all figures of a suite. The exact solution has a
+    /// separate colour.
     pub look: usize,
     /// The points in drawing order; one which is not finite interrupts the curve.
     pub points: Vec<(f64, f64)>,

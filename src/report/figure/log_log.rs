@@ -26,11 +26,11 @@ pub struct LogLogPlot {
     pub others: Vec<PlotSeries>,
     /// Pareto front (work, error) in ascending order of work: a broad band below the lines.
     pub front: Vec<(f64, f64)>,
-    /// Orders shown as slope triangles; an order that is not positive is left out.
+    /// Orders shown as slope triangles; orders that are not positive are ignored.
     pub reference_orders: Vec<f64>,
 }
 
-/// Share of an axis that is kept free at both ends.
+/// Free share of an axis at both ends.
 const MARGIN: f64 = 0.06;
 
 /// Width of the band of the Pareto front (px).
@@ -88,7 +88,7 @@ impl LogLogPlot {
         if foot > MARGIN { frame(foot) } else { draft }
     }
 
-    /// The slope triangles; none if there is no data to compare them with.
+    /// The slope triangles; none if there are no data to compare with.
     fn triangles(&self, lines: &[SeriesLine], plot: &Plot) -> TriangleRow {
         let positive = |order: &f64| order.is_finite() && *order > 0.0;
         let has_data = lines.iter().any(|line| line.count() > 0);
@@ -102,14 +102,14 @@ impl LogLogPlot {
             |point: &&Pt| [point.0, point.1].iter().all(|value| value.is_finite() && *value > 0.0);
         let mut points: Vec<Pt> =
             self.front.iter().filter(has_place).map(|point| plot.place(*point)).collect();
-        // A line of no length has round ends, and is seen.
+        // A line of zero length has round ends, and is visible.
         if let [only] = points[..] {
             points.push(only);
         }
         if points.is_empty() { SvgElement::new("g") } else { band(&points) }
     }
 
-    /// The named lines, the front, the others, and the marks that occur.
+    /// Legend entries: the named lines, the front, the other lines, and the marks that occur.
     fn entries(&self, lines: &[SeriesLine]) -> Vec<LegendEntry> {
         let mut entries = series::names(lines);
         if !self.front.is_empty() {

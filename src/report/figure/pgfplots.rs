@@ -7,7 +7,7 @@ use super::plot::style::{CONTEXT, EXACT, MarkerShape, NEUTRAL, look};
 use super::{ErrorMap, HistoryPlot, LogLogPlot, Map, Mark, PlotPoint, PlotSeries};
 use crate::report::latex::escaped;
 
-/// Most points of a curve: TeX is slow, and a page has no more pixels across.
+/// Maximum number of points of a curve: TeX is slow, and a page is not wider in pixels.
 const MOST_POINTS: usize = 400;
 
 /// Place of the legend.
@@ -42,7 +42,7 @@ impl PgfDocument {
         self.text.push('\n');
     }
 
-    /// A colour `#rrggbb`, for what follows.
+    /// Sets the colour `#rrggbb` for the following elements.
     fn colour(&mut self, name: &str, colour: &str) {
         let digits = colour.trim_start_matches('#').to_uppercase();
         self.line(&format!("\\definecolor{{{name}}}{{HTML}}{{{digits}}}"));
@@ -195,7 +195,7 @@ impl LogLogPlot {
     }
 }
 
-/// An order with as many decimals as it needs, at most two.
+/// An order with at most two decimals, without trailing zeros.
 fn rounded(order: f64) -> String {
     let text = format!("{order:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

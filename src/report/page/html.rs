@@ -5,7 +5,7 @@
 pub(super) struct Html(String);
 
 impl Html {
-    /// Plain text, whatever is in it.
+    /// Plain text; special characters are escaped.
     pub(super) fn text(text: &str) -> Self {
         Self(escape(text))
     }
@@ -21,7 +21,7 @@ impl Html {
         Self(format!("<{name}{}>{}</{name}>", self::attributes(attributes), content.0))
     }
 
-    /// An element with each part of its content on a line of its own.
+    /// An element with each part of its content on a separate line.
     pub(super) fn block(name: &str, attributes: &[(&str, &str)], content: &[Self]) -> Self {
         let lines: Vec<&str> = content.iter().map(|part| part.0.as_str()).collect();
         let (open, inside) = (self::attributes(attributes), lines.join("\n"));
@@ -84,7 +84,7 @@ fn escape(text: &str) -> String {
             {
                 escaped.push('\u{fffd}');
             }
-            // What makes a browser show the rest of a line in another order.
+            // Bidirectional control characters, which reorder the rest of a line in a browser.
             '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => escaped.push('\u{fffd}'),
             c => escaped.push(c),
         }

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 const HOSTILE: &str = "</pre></script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&lt;";
 
-/// An internal-force study whose every text is `words`.
+/// An internal-force study in which every text is `words`.
 fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
     let word = || words.to_owned();
     let row = |position| ForceRow { position, left: 1, right: 2, force: position, predicted: 0.5 };
@@ -153,7 +153,7 @@ fn the_finding_comes_first() {
     tags(&none);
 }
 
-/// Nothing is asked of a network, and the browser is told so.
+/// The page loads nothing from a network, and its content security policy forbids it.
 #[test]
 fn nothing_is_loaded() {
     let page = of(&[outcome("a", "http://example.org", &[])], "x");

@@ -49,7 +49,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     rows
 }
 
-/// Rows that state the exact temperature; none without a heat problem.
+/// Rows that state the exact temperature; empty without a heat problem.
 fn exact_temperature(plan: &ConvergencePlan) -> Vec<(String, String)> {
     let Some(problem) = plan.heat_problem() else { return Vec::new() };
     let Conduction { temperature, manufactured, motion, .. } = problem;
@@ -132,7 +132,7 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     push(rows, "--full adds", &full);
 }
 
-/// Places of the particles, in words.
+/// Positions of the particles, as text.
 fn placed(scatter: &LatticeOffsets) -> String {
     let LatticeOffsets { shift, perturb, seed } = scatter;
     if scatter.is_none() {
@@ -187,7 +187,7 @@ pub(crate) fn described(
     }
 }
 
-/// The outcome of a case that its solver cannot be put to.
+/// The outcome of a case that does not apply to its solver.
 pub(crate) fn not_applicable(
     plan: &ConvergencePlan,
     case: &Case,

@@ -9,7 +9,7 @@ use std::time::Instant;
 /// Rounds of the loop: about a millisecond.
 const ROUNDS: u32 = 250_000;
 
-/// A thread that has no other to share work with; none where the system gives none.
+/// A pool of one thread; `None` if the system cannot create one.
 static ALONE: LazyLock<Option<ThreadPool>> =
     LazyLock::new(|| ThreadPoolBuilder::new().num_threads(1).build().ok());
 
@@ -46,7 +46,7 @@ impl LoadMonitor {
     pub(crate) fn stop(self) -> f64 {
         let passed = self.start.elapsed().as_secs_f64();
         let idle = self.waited.zip(waited()).map_or(0.0, |(before, after)| after - before);
-        // A value that is not positive is not to be trusted.
+        // A value that is not positive is invalid.
         if idle > 0.0 && idle < passed { passed - idle } else { passed }
     }
 }
@@ -91,7 +91,7 @@ impl Observed {
     }
 }
 
-/// Runnable processes, averaged over the last minute; where there is a file that says so.
+/// Load average over the last minute, if the system has a file with it.
 fn load() -> Option<f64> {
     std::fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
 }

@@ -37,7 +37,7 @@ fn corner(c: &[f64]) -> String {
     c.iter().map(|x| stated(*x).to_string()).collect::<Vec<_>>().join(", ")
 }
 
-/// A number to as many digits as a problem is stated to.
+/// A number with the digits of the statement of a problem.
 pub(crate) fn stated(x: f64) -> f64 {
     rounded(x, 6)
 }
@@ -58,7 +58,7 @@ fn rims(scene: &Scene) -> &'static str {
     if is_loaded { "" } else { ", free rims" }
 }
 
-/// Several bodies, and what couples them.
+/// Rows of several bodies and their coupling.
 fn bodies(scene: &Scene, rows: &mut Rows) {
     for (i, one) in scene.bodies.iter().enumerate() {
         push(rows, &format!("body {}", i + 1), &body(one));
@@ -109,7 +109,7 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     }
 }
 
-/// The stress of the reference configuration, and how it enters the first Piola-Kirchhoff stress.
+/// The initial stress, and its term in the first Piola-Kirchhoff stress.
 fn initial_stress(scene: &Scene) -> String {
     const AXES: [&str; 3] = ["x", "y", "z"];
     let written = |(i, j, formula): &(usize, usize, Formula)| {

@@ -13,10 +13,10 @@ use crate::verify::{Axis, Convergence, Judgement, Level, LevelOutcome, OrderHypo
 use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
-/// An order that is restored is no further below that of theory.
+/// Maximum distance of a restored order below the theoretical order.
 const NEAR: f64 = 0.2;
 
-/// An order that is restored is no further above that of theory: a case may be better than its
+/// Maximum distance of a restored order above the theoretical order: a case may be better than
 /// theory.
 const ABOVE: f64 = 0.8;
 
@@ -27,7 +27,7 @@ pub(super) struct Session<'a> {
     pub(super) case: &'a Case,
     pub(super) formal_order: f64,
     pub(super) solver: Option<&'a dyn SolverFactory>,
-    /// Time (s) that is left for changed runs.
+    /// Remaining time (s) for changed runs.
     left: Cell<f64>,
     /// Measured time of an external solver over the predicted one of this crate, at least 1.
     slowness: Cell<f64>,
@@ -50,10 +50,10 @@ impl<'a> Session<'a> {
         Self { suite, source, case, formal_order, solver, left, slowness, skipped }
     }
 
-    /// Runs the case as it is.
+    /// Runs the unchanged case.
     ///
     /// # Errors
-    /// One line that says why it cannot be run.
+    /// One line with the reason why it cannot be run.
     pub(super) fn first(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
         let start = Instant::now();
         let found = self.run(plan)?;
@@ -64,8 +64,8 @@ impl<'a> Session<'a> {
         Ok(found)
     }
 
-    /// Runs a changed plan. `None` if it is beyond the budget, or cannot be set up: a change that
-    /// cannot be set up is no evidence.
+    /// Runs a changed plan. `None` if it exceeds the budget, or cannot be set up: a failed set-up
+    /// gives no evidence.
     pub(super) fn changed(&self, change: &str, plan: &ConvergencePlan) -> Option<Convergence> {
         let cost = self.slowness.get() * estimate_of(plan).seconds;
         if !(cost <= self.left.get()) {
@@ -84,7 +84,7 @@ impl<'a> Session<'a> {
         outcome.convergence().cloned().ok_or(outcome.reason)
     }
 
-    /// The judgement of levels against an order near that of theory.
+    /// Judges levels with a hypothesis near the theoretical order.
     pub(super) fn judge<'b>(
         &self,
         levels: impl IntoIterator<Item = &'b LevelOutcome>,
@@ -101,12 +101,12 @@ impl<'a> Session<'a> {
     }
 }
 
-/// A case with its levels of the gate, as they have run.
+/// A case with the results of its levels of the gate.
 pub(super) struct Known<'a> {
     pub(super) session: &'a Session<'a>,
     /// The study with this case only, and its levels.
     pub(super) plan: &'a ConvergencePlan,
-    /// The levels, as they have run.
+    /// The results of the levels.
     pub(super) levels: &'a [LevelOutcome],
     /// Judgement of the finest levels.
     pub(super) finest: &'a Judgement,

@@ -120,7 +120,7 @@ impl SceneFields {
         Ok(particles.sigma.iter().flat_map(rows).flatten().collect())
     }
 
-    /// The values of the numbers called `what`.
+    /// The values of the numbers named `what`.
     fn numbers(
         &self,
         (what, numbers): (&str, &LoadNumbers),

@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// The problem of one level of a case, of the suite called `suite`.
 ///
 /// # Errors
-/// One line that says why there is none.
+/// One line with the reason why there is none.
 pub fn level_problem(
     suite: &str,
     plan: &ConvergencePlan,

@@ -33,8 +33,7 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     planes.iter().filter_map(|plane| inside_a_cell(preflight, plane)).collect()
 }
 
-/// Whether every interface and every loaded face lies on a line of a grid with cells of size `h`
-/// (m).
+/// Whether every interface and every loaded face is on a line of a grid with cells of size `h` (m).
 pub(crate) fn is_aligned(scene: &Scene, h: f64) -> bool {
     planes(scene).iter().all(|plane| plane.off(scene, h) <= ROUNDING)
 }
@@ -73,7 +72,7 @@ fn loaded_faces(scene: &Scene) -> Vec<Plane> {
         .collect()
 }
 
-/// Planes on which one body ends and another one begins.
+/// Planes at which one body ends and another one begins.
 fn interfaces(scene: &Scene) -> Vec<Plane> {
     let mut planes = Vec::new();
     for (i, body) in scene.bodies.iter().enumerate() {

@@ -26,12 +26,12 @@ pub struct Estimate {
     pub bytes: f64,
 }
 
-/// Cost of the levels of the gate of a convergence study; none of other studies.
+/// Cost of the levels of the gate of a convergence study; `None` for other studies.
 pub fn estimate(suite: &Suite) -> Option<Estimate> {
     suite.plan().map(estimate_of)
 }
 
-/// Cost of each case of a suite; none of studies that refine nothing.
+/// Cost of each case of a suite; `None` for studies without refinement.
 pub fn estimates(suite: &Suite, extent: Extent) -> Vec<Option<Estimate>> {
     match suite.plan::<ConvergencePlan>() {
         Some(plan) => plan.cases.iter().map(|case| Some(of_case(plan, case, extent))).collect(),
@@ -50,8 +50,8 @@ pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
     })
 }
 
-/// Seconds (one thread) of each unit of progress of a run: its levels, and a guess for those of
-/// studies that refine nothing.
+/// Time (s, one thread) of each unit of progress of a run: its levels, or an estimate for studies
+/// without refinement.
 pub fn unit_seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else {
         return vec![UNKNOWN; suite.case_names().len()];

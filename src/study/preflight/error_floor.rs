@@ -27,8 +27,9 @@ fn of_cells(preflight: &Preflight<'_>, h: f64) -> f64 {
     0.125 * h * h * curvature
 }
 
-/// The finding about an error of `size` (m) that comes from `origin`: a warning with `help`, if one
-/// of the suite's levels shows it, a note, if one soon to come will, and none otherwise.
+/// The finding about an error of `size` (m) with the cause `origin`: a warning with `help` if a
+/// level of the suite shows it, a note if one of the next finer levels would show it, otherwise
+/// nothing.
 fn floor_finding(
     preflight: &Preflight<'_>,
     size: f64,
@@ -58,14 +59,15 @@ fn floor_finding(
 struct ModelError {
     /// Its size (m).
     size: f64,
-    /// Where it comes from.
+    /// Origin of the error, as text.
     origin: String,
-    /// Another solution, without it.
+    /// Advice how to state a solution without this error.
     remedy: &'static str,
 }
 
-/// That of `case`, if it has one: measured of a linearised solution, and estimated of one of small
-/// strain, for the law in rate form that MPM has there is none of the truth's.
+/// Model error of `case`, if it has one. For a linearised solution it is measured. For a solution
+/// of small-strain theory it is estimated, because MPM uses a law in rate form, which differs from
+/// the law of the solution.
 fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     let problem = preflight.plan.exact.as_ref()?;
     let motion = preflight.extremes.as_ref()?;
@@ -84,9 +86,9 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     if !is_small || !matches!(case.method, Method::Mpm { .. }) {
         return None;
     }
-    // The neglected forces are of the order of the strain e: they accelerate by e u_tt, which in a
-    // time t comes to e u_tt t^2/2, and over a long run to no more than about e u.
-    // In more than one dimension a body turns, and its initial stress with it.
+    // The neglected forces are of the order of the strain e: they accelerate by e u_tt, which gives
+    // e u_tt t^2/2 after a time t, and at most about e u over a long run. In more than one
+    // dimension a body rotates, and so does its initial stress.
     let turning = if problem.dimension() > 1 { motion.initial_stress } else { 0.0 };
     let neglected = strain + turning / problem.equation.modulus();
     let early = 0.5 * motion.acceleration * case.until * case.until;
@@ -98,8 +100,8 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     Some(ModelError { size: neglected * motion.largest_displacement().min(early), origin, remedy })
 }
 
-/// Says how large the error is, and from which level on it shows: a warning, if that is one of the
-/// suite's, and a note, if it is soon to come.
+/// Reports the size of the error, and the level from which on it is visible: a warning if this is a
+/// level of the suite, a note if it is one of the next finer levels.
 pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     if plan.refine.axis != Axis::Space || plan.manufactured().is_some() {
@@ -195,7 +197,7 @@ fn two_digits(factor: f64) -> f64 {
 /// Residuals that the tolerance may be worth, before another solution would pass.
 const MOST: f64 = 100.0;
 
-/// Notes a tolerance that is larger than what the solution leaves by orders of magnitude.
+/// Notes a tolerance that exceeds the residual of the solution by orders of magnitude.
 pub(crate) fn loose_tolerance(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let Some(problem) = &preflight.plan.exact else { return Vec::new() };
     let Some(stated) = &problem.linearised else { return Vec::new() };

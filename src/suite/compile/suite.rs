@@ -1,5 +1,5 @@
-//! From the specification to a suite: every number computed, every name resolved, the truth
-//! checked.
+//! From the specification to a suite: computes every number, resolves every name and checks the
+//! exact solution.
 
 use super::check::size::LevelPaths;
 use super::check::{self, size, steps, sums};
@@ -18,14 +18,14 @@ use crate::suite::model::{ConvergencePlan, Scene, Suite};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path, Source};
 use std::sync::Arc;
 
-/// Instants at which the error is taken unless a suite says otherwise.
+/// Default number of instants at which the error is measured.
 const INSTANTS: u64 = 50;
 
 impl Suite {
     /// Reads and checks a suite. No solver runs.
     ///
     /// # Errors
-    /// A [`Diagnostic`] with the place of the first thing that is wrong.
+    /// A [`Diagnostic`] with the place of the first error.
     pub fn load(source: &Source) -> Result<Self, Diagnostic> {
         let suite = match SuiteSpec::read(source)? {
             SuiteSpec::Convergence(spec) => convergence(source, *spec),
@@ -36,11 +36,11 @@ impl Suite {
         Ok(Self { group: source.group(), fingerprint, ..suite? })
     }
 
-    /// The scene of the convergence study that `source` holds, compared with no truth: what a
-    /// solver gets that is to be found wrong.
+    /// The scene of the convergence study in `source`, without exact solution: the problem of a
+    /// solver with a defect to be found.
     ///
     /// # Errors
-    /// A [`Diagnostic`] with the place of the first thing that is wrong.
+    /// A [`Diagnostic`] with the place of the first error.
     pub fn scene(source: &Source) -> Result<Scene, Diagnostic> {
         let spec = ConvergenceSpec::read(source)?;
         let (evaluator, _) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
@@ -52,7 +52,7 @@ impl Suite {
 /// motion and of the initial state, not of loads.
 ///
 /// # Errors
-/// If the scaled motion is no solution, as where loads stay what they are.
+/// If the scaled motion is not a solution, as with loads that are not scaled.
 pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diagnostic> {
     with_changes(source, |spec| scale_amplitude(spec, factor))
 }
@@ -60,7 +60,7 @@ pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diag
 /// The convergence study that `source` holds, without expectations and with these changes.
 ///
 /// # Errors
-/// A [`Diagnostic`] that says why the changed suite is not accepted.
+/// A [`Diagnostic`] with the reason why the changed suite is refused.
 pub(crate) fn with_changes(
     source: &Source,
     change: impl FnOnce(&mut ConvergenceSpec),
@@ -86,7 +86,7 @@ fn scale_amplitude(spec: &mut ConvergenceSpec, factor: f64) {
     }
 }
 
-/// A convergence study whose scene, truth, levels and cases are known.
+/// A convergence study with compiled scene, exact solution, levels and cases.
 struct Compiled<'a> {
     evaluator: &'a Evaluator<'a>,
     spec: &'a ConvergenceSpec,
@@ -100,8 +100,8 @@ struct Compiled<'a> {
 /// A check of keys that belong together.
 type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
 
-/// Checks of a convergence study before its expectations are read. None relies on another: their
-/// order decides only which one of several mistakes is reported.
+/// Checks of a convergence study before its expectations are read. They are independent: their
+/// order only determines which of several errors is reported.
 const CROSS_CHECKS: [CrossCheck; 8] = [
     |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| truth::refuse_violated(suite.evaluator, suite.spec, suite.plan),
@@ -160,7 +160,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     plan.cases = run::cases(&evaluator, &spec, &plan, &until)?;
     let compiled = Compiled { evaluator: &evaluator, spec: &spec, plan: &plan, levels, latest };
     CROSS_CHECKS.iter().try_for_each(|check| check(&compiled))?;
-    // The exact value of a sum is that of a solution that has been checked.
+    // The exact value of a sum comes from a solution that has been checked.
     plan.sum = sums::judged(&evaluator, &spec, &plan)?;
     plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
     if let Some(spec) = &spec.any_method {

@@ -9,8 +9,8 @@ use crate::suite::yaml::{Diagnostic, NumberText, Path, Place, Step};
 const HARMLESS: [f64; 2] = [1.0, 0.5];
 
 impl Evaluator<'_> {
-    /// A complaint about a number that the formula at `path` gives and that cannot stand there;
-    /// names the parameters that the formula reads.
+    /// A diagnostic of an invalid number from the formula at `path`; it lists the parameters of the
+    /// formula.
     pub(crate) fn unusable(
         &self,
         path: &Path,
@@ -23,7 +23,7 @@ impl Evaluator<'_> {
         self.diagnostic(path, message).with_label(label).with_help(&read.join(", "))
     }
 
-    /// A complaint about a formula of parameters that gives no finite number.
+    /// A diagnostic of a formula of parameters whose value is not finite.
     pub(super) fn not_finite(&self, path: &Path, text: &NumberText, value: f64) -> Diagnostic {
         let (label, value) = ("expected a finite number", shown(value));
         let what = match path.steps() {

@@ -24,7 +24,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Complains of the first parameter or function that nothing uses.
+    /// A diagnostic of the first unused parameter or function.
     pub(crate) fn refuse_unused(
         &self,
         parameters: &Ordered<ParameterSpec>,
@@ -53,7 +53,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Whether a name is that of a parameter whose value is not known yet.
+    /// Whether a name is that of a parameter without a value yet.
     pub(super) fn comes_later(&self, name: &str) -> bool {
         self.parameters.iter().any(|known| known == name)
             && !self.scope.constants().any(|(known, _)| known == name)

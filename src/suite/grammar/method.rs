@@ -25,7 +25,7 @@ pub(crate) enum MethodSpec {
         transfer: OneOrMany<TransferChoice>,
         /// Time scheme: when stresses are updated.
         scheme: OneOrMany<SchemeName>,
-        /// Time for which the velocity at t = 0 stands; `at_zero` unless stated.
+        /// Time of the initial velocity; default `at_zero`.
         start: Option<OneOrMany<Start>>,
         /// Mass matrix; `lumped` unless stated.
         mass: Option<OneOrMany<MassName>>,
@@ -38,9 +38,9 @@ pub(crate) enum MethodSpec {
         element: OneOrMany<Element>,
         /// Mass matrix.
         mass: OneOrMany<Mass>,
-        /// Equation of motion; that of the truth unless stated.
+        /// Equation of motion; default: that of the exact solution.
         law: Option<OneOrMany<EquationName>>,
-        /// Time for which the velocity at t = 0 stands; `at_zero` unless stated.
+        /// Time of the initial velocity; default `at_zero`.
         start: Option<OneOrMany<Start>>,
         /// Points at which the error is taken.
         sampling: Option<OneOrMany<Sampling>>,
@@ -132,9 +132,9 @@ impl<'de> Visitor<'de> for NameOrParameter {
 pub(crate) enum StepSpec {
     /// A number (s), or a formula.
     Length(NumberText),
-    /// The share of the stable time step.
+    /// A share of the stable time step.
     Courant(NumberText),
-    /// A share that leaves room for what happens on the way.
+    /// A share chosen automatically, with a margin for changes during the run.
     Auto,
 }
 

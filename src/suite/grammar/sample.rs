@@ -1,4 +1,4 @@
-//! Values that may stand under the keys that must not be missing, for messages that can be pasted.
+//! Valid values of required keys, for messages with text to paste.
 
 use super::{ConvergenceSpec, Head, StudyName, SuiteSpec};
 use crate::suite::yaml::{CheckedShape, Diagnostic, Source, TopValue};
@@ -105,7 +105,7 @@ impl SuiteSpec {
     /// Reads the keys of a suite. The error of a missing key shows a sample of its value.
     ///
     /// # Errors
-    /// The first mistake in the file, with its place.
+    /// The first error in the file, with its place.
     pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
         let checked = CheckedShape::new(source, "study")?;
         match StudyName::of_checked(&checked)? {
@@ -124,7 +124,7 @@ impl ConvergenceSpec {
     /// Reads the keys of a convergence study.
     ///
     /// # Errors
-    /// The first mistake in the file, with its place.
+    /// The first error in the file, with its place.
     pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
         read(&CheckedShape::new(source, "study")?, "convergence")
     }

@@ -17,7 +17,7 @@ pub(crate) struct StabilitySpec {
     pub(crate) _study: StudyName,
     /// Headline of the report.
     pub(crate) title: String,
-    /// Where the problem comes from.
+    /// Reference for the problem.
     pub(crate) source: String,
     /// Remarks for a reader of the report.
     #[serde(default)]
@@ -28,7 +28,7 @@ pub(crate) struct StabilitySpec {
     /// Functions for formulas that need something more than once: `s(tau): "..."`.
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
-    /// The body, what holds it and what acts on it.
+    /// The body with its conditions and loads.
     pub(crate) scene: SceneSpec,
     /// Cells and particles.
     pub(crate) particles: ParticleSpec,
@@ -36,14 +36,15 @@ pub(crate) struct StabilitySpec {
     pub(crate) run: StabilityRunSpec,
     /// One parameter, and the values that it takes.
     pub(crate) sweep: Ordered<OneOrMany<NumberText>>,
-    /// The parameter whose largest stable value is sought for each row.
+    /// The parameter whose largest stable value is determined for each row.
     pub(crate) critical: Option<CriticalSpec>,
     /// Figures that the report shows.
     #[serde(default)]
     pub(crate) show: Vec<crate::verify::RunFigure>,
-    /// Methods that are put to it; lists in an entry multiply to cases.
+    /// Methods to be studied; lists in an entry multiply to cases.
     pub(crate) methods: Vec<MethodSpec>,
-    /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
+    /// Expectations, exactly one for each case; without expectations the suite explores, and is not
+    /// a gate.
     #[serde(default)]
     pub(crate) expect: Vec<StabilityExpectSpec>,
 }
@@ -59,7 +60,7 @@ pub(crate) struct ParticleSpec {
     pub(crate) ppc: NumberText,
     /// Translation of every particle (m) before the start.
     pub(crate) shift: Option<Vec<NumberText>>,
-    /// Places (m) of further particles, each with the volume of the others.
+    /// Positions (m) of additional particles, each with the volume of the others.
     #[serde(default)]
     pub(crate) extra: Vec<Vec<NumberText>>,
 }
@@ -71,9 +72,9 @@ pub(crate) struct ParticleSpec {
 pub(crate) struct StabilityRunSpec {
     /// Time step (s): a number, `auto`, or `{courant: ...}`.
     pub(crate) dt: StepSpec,
-    /// Another length of a step, which takes turns with `dt`.
+    /// A second step length, which alternates with `dt`.
     pub(crate) alternate: Option<NumberText>,
-    /// Steps of one length before it is the turn of the other.
+    /// Number of consecutive steps of each length.
     pub(crate) every: Option<NumberText>,
     /// Number of steps.
     pub(crate) steps: NumberText,
@@ -97,9 +98,9 @@ pub(crate) struct StabilityRunSpec {
 pub(crate) struct CriticalSpec {
     /// Name of the parameter.
     pub(crate) parameter: String,
-    /// Lowest value that is tried.
+    /// Minimum of the range.
     pub(crate) from: NumberText,
-    /// Highest value that is tried.
+    /// Maximum of the range.
     pub(crate) to: NumberText,
 }
 
@@ -110,7 +111,7 @@ pub(crate) struct CriticalSpec {
 pub(crate) struct StabilityExpectSpec {
     /// Cases that it speaks of, `*` standing for any text; all unless stated.
     pub(crate) case: Option<OneOrMany<String>>,
-    /// Of every row, or one for each.
+    /// Expected verdict of every row, or one for each.
     pub(crate) verdict: Option<OneOrMany<Stability>>,
     /// The limit that is sought.
     pub(crate) critical: Option<FigureSpec>,

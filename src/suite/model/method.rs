@@ -99,7 +99,7 @@ impl Method {
                     ("walls", "nodes on a fixed face are held"),
                     ("start", start.name()),
                 ];
-                // The usual frame goes without saying.
+                // The usual frame is not listed.
                 if *frame == FrameName::Total {
                     rows.push(("frame", frame.name()));
                 }
@@ -118,7 +118,7 @@ impl Method {
                 ("start", start.name()),
                 ("error taken", sampling.name()),
             ]),
-            // Its maker has more to say.
+            // The settings of an external solver come from its factory.
             Self::External { .. } => Vec::new(),
         }
     }
@@ -127,7 +127,7 @@ impl Method {
 /// Properties that an external solver states about itself.
 #[derive(Debug, Clone, Copy)]
 pub struct ExternalMethod<'a> {
-    /// Its name, which becomes that of its cases.
+    /// Its name, which is also that of its cases.
     pub name: &'a str,
     /// Order in h that theory gives its displacements.
     pub formal_order: f64,

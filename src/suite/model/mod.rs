@@ -34,24 +34,24 @@ pub struct Suite {
     pub group: String,
     /// Headline.
     pub title: String,
-    /// Where the problem comes from.
+    /// Reference for the problem.
     pub source: String,
     /// Remarks of the author for a reader.
     pub about: String,
-    /// Every parameter: name, what the file says, and its value unless that is a table's.
+    /// Every parameter: name, text, and its value unless it is a table.
     pub parameters: Vec<(String, String, Option<f64>)>,
     /// User functions: head and body.
     pub functions: Vec<(String, String)>,
     /// Plan of its study.
     pub study: Arc<dyn StudyPlan>,
-    /// Of the text of the file.
+    /// Fingerprint of the text of the file.
     pub(crate) fingerprint: u64,
 }
 
-/// Everything about a convergence study but the methods.
+/// A convergence study without its methods.
 #[derive(Debug, Clone)]
 pub struct ConvergencePlan {
-    /// The body and what acts on it.
+    /// The body with its conditions and loads.
     pub scene: Scene,
     /// The problem that the formulas solve, already checked; absent if only a reference is given.
     pub exact: Option<Problem>,
@@ -59,27 +59,27 @@ pub struct ConvergencePlan {
     pub conduction: Option<Conduction>,
     /// A fine computation to compare with.
     pub reference: Option<ReferencePlan>,
-    /// The same method with a much shorter spacing, to compare with.
+    /// A reference run by the same method with a much shorter spacing.
     pub same_method: Option<SameMethod>,
     /// The levels of refinement.
     pub refine: RefinePlan,
-    /// Places of particles beside the lattice.
+    /// Offsets of particles from their lattice.
     pub scatter: LatticeOffsets,
     /// Instants at which the error is taken.
     pub instants: u64,
-    /// The error that is judged.
+    /// The judged error.
     pub norm: NormName,
     /// Quantity whose error is taken.
     pub of: Quantity,
-    /// Its exact value, where it is a sum over the body.
+    /// The judged sum with its exact value, if the judged quantity is a sum over the body.
     pub sum: Option<Arc<JudgedSum>>,
-    /// Size by which the error is divided, if any.
+    /// Scale by which the error is divided, if any.
     pub scale: Option<f64>,
     /// Whether levels with crossings may count.
     pub crossing_levels: CrossingLevels,
     /// Accuracy that any method can reach.
     pub any_method: AnyMethod,
-    /// Place to be observed (m).
+    /// Point to be observed (m).
     pub observe: Option<Vec<f64>>,
     /// The cases, in the order of the product.
     pub cases: Vec<Case>,
@@ -100,7 +100,7 @@ pub struct Case {
     pub until: f64,
     /// Truth against which errors are taken.
     pub against: Against,
-    /// Expectation on a usual run; none of a suite that explores.
+    /// Expectation on a usual run; `None` if the suite explores.
     pub expectation: Option<Expectation>,
     /// Expectation on a full run, if that differs.
     pub expectation_in_full: Option<Expectation>,
@@ -108,20 +108,20 @@ pub struct Case {
     pub gating: Option<Gating>,
 }
 
-/// Which truth.
+/// Kind of truth with which a case is compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Against {
     /// The formulas.
     Exact,
     /// The fine computation.
     Reference,
-    /// The same method with a much shorter spacing.
+    /// A run by the same method with a much shorter spacing.
     SameMethod(SameMethod),
-    /// None: only what a run keeps is bound.
+    /// No truth: only drifts of conserved quantities have bounds.
     Nothing,
 }
 
-/// A fine FEM computation that serves as truth where no formula is known.
+/// A fine FEM computation as reference, if no formula is known.
 #[derive(Debug, Clone)]
 pub struct ReferencePlan {
     /// Law between stress and strain.
@@ -137,7 +137,7 @@ pub struct ReferencePlan {
 }
 
 impl Against {
-    /// The truth in a sentence.
+    /// Phrase for this reference in a sentence.
     pub fn words(self) -> &'static str {
         match self {
             Self::Exact => "the exact solution",
@@ -162,8 +162,8 @@ impl Against {
 }
 
 impl ConvergencePlan {
-    /// The steps of a run until `until` (s) that is held `against` a truth, for a wanted step `dt`
-    /// (s).
+    /// The steps of a run until `until` (s) that is compared with `against`, for a requested step
+    /// `dt` (s).
     pub fn clock(&self, against: Against, until: f64, dt: f64) -> Option<Clock> {
         if against.is_computed() {
             return Clock::with_common_instants(until, dt, self.instants);
@@ -173,7 +173,7 @@ impl ConvergencePlan {
 }
 
 impl Case {
-    /// The steps of a run, for a wanted step `dt` (s).
+    /// The steps of a run, for a requested step `dt` (s).
     pub fn clock(&self, plan: &ConvergencePlan, dt: f64) -> Option<Clock> {
         plan.clock(self.against, self.until, dt)
     }
@@ -185,13 +185,13 @@ impl Suite {
         self.study.case_names()
     }
 
-    /// The suite with those cases only whose index `keep` holds for.
+    /// The suite with only the cases for whose index `keep` returns true.
     #[must_use]
     pub fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
         Self { study: self.study.only(keep), ..self.clone() }
     }
 
-    /// Whether nothing is expected of any case, so that the suite is no gate.
+    /// Whether the suite has no expectations, so that it is not a gate.
     pub fn explores(&self) -> bool {
         (0..self.case_names().len()).all(|case| self.study.expectation(case).is_none())
     }
@@ -231,7 +231,7 @@ impl ConvergencePlan {
         self.exact.as_ref().filter(|problem| problem.manufactured)
     }
 
-    /// Whether the truth is given by formulas.
+    /// Whether the exact solution is given by formulas.
     pub fn has_formulas(&self) -> bool {
         self.exact.is_some() || self.conduction.is_some()
     }

@@ -22,7 +22,7 @@ pub struct SceneFace {
 }
 
 impl SceneFace {
-    /// Name of the condition on its motion, as suites write it.
+    /// Name of the condition on its motion, in suites.
     pub fn condition(&self) -> &'static str {
         self.hold.name()
     }

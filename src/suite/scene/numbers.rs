@@ -44,12 +44,12 @@ impl LoadNumbers {
         Self { field: Some(field), ..Self::default() }
     }
 
-    /// The same numbers on a part of the bodies.
+    /// These numbers, restricted to a part of the bodies.
     pub(crate) fn on(self, region: &Region) -> Self {
         Self { region: Some(region.clone()), ..self }
     }
 
-    /// Whether there is no number.
+    /// Whether there are no numbers.
     pub(crate) fn is_empty(&self) -> bool {
         self.constants.is_empty() && self.field.is_none()
     }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// Where something stands in a file: line, column and length, in characters and from one.
+/// Position in a file: line, column and length, in characters and from one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
     line: usize,
@@ -47,12 +47,12 @@ impl Place {
         self.column
     }
 
-    /// How many characters are meant; zero for a point between two of them.
+    /// Number of characters; zero for a point between two characters.
     pub fn length(self) -> usize {
         self.length
     }
 
-    /// The bytes of the text that are meant.
+    /// The bytes of the text.
     pub fn bytes(self) -> Range<usize> {
         self.start..self.end
     }

@@ -130,9 +130,9 @@ impl Patient<'_> {
 pub(super) struct Examination {
     /// Its name in reports.
     pub(super) name: &'static str,
-    /// The sight of a sound solver, in one sentence.
+    /// Expected behaviour of a correct solver, in one sentence.
     pub(super) expected: &'static str,
-    /// Examinations without whose soundness this one says nothing.
+    /// Examinations that must be without defects before this one.
     pub(super) after: &'static [&'static str],
     pub(super) examine: fn(&Patient<'_>) -> Result<Examined, Hindrance>,
 }

@@ -7,15 +7,15 @@ use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Squares along the longer side of a plane, and parts of a line: what a picture can show.
+/// Number of parts along the longer side of a body: the resolution of a figure.
 const SQUARES: f64 = 20.0;
 const PARTS: f64 = 80.0;
 
-/// Share of a part that is no more than rounding.
+/// Share of a part that counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// The largest error in each part of the body. Of three dimensions the first two are seen, and the
-/// error is the largest along the third.
+/// The largest error in each part of the body. In 3-D the parts are those of the first two axes,
+/// with the largest error along the third.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ErrorField {
     /// Whether it is a plane, and not a line.
@@ -28,8 +28,8 @@ pub struct ErrorField {
 }
 
 impl ErrorField {
-    /// The errors of `of` in `samples` against `truth` at time `t` (s); none if there is no such
-    /// error, and if no particle has a place.
+    /// The errors of `of` in `samples` against `truth` at time `t` (s); `None` if there is no such
+    /// error, or if no particle has a position.
     pub(super) fn of(of: Quantity, samples: &Samples, truth: &dyn Truth, t: f64) -> Option<Self> {
         let (components, errors) = of.differences(samples, truth, t)?;
         let d = samples.dimension;
@@ -112,7 +112,7 @@ pub(super) mod tests {
         assert_eq!(largest, (n * n - 1) as f64 * 1e-6);
     }
 
-    /// Of the last particles along an axis only a few have its largest place.
+    /// Only a few of the last particles along an axis have the largest position.
     #[test]
     fn no_part_of_a_whole_body_is_left_out() {
         let mut samples = square(32);
@@ -124,7 +124,7 @@ pub(super) mod tests {
         assert_eq!(field.parts.len(), 400);
     }
 
-    /// A particle without a place is left out; one without an error marks its part.
+    /// A particle without a position is excluded; a particle without an error marks its part.
     #[test]
     fn nan_is_seen() {
         let mut samples = square(10);

@@ -17,9 +17,9 @@ pub type Bounds = (f64, f64);
 /// is present must hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expectation {
-    /// The verdict that must come out; none is asked of a case that only limits bind.
+    /// The expected verdict; `None` for a case with limits only.
     pub verdict: Option<Verdict>,
-    /// Bounds that must hold the whole confidence interval of the observed order.
+    /// Bounds that must contain the whole confidence interval of the observed order.
     pub order: Option<Bounds>,
     /// Bounds on the order between the two finest levels.
     pub finest_pair: Option<Bounds>,
@@ -46,7 +46,7 @@ pub struct CaseFindings {
     pub crossings: Option<u64>,
     /// Measured values that are limited.
     pub measured: Measured,
-    /// Whose error the finest level shows, if that was asked and could be told.
+    /// Cause of the error floor, if it was requested and could be determined.
     pub floor: Option<FloorCause>,
 }
 
@@ -65,17 +65,17 @@ impl Expectation {
         }
     }
 
-    /// Everything that did not come as expected, in words, each failure once; empty if all came.
+    /// One sentence per unmet expectation, each failure once; empty if all are met.
     pub fn unmet(&self, found: &CaseFindings) -> Vec<String> {
         let judged = self.unmet_judgement(found);
-        // A run that failed has left no figures, and that it failed is told already.
+        // A failed run has no figures, and its failure is already reported.
         let failed = judged.is_some() && found.verdict == Verdict::Failed;
         let figures = self.unmet_figures(found).into_iter();
         let told = figures.filter(|figure| figure.measured || !failed);
         judged.into_iter().chain(told.map(|figure| figure.line)).collect()
     }
 
-    /// Verdict and observed order, which are two words for one finding.
+    /// The unmet verdict or observed order: one sentence, because both describe one finding.
     fn unmet_judgement(&self, found: &CaseFindings) -> Option<String> {
         let verdict = self.verdict.filter(|verdict| found.verdict != *verdict);
         let holds = |bounds: &Bounds| {

@@ -20,8 +20,7 @@ impl OrderHypothesis {
     /// the gap between two methods whose orders differ by a half.
     pub const TOLERANCE: f64 = 0.1;
 
-    /// The widest range that still says something: a wider one could not tell neighbouring
-    /// integer orders apart.
+    /// Maximum width of a range: a wider one could not distinguish neighbouring integer orders.
     pub const WIDEST: f64 = 1.0;
 
     /// The formal order, with the usual tolerance.
@@ -29,12 +28,12 @@ impl OrderHypothesis {
         Self { formal_order: order, expected: None, axis: Axis::Space }
     }
 
-    /// The formal order, with a range of its own.
+    /// The formal order, with a stated range.
     pub const fn within(order: f64, low: f64, high: f64) -> Self {
         Self { formal_order: order, expected: Some((low, high)), axis: Axis::Space }
     }
 
-    /// The same claim for another axis of refinement.
+    /// This hypothesis for another axis of refinement.
     #[must_use]
     pub const fn over(self, axis: Axis) -> Self {
         Self { axis, ..self }
@@ -47,8 +46,8 @@ impl OrderHypothesis {
         self.expected.unwrap_or(usual)
     }
 
-    /// Why this claim cannot be tested, if it cannot: no finite positive range, or one so wide
-    /// that it would let nearly everything pass.
+    /// The reason if this hypothesis cannot be tested: the range is not finite and positive, or so
+    /// wide that nearly every order passes.
     pub(crate) fn diagnostic(&self) -> Option<String> {
         let (low, high) = self.range();
         let orders = [self.formal_order, low, high];

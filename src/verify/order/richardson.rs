@@ -9,12 +9,12 @@
 //! ```
 //!
 //! (Roache 1994, 1998; unequal ratios as in Celik et al. 2008.) The classes are those of Eca &
-//! Hoekstra (2014). The order is the solution `p` only where the values converge monotonically:
-//! the logarithm of an absolute value would turn oscillation and divergence into an order.
+//! Hoekstra (2014). The order is the solution `p` only if the values converge monotonically: the
+//! logarithm of an absolute value would assign an order to oscillation and divergence.
 //!
 //! The well-known "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is not offered: with the order
-//! fitted to the same three values it is identically `u1 / u2`, close to one whatever the values
-//! are, and proves nothing. Hold the order against the formal one, or add a level.
+//! fitted to the same three values it is identically `u1 / u2`, close to 1 for any values, and
+//! proves nothing. Compare the order with the formal one, or add a level.
 
 use std::fmt;
 
@@ -24,17 +24,17 @@ pub const SAFETY_FACTOR: f64 = 1.25;
 /// How three values behave under refinement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RichardsonClass {
-    /// The change shrinks and keeps its sign, as for a positive order.
+    /// The change shrinks and has a constant sign, as for a positive order.
     MonotoneConvergent,
     /// The change shrinks and alternates.
     OscillatoryConvergent,
-    /// The change keeps its sign and does not shrink as for a positive order.
+    /// The change has a constant sign, but does not shrink as for a positive order.
     MonotoneDivergent,
     /// The change alternates and does not shrink.
     OscillatoryDivergent,
     /// All three values are the same.
     Exact,
-    /// One of the two changes is zero: there is no ratio to speak of.
+    /// One of the two changes is zero: the ratio is undefined.
     Degenerate,
     /// A figure is not finite, or the spacings do not shrink.
     Failed,
@@ -116,7 +116,7 @@ fn classify(changes: [f64; 2], ratio: f64, rates: [f64; 2]) -> RichardsonClass {
     }
 }
 
-/// Solves `(r32^p - 1) / (1 - r21^-p) = ratio`, whose left side grows with `p`, by bisection.
+/// Solves `(r32^p - 1) / (1 - r21^-p) = ratio` by bisection; the left side is increasing in `p`.
 fn solve(ratio: f64, [coarse, fine]: [f64; 2]) -> f64 {
     let reaches = |p: f64| -libm::expm1(p * coarse) / libm::expm1(-p * fine) >= ratio;
     let mut high = 1.0;

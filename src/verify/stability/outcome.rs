@@ -26,9 +26,9 @@ pub struct StabilityRow {
     pub value: f64,
     /// The run, where no limit is sought.
     pub trial: Option<Trial>,
-    /// The limit of the other parameter, where one is sought.
+    /// The limit of the sought parameter, if the study has one.
     pub critical: Option<Critical>,
-    /// Why there is neither.
+    /// Why there is neither a run nor a limit.
     pub refused: Option<String>,
 }
 
@@ -39,16 +39,16 @@ pub struct Critical {
     pub predicted: Option<Prediction>,
     /// Runs a share below and above the prediction, each with that share.
     pub confirmed: Vec<(f64, Trial)>,
-    /// By bisection of runs, where there is no prediction.
+    /// Limit by bisection of runs, if there is no prediction.
     pub observed: Option<StabilityLimit>,
 }
 
 /// Limit predicted by an amplification matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
-    /// Where the spectral radius leaves one.
+    /// Value at which the spectral radius exceeds one.
     pub limit: StabilityLimit,
-    /// Real part and magnitude of the imaginary part of the eigenvalue that leaves.
+    /// Real part and magnitude of the imaginary part of the eigenvalue that leaves the unit circle.
     pub leaves: Option<(f64, f64)>,
 }
 
@@ -68,7 +68,7 @@ impl StudyResults for StabilityStudy {
 }
 
 impl StabilityStudy {
-    /// The verdicts that occur, or what was sought.
+    /// The verdicts that occur, or the sought limit.
     pub fn verdict(&self) -> String {
         if let Some(sought) = &self.sought {
             return format!("limit of {sought}");

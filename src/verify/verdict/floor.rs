@@ -1,35 +1,35 @@
-//! Whose error a floor is: what happens to it when another axis is refined.
+//! Cause of an error floor, determined by refining another axis.
 //!
-//! The shape of a series tells that the error has stopped falling, not why. So the finest level is
-//! run again with the spacing of another axis halved, one axis at a time. (An error is a sum of
-//! terms in h, in dt and in what else there is; refining one spacing leaves the others' terms: Roy
-//! 2005, J. Comput. Phys. 205, 131.)
+//! The shape of a series shows that the error has stopped falling, but not the cause. So the finest
+//! level is run again with the spacing of another axis halved, one axis at a time. (An error is a
+//! sum of terms in h, dt and other spacings; refining one spacing does not change the other terms:
+//! Roy 2005, J. Comput. Phys. 205, 131.)
 
 use crate::named::named;
 use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::Axis;
 
-/// An axis is named if halving its spacing takes at least a quarter off the error. With order one
-/// that is an axis which makes half of the error, with order two a third.
+/// Minimum relative decrease of the error that identifies an axis when its spacing is halved. The
+/// axis then causes at least half of the error if its order is one, and a third if it is two.
 const LEAST_FALL: f64 = 0.25;
 
 named! {
-    /// Whose error a floor is.
+/// Cause of an error floor.
     #[non_exhaustive]
     pub enum FloorCause {
-        /// That of the time step.
+/// Error of the time step.
         Time = "time",
-        /// That of the cells.
+/// Error of the cell size.
         Space = "space",
-        /// That of the particles.
+/// Error of the particle spacing.
         Particles = "particles",
-        /// No axis that was tried: an error of the model, of the method, of the reference, or
+        /// None of the refined axes: an error of the model, the method or the reference, or
         /// round-off.
         Nothing = "none",
     }
 }
 
-/// The finest level again, with the spacing of one axis halved.
+/// A run of the finest level with the spacing of one axis halved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe {
     /// The axis.
@@ -42,15 +42,15 @@ pub struct Probe {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Floor {
-    /// The error there.
+    /// The error of the finest level.
     pub error: f64,
-    /// One probe for each axis that was tried.
+    /// One probe for each refined axis.
     pub probes: Vec<Probe>,
 }
 
 impl Floor {
-    /// Whose error it is: of the axes that lower it enough the one that lowers it most;
-    /// [`FloorCause::Nothing`] only if every probe came to its end.
+    /// Cause of the floor: of the axes that lower the error enough, the one with the largest
+    /// effect; [`FloorCause::Nothing`] only if every probe reached its end.
     pub fn cause(&self) -> Option<FloorCause> {
         let errors =
             self.probes.iter().filter_map(|probe| Some((probe, *probe.error.as_ref().ok()?)));
@@ -95,7 +95,7 @@ impl Floor {
                 Err(reason) => format!("{halved} fails ({reason})"),
             }
         };
-        // Probes that failed come last, so that the figures stand together.
+        // Failed probes come last, so that the figures are together.
         let (told, failed): (Vec<_>, Vec<_>) =
             self.probes.iter().partition(|probe| probe.error.is_ok());
         let probes: Vec<String> = told.into_iter().chain(failed).enumerate().map(probe).collect();

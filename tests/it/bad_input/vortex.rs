@@ -56,13 +56,13 @@ expect:
     because: two levels support no claim
 "#;
 
-/// In the basis that turns with the material, as benchmark pages give it.
+/// Force in the basis that rotates with the material, as in published benchmarks.
 const CURRENT: &str = r#"  radial(r, a, s): "-centripetal(r, s) + stretch(r, s) + 0*a"
   angular(r, a, s): "tangential(r, s) + 0*a"
   cX(x, y, s): "cos(alpha(x, y, s))*x - sin(alpha(x, y, s))*y"
   sX(x, y, s): "sin(alpha(x, y, s))*x + cos(alpha(x, y, s))*y""#;
 
-/// In the basis of the reference position, as it was published but for one sign.
+/// Force in the basis of the reference position, as published, with one sign corrected.
 const PUBLISHED: &str = r#"  radial(r, a, s): "(stretch(r, s) - centripetal(r, s))*cos(a) - tangential(r, s)*sin(a)"
   angular(r, a, s): "stretch(r, s)*sin(a) - centripetal(r, s)*sin(a) + tangential(r, s)*cos(a)"
   cX(x, y, s): "x + 0*y + 0*s"

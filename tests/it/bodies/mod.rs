@@ -20,14 +20,14 @@ fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     methods().filter(move |method| dimension < 3 || few(method))
 }
 
-/// Those that bodies can have that meet.
+/// Methods that support coupled bodies.
 fn coupled_methods(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     some(dimension).filter(|(_, transfer)| {
         !matches!(transfer.kind(), TransferKind::Series | TransferKind::Cells)
     })
 }
 
-/// The free body, made of what lies between two heights along the first axis.
+/// The part of the free body between two coordinates on the first axis.
 fn part<const D: usize>(
     method: (BasisName, TransferName),
     scheme: SchemeName,
@@ -124,7 +124,7 @@ fn bodies_that_share_one_field_are_one_body(
     in_dimension!(dimension, halves_are_the_whole(scheme, start));
 }
 
-/// Three bodies that run into each other askew, of which the middle one is heavy.
+/// Three bodies in an oblique collision; the middle one is heavy.
 fn crash<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) -> Vec<Setup<D>> {
     let ends = [[1.4, 2.4], [2.7, 3.7], [4.0, 5.0]];
     let speeds = [0.8, 0.0, -0.6];
@@ -141,8 +141,8 @@ fn crash<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) 
     ends.into_iter().zip(speeds).map(body).collect()
 }
 
-/// Whatever two bodies that collide are to each other, one far away that is listed before them is
-/// nothing to them, bit for bit.
+/// A distant body that is listed before two colliding bodies does not change their result, bit for
+/// bit.
 #[rstest]
 fn a_body_far_away_changes_no_contact(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
@@ -191,8 +191,8 @@ fn bodies_that_collide_keep_their_momentum(
     in_dimension!(dimension, momentum_is_kept(scheme));
 }
 
-/// Two layers without ends along X, one on the other, pressed together and sliding: impulses on
-/// the upper one along its surface and across it.
+/// Two periodic layers that are pressed together and slide: impulses on the upper layer along the
+/// interface and normal to it.
 fn pressed(method: (BasisName, TransferName), scheme: SchemeName, friction: f64) -> [f64; 2] {
     let layer = |low: f64, v: Vector<2>| {
         let mut setup = free_body::<2>(method, scheme);
@@ -267,7 +267,8 @@ fn two_bars_part_when_the_wave_is_back(
     assert!(off.abs() <= 1.0 + 1e-9, "the bars part {off:.2} h/c after 2L/c");
 }
 
-/// They go back as fast as they came, but for what the front leaves behind in oscillations.
+/// The bars rebound with their initial speed, except for the energy of oscillations behind the
+/// front.
 #[rstest]
 fn two_bars_bounce_with_an_error_of_the_order_of_the_front(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,

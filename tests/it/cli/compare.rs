@@ -72,8 +72,8 @@ fn a_worse_run() -> Folder {
     folder
 }
 
-/// The steps of the action that compare and comment, with a `gh` that has the reports of the last run
-/// and keeps the comment.
+/// The steps of the CI action that compare and comment, with a mock `gh` that returns the reports
+/// of the last run and stores the comment.
 #[cfg(unix)]
 #[test]
 fn the_workflow_comments_what_moved() {

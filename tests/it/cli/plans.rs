@@ -29,8 +29,8 @@ fn column(case: &Value, key: &str) -> Vec<f64> {
     levels.iter().map(|level| level[key].as_f64().expect("a number")).collect()
 }
 
-/// A run takes a whole number of steps: 7e-4 s becomes a 71st of the run. The judge must see what was
-/// taken.
+/// A run has a whole number of steps: a step of 7e-4 s becomes 1/71 of the run. The judge must use
+/// the actual step.
 #[test]
 fn refined_time_steps_are_the_ones_that_are_taken() {
     let text =
@@ -62,8 +62,8 @@ fn cells_and_time_steps_go_together_level_by_level() {
     assert_eq!(column(&case, "steps")[..2], [50.0, 100.0]);
 }
 
-/// Four cells leave an error that no time step removes: the judge sees a floor, the probe tells
-/// whose.
+/// Four cells leave an error that no time step removes: the verdict is a floor, and the probe finds
+/// its cause.
 #[test]
 fn the_axis_that_was_not_refined_is_named() {
     let refine = "refine: {dt: [1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5], cells: 4, ppc: 4}";

@@ -1,4 +1,4 @@
-//! What a run prints of itself, how much, in which colours, and what happens if it cannot.
+//! Output of a run: its extent, its colours, and errors of writing.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
 use rstest::rstest;

@@ -1,4 +1,4 @@
-//! Time steps by rule, and the warning of a step that is too long for any.
+//! Automatic time steps, and the warning of a step that is too long.
 
 use super::{BAR, FAILED, Folder, SOUND, assert_contains};
 use serde_json::Value;

@@ -1,7 +1,7 @@
-//! Angular momentum, of a body that nothing holds (Jiang et al. 2015; problem V10).
+//! Angular momentum of a free body (Jiang et al. 2015; problem V10).
 //!
-//! A particle's share is `m x cross v`, and with an affine field the antisymmetric part of
-//! `m C D` besides.
+//! The share of a particle is `m x cross v`, plus the antisymmetric part of `m C D` with an affine
+//! field.
 
 use crate::common::{H, body, pairs};
 use mpm_verify::mpm::{

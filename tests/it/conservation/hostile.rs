@@ -73,7 +73,7 @@ fn extremes<const D: usize>() -> Vec<(&'static str, Spoil<D>)> {
     ]
 }
 
-/// A particle of which one number is none, by the name of the column.
+/// Particles with one invalid number, each with the name of its column.
 fn torn<const D: usize>(value: f64) -> Vec<(&'static str, Particles<D>)> {
     let mut bodies = vec![body::<D>(); 8];
     bodies[0].x[1][D - 1] = value;
@@ -158,7 +158,7 @@ fn a_field_that_is_no_number_is_named(
     in_dimension!(dimension, names_the_culprit(value));
 }
 
-/// A body in which one particle is whatever the numbers say.
+/// A body in which the numbers set the state of one particle.
 fn survives<const D: usize>(scene: &Scene, numbers: &[f64]) {
     let mut particles = body::<D>();
     let mut numbers = numbers.iter().copied();
@@ -176,7 +176,8 @@ fn survives<const D: usize>(scene: &Scene, numbers: &[f64]) {
     scene.holds("numbers", particles);
 }
 
-/// Numbers of which some are as they should be (NaN stands for that), some near, some far.
+/// Numbers for a column: some are replaced by the right number (NaN), some are moderate, some
+/// extreme.
 fn number() -> impl Strategy<Value = f64> {
     prop_oneof![
         6 => Just(f64::NAN),

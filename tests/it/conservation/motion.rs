@@ -46,7 +46,7 @@ fn a_free_body_keeps_its_linear_momentum(
 }
 
 /// The node ahead of a body whose last particle lies exactly on a node has no mass: with linear
-/// functions it takes a force V sigma/h from the particle, which is lost, and has no velocity, which
+/// functions it takes a force V sigma/h from the particle, which is lost, and its zero velocity
 /// strains the particle by v dt/h.
 #[rstest]
 fn linear_functions_know_no_body_that_ends_on_a_node(

@@ -194,7 +194,8 @@ fn a_fixed_wall_holds_the_corner_of_a_driven_one() {
     assert!((solver.grid().velocity[next] - expected).norm() <= 1e-14);
 }
 
-/// The particles of a set go where they are driven, whatever the rest of the body does.
+/// The particles of a driven set follow the prescribed motion, for any motion of the rest of the
+/// body.
 fn set_follows<const D: usize>(scheme: SchemeName, start: Start) {
     for method in some(D) {
         let mut setup = Setup { start, ..free_body::<D>(method, scheme) };

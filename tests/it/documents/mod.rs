@@ -1,5 +1,5 @@
-//! The documents, held to the program: it understands the command lines that they show, and loads
-//! the suites. (`tests/architecture` holds their paths, names and JSON to the repository.)
+//! Checks of the documents against the program: it parses the command lines, and loads the suites.
+//! (`tests/architecture` checks paths, names and JSON.)
 
 mod dispersion;
 mod figures;
@@ -26,7 +26,7 @@ fn documents() -> Vec<Document> {
     documents
 }
 
-/// Adds the documents below a folder, but for what is built.
+/// Adds the documents below a folder, except build output.
 fn read(root: &Path, folder: &Path, documents: &mut Vec<Document>) {
     for entry in fs::read_dir(folder).expect("a folder of documents") {
         let path = entry.expect("an entry").path();

@@ -188,7 +188,7 @@ fn a_named_suite_that_is_not_applicable_fails_unless_allowed() {
     folder.write("foreign.yaml", foreign.replace("small_strain", "hencky\n  tolerance: 1e-2"));
     let found = gate(&folder, &["bar.yaml", "foreign.yaml"], &[]);
     assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
-    // What is lacking stands in the line of the case.
+    // The line of the case names the missing capability.
     let line = found.out.lines().find(|line| line.contains("hencky-bar")).expect("a line");
     assert!(line.contains("n/a") && line.contains("lacks laws: hencky"), "{line}");
     assert!(found.errors.contains("hencky-bar; `--allow-not-applicable`"), "{}", found.errors);

@@ -183,7 +183,7 @@ expect:
 
 #[test]
 fn the_initial_state_is_known_at_any_place_of_the_body() {
-    // The second place is on the slanting side, but for rounding.
+    // The second place is on the slanting side, up to rounding.
     let places = [0.25, 0.125, 1.0 - 0.2, 0.1 + 1e-12];
     let request = |of: &str| json!({"type": "values", "of": of, "reference_position": places});
     let names = ["displacement", "velocity", "deformation_gradient", "initial_stress", "stress"];
@@ -249,7 +249,8 @@ fn fields_agree_with_the_particles(#[case] name: &str) {
     }
 }
 
-/// Nodes on the rim of a disk belong to it, and on the axis of a body of revolution stress is known.
+/// Nodes on the rim of a disk belong to the disk, and the stress on the axis of a body of
+/// revolution is defined.
 #[test]
 fn nodes_on_a_rim_and_on_an_axis_are_inside() {
     let ring = problem_of("expanding-ring");

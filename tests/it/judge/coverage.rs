@@ -136,7 +136,7 @@ fn the_interval_of_the_judge_covers_the_true_order_in_95_per_cent_of_many(
 }
 
 /// The probability that the interval of a regression over `levels` equal steps of `ln h` covers the
-/// slope, for normal noise of which neighbours are correlated: that of `e' C e >= 0` with
+/// slope, for normal noise with correlated neighbours: the probability of `e' C e >= 0` with
 /// `C = t^2/(n - 2) M - x x'/x'x`, M being the projection on residuals and x the centred `ln h`
 /// (Imhof 1961, Biometrika 48, eq. 3.2).
 fn coverage_by_theory(levels: usize, correlation: f64) -> f64 {

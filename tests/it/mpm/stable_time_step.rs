@@ -8,7 +8,7 @@ use mpm_verify::mpm::{
 };
 use rstest::rstest;
 
-/// That of a square of c = 1 m/s in a grid of unit cells, with an effect (s).
+/// Stable time step (s) of a square with c = 1 m/s in a grid of unit cells, with an effect.
 fn step(material: MaterialPlan, effect: impl Effect<2> + 'static) -> f64 {
     let (from, to) = (Vector::from_element(1.0), Vector::from_element(5.0));
     let particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);

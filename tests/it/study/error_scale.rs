@@ -1,4 +1,5 @@
-//! Scales that make errors and work of different cases comparable, of a bar whose solution is known.
+//! Scales that make errors and work of different cases comparable, for a bar with an exact
+//! solution.
 
 use crate::cli::BAR;
 use approx::assert_relative_eq;

@@ -33,7 +33,7 @@ methods:
   - fem: {element: linear, mass: consistent, start: half_step_back}
 "#;
 
-/// The same in the plane, pulled towards a place for each particle that formulas of x give.
+/// A plate with forces towards a point that formulas of x give for each particle.
 const PLATE: &str = r#"suite: plate
 title: Free plate
 source: a test
@@ -99,8 +99,8 @@ fn the_load_is_that_of_the_particles_own_displacement(
     }
 }
 
-/// sqrt(2/(l + w^2)), with l = 4/h^2 of the bar at most; a wave crosses a cell of 1/8 in 25 times the
-/// step that the springs alone leave.
+/// sqrt(2/(l + w^2)), with l = 4/h^2 at most for the bar; a wave crosses a cell of 1/8 in 25 times
+/// the limit of the springs.
 #[test]
 fn the_stable_step_knows_the_stiffness_of_a_load() {
     for case in &cases(STIFF) {

@@ -7,7 +7,7 @@ use mpm_verify::verify::{
 };
 use std::sync::Arc;
 
-/// Fewest levels of a case, so that four remain to be judged.
+/// Minimum number of levels of a case, so that four remain to be judged.
 const FEWEST: usize = 5;
 
 /// A case with the error of its finest level.

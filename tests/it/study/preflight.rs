@@ -6,7 +6,7 @@ use mpm_verify::suite::yaml::{Diagnostic, Place, Severity, Source};
 use mpm_verify::suite::{Suite, embedded};
 use rstest::rstest;
 
-/// A suite of which nothing is to be said.
+/// A suite without findings.
 const BAR: &str = r#"suite: bar
 title: Bar
 source: a textbook
@@ -243,8 +243,8 @@ fn a_linearised_solution(
     assert!(tripped.to_string().contains(words), "{tripped}");
 }
 
-/// A stiff rod that turns, stretched by the first term of its series: the second, which is left out,
-/// is (w l/c)^4 l/5 = 2e-5 m at the ends. The rod does not drift away as a free mass would.
+/// A stiff rotating rod whose stated stretch is the first term of a series. The omitted second term
+/// is (w l/c)^4 l/5 = 2e-5 m at the ends. The rod does not drift away like a free mass.
 #[test]
 fn a_stiff_body_follows_what_a_linearised_solution_leaves() {
     let source = embedded::source("rotating-rod").expect("a suite").expect("a text");
@@ -312,7 +312,7 @@ methods:
   - mpm: {basis: linear, transfer: flip, scheme: usl, frame: total_lagrangian}
 "#;
 
-/// A hundred times what is left is not yet too much.
+/// A tolerance of a hundred times the residual is not noted.
 #[test]
 fn a_tolerance_with_some_room_is_not_noted() {
     let source = embedded::source("acoustic-column").expect("a suite").expect("a text");

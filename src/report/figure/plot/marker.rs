@@ -17,7 +17,7 @@ pub(crate) enum Fill {
 /// Nominal radius of a marker.
 pub(crate) const RADIUS: f64 = 4.2;
 
-/// A crossed marker is larger, so that the cross inside can be seen in print.
+/// A crossed marker is larger, so that the cross inside is visible in print.
 const CROSSED_RADIUS: f64 = 5.6;
 
 /// A marker centred at `at`.

@@ -4,7 +4,7 @@ use super::canvas::text_width;
 use super::style::{SUPERSCRIPT, TEXT};
 use super::svg::{Pt, SvgElement};
 
-/// The working coordinate of an axis: what is linear in pixels.
+/// The working coordinate of an axis, which is linear in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ScaleKind {
     /// The value divided by ten to the given power.
@@ -61,7 +61,7 @@ impl Scale {
         } else {
             libm::floor(libm::log10(largest)) as i32
         };
-        // Dividing before any difference is taken keeps the extremes of f64 from overflowing.
+        // Dividing before taking differences avoids overflow at the extremes of f64.
         let unit = libm::pow(10.0, f64::from(power));
         let (lo, hi, largest) = (lo / unit, hi / unit, largest / unit);
         let widen = if largest < TINY {
@@ -151,8 +151,8 @@ impl Label {
         if self.exponent.is_none() {
             return SvgElement::text(at, anchor, &self.base);
         }
-        // Two texts that meet at `joint`, and not one with a raised part: some converters anchor
-        // each part of a text anew.
+        // Two texts that meet at `joint` instead of one text with a raised part: some converters
+        // anchor each part of a text separately.
         let left_of_joint = text_width(&self.base, TEXT);
         let joint = match anchor {
             "start" => at.0 + left_of_joint,

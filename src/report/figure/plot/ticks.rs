@@ -1,4 +1,4 @@
-//! Where an axis is ticked, and what the ticks say.
+//! Positions and labels of ticks.
 
 use super::scale::Label;
 use super::scale::{Scale, ScaleKind};
@@ -24,8 +24,8 @@ const DIGITS: [i32; 9] = [1, 2, 3, 4, 5, 6, 7, 8, 9];
 /// With more decades than this the ticks within them would merge.
 const TICKED_DECADES: f64 = 8.0;
 
-/// The densest ticks whose labels keep their distance on an axis of `length` pixels, where
-/// `extent` is the space which a label takes along the axis, its margin included.
+/// The densest ticks whose labels do not touch on an axis of `length` pixels; `extent` is the space
+/// of a label along the axis, including its margin.
 pub(crate) fn choose(scale: &Scale, length: f64, extent: impl Fn(&Label) -> f64) -> Vec<Tick> {
     let fits = |ticks: &Vec<Tick>| {
         let major: Vec<_> = ticks

@@ -1,4 +1,4 @@
-//! Whether a sum over the body that a suite judges can be told, by every subject and by the truth.
+//! Checks that a judged sum over the body is defined for every subject and for the exact solution.
 
 use crate::exact::Problem;
 use crate::mpm::MassName;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// The judged sum with its exact value, if `judge` names a sum.
 ///
 /// # Errors
-/// The reason why a subject or the truth cannot tell it.
+/// The reason why a subject or the exact solution does not define the sum.
 pub(crate) fn judged(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -70,7 +70,7 @@ fn no_face(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Diagnostic {
     diagnostic.with_help("remove it, or judge the `reaction`")
 }
 
-/// Refuses an energy that the law of the solver or that of the truth does not store.
+/// Refuses an energy that the law of the solver or of the exact solution does not define.
 fn stored_energy(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -110,7 +110,7 @@ fn rotation(
     Ok(())
 }
 
-/// Numbers of the walls whose reaction is judged.
+/// Indices of the walls whose reaction is judged.
 fn walls(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -162,7 +162,8 @@ fn no_reaction(evaluator: &Evaluator<'_>, path: &Path, face: &SceneFace) -> Diag
     evaluator.diagnostic(path, &message)
 }
 
-/// Refuses a mass matrix with which the nodes of a wall share the inertia of others.
+/// Refuses a consistent mass matrix, which adds the inertia of other nodes to the reaction of a
+/// wall.
 fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let is_consistent = |method: &MethodSpec| match method {
         MethodSpec::Mpm { mass: Some(mass), .. } => mass.as_slice().contains(&MassName::Consistent),
@@ -174,7 +175,8 @@ fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
     Err(evaluator.diagnostic(&path, message).with_help("take `lumped` to judge a reaction"))
 }
 
-/// Refuses to bound the energy of a body whose law has none; `path` is that of the bound.
+/// Refuses a bound on the energy of a body whose law has no energy; `path` is the path of the
+/// bound.
 pub(crate) fn refuse_law_without_energy(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -16,7 +16,7 @@ pub(crate) struct MethodDraft {
     pub(crate) method: Method,
     /// Name of an external solver.
     solver: Option<String>,
-    /// Which of its settings the name says.
+    /// Which of its settings are part of the name.
     said: Vec<bool>,
 }
 
@@ -38,7 +38,7 @@ impl MethodDraft {
     }
 }
 
-/// First word of the names of a method, and its settings in the order in which they follow.
+/// First word of the names of a method, and its settings in the order of names.
 fn settings(method: &Method) -> (&'static str, Vec<String>) {
     match *method {
         Method::Mpm { basis, transfer, scheme, start, mass, frame } => {
@@ -58,8 +58,8 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
     }
 }
 
-/// The product of entry number `entry` of `methods`. A setting enters the name where the entry
-/// lists several, or where one always has to be chosen.
+/// The product of entry number `entry` of `methods`. A setting is part of the name if the entry
+/// lists several values, or if it must always be chosen.
 pub(crate) fn methods(
     evaluator: &Evaluator<'_>,
     entry: usize,
@@ -171,13 +171,14 @@ pub(crate) fn named(
     Ok(named)
 }
 
-/// Lets names say the settings by which methods of one name differ. Names that are told apart
-/// already stay as they are; equal ones remain where the methods are equal.
+/// Adds to names the settings by which methods of equal name differ. Unique names do not change;
+/// equal methods keep equal names.
 fn tell_apart(drafts: &mut [MethodDraft]) {
     while say_differences(drafts) {}
 }
 
-/// Whether a name has become longer, and may have become that of another method.
+/// Adds one setting to equal names. Returns whether a name has changed; it may now be that of
+/// another method.
 fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {

@@ -17,10 +17,10 @@ use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::{Axis, Expectation};
 use methods::{NamedMethod, count, methods, named};
 
-/// Most cases that a suite may unfold into.
+/// Maximum number of cases of a suite, after lists are multiplied.
 const MOST_CASES: usize = 1000;
 
-/// The ends of the runs: how names write them, and value (s).
+/// The ends of the runs: text for names, and value (s).
 pub(crate) fn until(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
@@ -99,7 +99,7 @@ struct Draft {
     against: Against,
 }
 
-/// The truths of the study, each with what it adds to a name.
+/// The references of the study, each with its suffix for names.
 fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     let truths = [
         plan.has_formulas().then_some((Against::Exact, "-vs-exact")),
@@ -110,8 +110,8 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     truths.into_iter().flatten().chain(nothing).collect()
 }
 
-/// One method, for every end of the run and every truth. A part enters the name only where there
-/// is a choice.
+/// One method, for every end of the run and every reference. A part is included in the name only if
+/// there are alternatives.
 fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)]) -> Vec<Draft> {
     let mut drafts = Vec::new();
     for (text, until_value) in until {
@@ -167,7 +167,7 @@ fn few(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses combinations that mean nothing before anything runs.
+/// Refuses invalid combinations before any run.
 fn possible(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -215,12 +215,12 @@ fn possible(
     }
 }
 
-/// Why no consistent mass matrix can be solved with the walls of the scene, if none can.
+/// Why a consistent mass matrix cannot be solved with the walls of the scene; `None` if it can.
 fn against_consistent_mass(plan: &ConvergencePlan) -> Option<&'static str> {
     plan.scene.faces.iter().find_map(|face| face.hold.against_consistent_mass())
 }
 
-/// Whether a period of the grid is not that of the body's reference place.
+/// Whether a period of the grid differs from that of the reference body.
 fn stretched(plan: &ConvergencePlan) -> bool {
     let scene = &plan.scene;
     let apart = |face: &SceneFace| {
@@ -230,8 +230,8 @@ fn stretched(plan: &ConvergencePlan) -> bool {
     scene.faces.iter().any(|face| face.hold.is_periodic() && apart(face))
 }
 
-/// The law of an FEM case that names none: that of the scene's material. Where there is none, such
-/// a case has been refused (`fem_support`).
+/// The law of an FEM case that names none: the law of the material. A case without such a law has
+/// already been refused (`fem_support`).
 fn own_law(plan: &ConvergencePlan) -> EquationName {
     law_of_bar(&plan.scene.material).unwrap_or_default()
 }

@@ -7,17 +7,17 @@ use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Share of the spacing by which a particle may be moved: the middle between two of them.
+/// Maximum displacement of a particle, as a share of the spacing: the middle between two particles.
 const MOST: f64 = 0.5;
 
-/// The same of random moves where a face carries a load: up to there the particles of its layer are
-/// told from those of the next one.
+/// Maximum random displacement if a face carries a load, as a share of the spacing: below it, the
+/// layer of particles at the face is distinct from the next one.
 const MOST_AT_LOADS: f64 = 0.25;
 
-/// The seed of a suite that states none.
+/// The default seed.
 const SEED: u64 = 1;
 
-/// Places of particles as the suite states them.
+/// Offsets of particles from their lattice, as stated by the suite.
 pub(crate) fn scatter(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

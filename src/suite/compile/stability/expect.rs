@@ -44,7 +44,7 @@ pub(crate) fn rows(
             return Err(diagnostic.with_label("expected one for all, or one for each"));
         }
     }
-    // The values of the suite itself come first: they mark parameters as used.
+    // The values of the suite itself come first, which marks parameters as used.
     row(evaluator, &path, spec, &figures, 0)?;
     rows.iter()
         .enumerate()

@@ -20,7 +20,7 @@ use crate::suite::model::stability::{SetupTemplate, StabilityCase, StabilityPlan
 use crate::suite::yaml::{Diagnostic, Path, Source};
 use setup::setup;
 
-/// Most rows and most cases of a study.
+/// Maximum number of rows, and of cases, of a study.
 const MOST: usize = 500;
 
 /// Checks a stability study.
@@ -31,7 +31,7 @@ pub(crate) fn plan(
 ) -> Result<StabilityPlan, Diagnostic> {
     few(evaluator, spec)?;
     let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
-    // The values of the suite itself come first: they mark parameters as used.
+    // The values of the suite itself come first, which marks parameters as used.
     let base = setup(evaluator, spec)?;
     let (swept, values) = sweep(evaluator, spec)?;
     let sought = sought(evaluator, spec, &swept)?;
@@ -86,7 +86,7 @@ fn sweep(
     Ok((name.clone(), values))
 }
 
-/// Only what the suite declares can be swept or sought.
+/// Refuses to sweep or seek a name that the suite does not declare.
 fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -19,7 +19,7 @@ pub(crate) struct StudyFacts {
     pub(crate) until: f64,
 }
 
-/// One entry of `loads`: what suites write for a load.
+/// Keys of a load: one entry of `loads`.
 pub(crate) trait LoadKeys {
     /// Example of the keys of a load with strength `s` (zero: no effect) and the vector value
     /// `vector`, on the face `right` or the set `some`. The laws of the family test it.
@@ -30,7 +30,7 @@ pub(crate) trait LoadKeys {
     /// The load, checked, with every number computed.
     ///
     /// # Errors
-    /// The first mistake in its keys.
+    /// The first error in its keys.
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic>;
 
     /// Refuses a convergence study that the load does not go with.
@@ -41,7 +41,7 @@ pub(crate) trait LoadKeys {
         Ok(())
     }
 
-    /// The name of the part of it that the reference FEM lacks.
+    /// The name of the part that the reference FEM does not support.
     fn lacked_by_fem(&self) -> Option<&'static str> {
         None
     }
@@ -61,7 +61,7 @@ pub(crate) trait LoadKeys {
         false
     }
 
-    /// Whether the load is that of one body, and makes no sense beside several.
+    /// Whether the load needs a scene with a single body.
     fn is_of_one_body(&self) -> bool {
         self.face().is_some()
     }
@@ -76,7 +76,7 @@ pub(crate) trait LoadKeys {
 pub(crate) struct LoadEntry<'a> {
     pub(crate) evaluator: &'a Evaluator<'a>,
     pub(crate) effect: EffectName,
-    /// Of its value.
+    /// Path of its value.
     pub(crate) path: Path,
     pub(crate) scene: &'a Scene,
 }
@@ -171,7 +171,7 @@ impl LoadEntry<'_> {
         }
     }
 
-    /// The set called `name`, on which nothing acts yet.
+    /// The set named `name`, which has no load yet.
     pub(crate) fn free_set(&self, name: &str) -> Result<LoadedSet, Diagnostic> {
         let path = self.path.then("on");
         let number = set_number(self.evaluator, &path, name, &self.scene.sets)?;
@@ -218,7 +218,7 @@ pub(crate) struct LoadedSet {
 }
 
 impl LoadedSet {
-    /// The set and what acts on it, as a row for reports.
+    /// The set and its load, as a row for reports.
     pub(crate) fn row(&self, load: &str) -> (String, String) {
         let Region { name, from, to } = &self.region;
         let corner = |c: &[f64]| c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
@@ -228,7 +228,7 @@ impl LoadedSet {
     /// The particles of the set.
     ///
     /// # Errors
-    /// [`BuildError::EmptySet`] if there are none.
+    /// [`BuildError::EmptySet`] if there are no particles in the set.
     pub(crate) fn members<const D: usize>(
         &self,
         particles: &Particles<D>,

@@ -120,7 +120,7 @@ impl SceneLoad for PressureLoad {
         (0..values.len() - 1).map(component).collect()
     }
 
-    /// In uniaxial strain a face keeps its area, so a pressure is a traction.
+    /// In uniaxial strain the area of a face is constant, so a pressure is a traction.
     fn tension(&self, x: f64, _: f64) -> Option<TimeFunction> {
         let value = self.value.clone();
         Some(Box::new(move |t| -value.eval(&[x, t])))

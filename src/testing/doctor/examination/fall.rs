@@ -16,10 +16,10 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Gravity (m/s2): not that of the earth, which a solver may have by itself.
+/// Gravity (m/s2): different from that of the earth, which may be a default of the solver.
 const GRAVITY: f64 = 3.7;
 
-/// Share by which a figure may be off the pattern that explains it.
+/// Maximum relative difference between a figure and the pattern that explains it.
 const NEAR: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {

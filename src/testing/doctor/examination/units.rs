@@ -1,4 +1,4 @@
-//! The same problem in other units.
+//! Examination of the change of units: one problem in other units of length, time and mass.
 
 use super::stress::spreading;
 use crate::subject::Precision;

@@ -299,7 +299,7 @@ impl Subject for Client {
                     }
                 }
             }
-            // That of a first step half a step back, or of one half a step on.
+            // Factor of the first step if it starts half a step back or half a step ahead.
             let first = match defect {
                 Leapfrog if self.steps == 0 => 0.5,
                 VelocityAhead if self.steps == 0 => 1.5,

@@ -1,5 +1,5 @@
-//! The grammar of a suite as its own error messages tell it: a value that can stand nowhere is put at
-//! a place, and the answer lists what may stand there. So every word comes from its registration.
+//! The grammar of a suite, derived from its error messages: an invalid value is put at a path, and
+//! the error lists the allowed keys or names. So every name comes from its registration.
 
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
@@ -52,7 +52,7 @@ impl Node {
         Self { keys: keys.into_iter().map(node).collect(), ..Self::default() }
     }
 
-    /// What may stand at `path` of a suite that is `base` elsewhere.
+    /// The values that are allowed at `path` of the suite `base`.
     fn at(base: &Value, path: &[Step<'_>]) -> Self {
         let answer = |text: &str| {
             let value = serde_yaml::from_str(text).expect("YAML");
@@ -132,7 +132,7 @@ impl Node {
     }
 }
 
-/// A sound suite of the kind; what stands beside it in the scene is read after the rest.
+/// A valid suite of the kind. Other keys of its scene are read after the key that is tested.
 fn base(study: &str) -> Value {
     let scene = "scene: {dimension: 1, body: {box: {from: [0], to: [1]}}, material: \
                  {linear_elastic: {young: 100, poisson: 0, density: 1}}}\n";
@@ -155,7 +155,7 @@ fn base(study: &str) -> Value {
     serde_yaml::from_str(&text).expect("YAML")
 }
 
-/// `whole` with `value` at `path`. Only what stands beside a key of the file or of its scene stays.
+/// `whole` with `value` at `path`. Sibling keys are kept at the top level and in the scene only.
 fn put(whole: Value, path: &[Step<'_>], value: Value) -> Value {
     let Some((first, rest)) = path.split_first() else { return value };
     match first {

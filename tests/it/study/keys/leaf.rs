@@ -54,7 +54,7 @@ fn walk(
         Value::Sequence(list) => {
             for (i, value) in list.iter().enumerate() {
                 place.push(Value::from(i));
-                // What is not itself a list may be one of alternatives.
+                // A key whose value is not a list may have a list of alternatives.
                 let below = node.member.as_deref().unwrap_or(node);
                 walk(below, value, (study, key), place, words);
                 place.pop();

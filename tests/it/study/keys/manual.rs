@@ -6,13 +6,13 @@ use serde_yaml::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Keys that stand at the head of any suite: other kinds of study have no rows for them.
+/// Keys at the head of any suite; they have rows for one kind of study only.
 const OF_ALL: [&str; 6] = ["suite", "title", "source", "about", "parameters", "functions"];
 
-/// Keys that the grammar of the error messages leaves out: what full runs have besides, and tables.
+/// Keys that are missing in the grammar of the error messages: those of full runs, and tables.
 const BESIDES: [&str; 4] = ["expect.full", "refine.full", "parameters.by", "parameters.table"];
 
-/// Most characters of a quotation.
+/// Maximum number of characters of a quotation.
 const LONGEST: usize = 70;
 
 /// A key with the names that may stand under it.
@@ -173,7 +173,7 @@ pub(super) fn rows(pages: &[(PathBuf, String)]) -> BTreeMap<&str, Vec<&str>> {
     rows
 }
 
-/// A page with the last cell of each row made anew.
+/// The page with the last cell of each row replaced.
 pub(super) fn with_quotations(page: &str, found: &Quotations) -> String {
     let renew = |line: &str| {
         let Some((key, _)) = row(line) else { return line.to_owned() };

@@ -39,7 +39,7 @@ fn keys(grammars: &[(&str, Node)]) -> Keys {
     keys
 }
 
-/// The words of each kind of study.
+/// The grammar of each kind of study.
 static GRAMMARS: LazyLock<Vec<(&str, Node)>> =
     LazyLock::new(|| STUDIES.map(|study| (study, Node::of_study(study))).into());
 
@@ -52,7 +52,7 @@ fn suites() -> Vec<Known> {
     suites
 }
 
-/// Holds the words of docs/keys.md to those of the grammar.
+/// Asserts that docs/keys.md and the grammar have the same keys.
 fn same<T: Ord + std::fmt::Debug>(grammar: &BTreeSet<T>, page: &BTreeSet<T>) {
     let missing: Vec<&T> = grammar.difference(page).collect();
     assert!(missing.is_empty(), "not in docs/keys.md; run ci/keys: {missing:?}");

@@ -53,7 +53,7 @@ fn rows<const N: usize>() -> Vec<[String; N]> {
     cells.filter_map(|cells: Vec<String>| cells.try_into().ok()).collect()
 }
 
-/// What stands between a pair of signs, and what before it.
+/// The text before the first `sign`, and the text between the first two.
 fn within(text: &str, sign: char) -> (&str, &str) {
     let (before, rest) = text.split_once(sign).unwrap_or((text, ""));
     (before, rest.split(sign).next().unwrap_or_default())
@@ -135,21 +135,21 @@ impl Line {
     }
 }
 
-/// Writes the tables; a row of a key that was not looked at stays.
+/// Writes the tables; rows of keys that were not tested do not change.
 pub(super) fn write(found: &Found) {
     let mut lines = numbers();
     lines.retain(|key, _| found.keys.contains(key));
     lines.extend(found.rows.iter().map(|row| (row.key.clone(), row.line())));
     let noticed = lines.values().filter(|line| !line.least.is_empty()).count();
     let mut text = vec![
-        format!("{} numbers, of which a change of {noticed} is noticed.", lines.len()),
+        format!("{} numbers; a change of {noticed} of them is noticed.", lines.len()),
         String::new(),
         "| key | suites | least change | gate that notices | suite, case | s |".to_owned(),
         "|---|--:|--:|---|---|--:|".to_owned(),
     ];
     text.extend(lines.iter().map(|(key, line)| line.shown(key)));
     let unused = found.names.values().filter(|suites| **suites == 0).count();
-    text.push(format!("\n{} names, of which {unused} stand in no suite.\n", found.names.len()));
+    text.push(format!("\n{} names; {unused} of them are in no suite.\n", found.names.len()));
     text.push("| key | names, with the number of suites |\n|---|---|".to_owned());
     let mut by_key: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for ((key, name), suites) in &found.names {

@@ -34,7 +34,7 @@ const OF_TRUTH: [&str; 2] = ["exact.", "equilibrium."];
 pub(super) struct Found {
     /// Every number of the grammar.
     pub(super) keys: BTreeSet<String>,
-    /// Those that were changed.
+    /// Keys whose number was changed.
     pub(super) rows: Vec<Row>,
     /// Key and name, and the number of suites that have it.
     pub(super) names: BTreeMap<(String, String), usize>,

@@ -116,7 +116,8 @@ impl Known {
         Ok(Changed { judged: Judged::Whole(suite), known: self })
     }
 
-    /// The same with nothing changed, by the same ways: what it does not meet it never would.
+    /// The suite without a change, run in the same way as changed ones: expectations that it fails
+    /// are not counted later.
     pub(super) fn unchanged(&self) -> Changed<'_> {
         let plan = self.suite.plan::<ConvergencePlan>();
         let judged = plan.map_or_else(

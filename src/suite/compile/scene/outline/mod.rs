@@ -1,4 +1,4 @@
-//! Shapes of bodies: boxes, and bodies of another outline.
+//! Shapes of bodies: boxes, and bodies with another outline.
 
 mod polygon;
 pub(crate) mod quadrilateral;
@@ -25,7 +25,7 @@ pub(crate) enum BodyShape<'a> {
 /// The shape that `spec` describes.
 ///
 /// # Errors
-/// A complaint about a body that makes no sense in `dimension` dimensions.
+/// A diagnostic of a body that is invalid in `dimension` dimensions.
 pub(crate) fn shape<'a>(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -99,10 +99,10 @@ pub(crate) fn rims_are_free(
     }
 }
 
-/// A grid that the suite asks for must reach over the whole body.
+/// A stated grid must contain the whole body.
 ///
 /// # Errors
-/// A complaint about the end of the grid that lies inside.
+/// A diagnostic of the end of the grid that is inside the body.
 pub(crate) fn fits(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -131,7 +131,7 @@ pub(crate) fn fits(
 /// Lowest and highest corner of a box.
 ///
 /// # Errors
-/// A complaint about a box that is empty, too small or too large.
+/// A diagnostic of a box that is empty, too small or too large.
 pub(crate) fn corners(
     evaluator: &Evaluator<'_>,
     path: &Path,
