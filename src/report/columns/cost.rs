@@ -21,16 +21,19 @@ pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
         MethodColumn::new(
             "best error",
             "best",
-            "least error, over the size of the solution",
+            "smallest error, relative to the size of the solution",
             |row| Cell::number(row.best, short),
         ),
-        MethodColumn::new("not reached", "not_reached", "why the finest target is not", |row| {
-            Cell::plain(row.obstacle().map(End::words))
-        }),
+        MethodColumn::new(
+            "not reached",
+            "not_reached",
+            "reason why the smallest target error is not reached",
+            |row| Cell::plain(row.obstacle().map(End::words)),
+        ),
         MethodColumn::new(
             "Pareto front",
             "pareto_front",
-            "levels that no other one beats",
+            "levels for which no level of any method has both a smaller error and less work",
             |row| {
                 let (count, all) = (row.front.len(), row.method.samples.len());
                 let text = (count > 0).then(|| format!("{count} of {all}"));
@@ -70,7 +73,7 @@ fn exponent<'a>() -> [TableColumn<'a, Exponent>; 5] {
         TableColumn::<Exponent>::new(
             "",
             "agrees",
-            "whether theory is met, or else the difference",
+            "whether the exponent agrees with theory, or else the difference",
             |e| Cell::new(agreement(e), e.agreement() == Agreement::Agrees),
         )
         .flush_left(),

@@ -57,7 +57,7 @@ pub(crate) fn names(study: &Convergence) -> Vec<String> {
 
 /// The judged error.
 pub(crate) fn judged<'a>() -> LevelColumn<'a> {
-    let about = "the judged error; between brackets if its level does not count for the verdict";
+    let about = "judged error; in brackets if the level does not count for the verdict";
     LevelColumn::new("error", "judged", about, |row| {
         let cell = row.error(row.level.error);
         let text = if row.counts() { cell.text } else { format!("({})", cell.text) };
@@ -118,7 +118,7 @@ pub(crate) fn spread<'a>() -> LevelColumn<'a> {
 
 /// The error of the observed velocity.
 pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
-    let about = "error of the observed velocity over the largest exact one";
+    let about = "error of the observed velocity, divided by its largest exact value";
     LevelColumn::text("velocity", about, |row| {
         let history = row.level.run.history.as_ref();
         history.and_then(History::relative_error).map(scientific)
@@ -138,7 +138,7 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
         LevelColumn::new("crossings", "crossings", "changes of cell (MPM)", |row| {
             Cell::plain(row.level.run.counters.crossings)
         }),
-        LevelColumn::text("from", "coarsest level on which particles change their cell", |row| {
+        LevelColumn::text("from", "coarsest level on which particles change cells", |row| {
             let crosses = |level: &&LevelOutcome| level.run.counters.crossings.unwrap_or(0) > 0;
             let (index, level) =
                 row.study.levels.iter().enumerate().find(|(_, level)| crosses(level))?;
@@ -156,7 +156,7 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
         LevelColumn::new(
             "min J",
             "min_j",
-            "smallest det F met; a particle that is turned inside out along two axes at once has a positive one",
+            "smallest det F of the run; it remains positive if a particle is inverted along two axes at once",
             |row| {
                 let known = Some(row.level.run.counters.min_j).filter(|j| !j.is_nan());
                 Cell::number(known, decimals(4))
@@ -165,13 +165,13 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
         LevelColumn::new(
             "speed/c",
             "residual_speed",
-            "of a body that comes to rest: largest speed towards the end over the wave speed",
+            "for an equilibrium: largest speed in the last tenth of the run, divided by the wave speed",
             |row| row.unless_failed(row.level.run.residual_speed),
         ),
         LevelColumn::new(
             "dt/stable",
             "stable_time_step",
-            "time step over the stable one; in JSON the latter (s)",
+            "time step divided by the stable time step; in JSON the stable time step (s)",
             |row| {
                 let stable = row.level.stable_time_step;
                 let ratio = Cell::number(stable.map(|stable| row.level.dt / stable), decimals(3));
@@ -237,7 +237,7 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
             |row| row.level.rounding_bound.map(number),
         ),
         LevelColumn::json("h", "cell size (m)", |row| number(row.level.h)),
-        LevelColumn::json("drift", "relative drift of each conserved sum", |row| {
+        LevelColumn::json("drift", "relative change of each conserved sum over the run", |row| {
             let columns: Vec<_> = Conserved::ALL.iter().map(|sum| drift(*sum)).collect();
             row.level.run.drift.map(|_| json_object(&columns, row))
         }),
@@ -249,7 +249,7 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
                 row.level.run.energy_rate.map(|_| cells().to_vec())
             },
         ),
-        LevelColumn::json("failure", "why and when the run broke", |row| {
+        LevelColumn::json("failure", "reason and time of the failure", |row| {
             row.level.run.failure.clone()
         }),
     ]);
