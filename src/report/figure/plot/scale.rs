@@ -1,4 +1,4 @@
-//! From values to positions along an axis.
+//! Conversion of values to positions along an axis.
 
 use super::canvas::text_width;
 use super::style::{SUPERSCRIPT, TEXT};
@@ -33,14 +33,14 @@ pub(crate) struct Pad {
     pub(crate) hi: f64,
 }
 
-/// A logarithmic axis spans at least this many decades: rounding noise between equal errors must
+/// Minimum length of a logarithmic axis (decades), so that rounding noise between equal errors does
 /// not fill the figure.
 const MIN_DECADES: f64 = 0.5;
 
-/// A linear axis spans at least this fraction of its largest value, for the same reason.
+/// Minimum length of a linear axis, as a fraction of its largest value, for the same reason.
 const MIN_SPREAD: f64 = 1e-7;
 
-/// Below this magnitude (close to the subnormal numbers) a value is drawn as zero.
+/// Magnitude (close to the subnormal numbers) below which a value is drawn as zero.
 const TINY: f64 = 1e-290;
 
 impl Scale {

@@ -17,7 +17,8 @@ struct Triangle {
 }
 
 impl Triangle {
-    /// Whether the triangle is neither too flat nor too narrow. Sides that are not numbers are.
+    /// Whether the triangle is neither too flat nor too narrow; false for sides that are not
+    /// finite.
     fn is_drawn(&self) -> bool {
         self.run >= SHORTEST && self.rise >= SHORTEST
     }
