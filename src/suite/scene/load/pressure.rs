@@ -22,7 +22,7 @@ pub(crate) struct PressureSpec {
     on: String,
     /// Pressure (Pa), a formula of the coordinates and `t`.
     value: NumberText,
-    /// Where it acts; at the outermost particles unless stated.
+    /// Point of action; by default at the outermost particles.
     at: Option<Placement>,
 }
 
@@ -54,7 +54,7 @@ struct PressureLoad {
 
 impl Term for PressureLoad {}
 
-/// `P n = -p J F^-T n`: it stays normal to the moving face.
+/// `P n = -p J F^-T n`: it is normal to the moving face.
 impl Condition for PressureLoad {
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
         let (p, area) = (point.value(&self.value), point.present_area());

@@ -67,7 +67,7 @@ pub(crate) fn shape<'a>(
     }
 }
 
-/// Rims are free: a scene can neither hold nor load them.
+/// Rims are free: a scene has no conditions or loads on them.
 ///
 /// # Errors
 /// A diagnostic of the first condition or load on a rim.
