@@ -113,8 +113,8 @@ pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
 /// Half a unit in the last place of a number of 24 bits next to one.
 const ROUND_OFF: f64 = 1.0 / (1 << 24) as f64;
 
-/// Says how large the error is that a position of single precision has, before any step adds to it,
-/// and from which level on it shows.
+/// Reports the rounding error of a position in single precision, before any step adds to it, and
+/// the level from which on it is visible.
 pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let single = Method::is_single_precision;
     let is_single = preflight.of_an_order().any(|case| single(&case.method));
