@@ -7,7 +7,7 @@ use super::svg::{Pt, SvgElement};
 /// The working coordinate of an axis, which is linear in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ScaleKind {
-    /// The value divided by ten to the given power.
+    /// The value divided by a power of ten.
     Linear {
         /// The power of ten which all tick labels share; 0 when they are plain decimals.
         power: i32,
@@ -84,7 +84,7 @@ impl Scale {
         self.kind
     }
 
-    /// The power of ten that all labels share, where they do.
+    /// The common power of ten of all labels, if any.
     pub(crate) fn factor(&self) -> Option<Label> {
         match self.kind {
             ScaleKind::Linear { power } if power != 0 => Some(Label::power("×10", power)),

@@ -80,8 +80,8 @@ impl TriangleRow {
     /// Share of the frame that must be free below the data so that triangles do not touch `paths`.
     /// `plot` is drawn with `pad` at the ends of its vertical axis; `paths` are its pixels.
     ///
-    /// A wider strip compresses the data, and triangles of the new axis are lower. A triangle that
-    /// is too narrow now may then be drawn, so that all heights count.
+    /// A wider strip compresses the data, so that the triangles become lower. A triangle that is
+    /// too narrow now may then be drawn, so that all heights count.
     pub(crate) fn strip(&self, plot: &Plot, paths: &[Vec<Pt>], pad: Pad) -> f64 {
         let highest = self.triangles.iter().map(|t| t.rise).fold(0.0, f64::max);
         let left = plot.frame.right() - self.widest - CLEAR;
