@@ -1,10 +1,10 @@
 //! Growth: time of a whole step for each particle, on one thread and on two, from 1e3 particles on,
 //! and the memory of a particle.
 //!
-//! `cargo bench --bench growth` goes to 1e6, `MPM_BENCH=full` to 1e7 (some 5 GB), and a number as
-//! far as it says (`-- 3e7`); words select methods (`-- 3d`), and `-- FILE.svg` writes a figure.
-//! One thread and two take turns, and the shortest time of each counts. Nothing is timed before a
-//! step has kept momentum.
+//! `cargo bench --bench growth` goes to 1e6, `MPM_BENCH=full` to 1e7 (some 5 GB), and a number sets
+//! the maximum (`-- 3e7`); other arguments select methods (`-- 3d`), and `-- FILE.svg` writes a
+//! figure. One thread and two run in turn, and the minimum time of each is used. Each method first
+//! makes one step to check conservation of momentum.
 
 #[path = "transfer/check.rs"]
 #[allow(dead_code, reason = "those of passes are for the bench of transfers")]

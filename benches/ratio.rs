@@ -30,7 +30,7 @@ use yardstick::{
 };
 
 const H: f64 = 0.5;
-/// Cells between the body and the walls: cubic B-splines are uniform there.
+/// Cells between the body and the walls, so that cubic B-splines are uniform.
 const MARGIN: usize = 3;
 
 /// Input of both loops.
@@ -97,7 +97,7 @@ fn quartiles(of: impl Iterator<Item = f64>) -> Timing {
     Timing::of(&of.collect::<Vec<_>>()).expect("times are numbers")
 }
 
-/// Runs both in turn and prints what they take for a particle.
+/// Runs both in turn and prints the time per particle.
 fn compare(id: &str, particles: usize, plain: &mut dyn FnMut(), ours: &mut dyn FnMut()) {
     if !words::selects(id) {
         return;

@@ -1,8 +1,9 @@
-//! Where the time of a step goes, pass by pass, and what a second thread brings to each.
+//! Time of a step, pass by pass, and the speedup of each pass by a second thread.
 //!
-//! `cargo bench --bench stages` times steps of 1e4 particles of six methods; a number takes as many
-//! particles (`-- 1e6`), and words select methods (`-- 1e6 3d mls`). One thread and two take turns,
-//! and the shortest time of each pass counts. Nothing is timed before a step has kept momentum.
+//! `cargo bench --bench stages` times steps of 1e4 particles of six methods; a number sets the
+//! number of particles (`-- 1e6`), and other arguments select methods (`-- 1e6 3d mls`). One thread
+//! and two run in turn, and the minimum time of each pass is used. Each method first makes one step
+//! to check conservation of momentum.
 
 #[path = "transfer/check.rs"]
 #[allow(dead_code, reason = "those of passes are for the bench of transfers")]

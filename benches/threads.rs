@@ -27,7 +27,7 @@ const TURNS: usize = 25;
 struct Loop<'a> {
     name: String,
     run: Box<dyn FnMut() + Send + 'a>,
-    /// Seconds on one thread and on two, by turn.
+    /// Seconds on one thread and on two, for each repeat.
     times: Vec<[f64; 2]>,
 }
 
@@ -53,7 +53,7 @@ impl<'a> Loop<'a> {
     }
 }
 
-/// Sums and products that wait for nothing but themselves, shared by as many threads as there are.
+/// Independent chains of sums and products, distributed over all threads.
 fn compute() {
     let chains = || {
         let mut sums: [f64; 32] = std::array::from_fn(|k| k as f64);
@@ -122,7 +122,7 @@ fn passes<const D: usize>(
     turns(&mut g2p, pools, probes);
 }
 
-/// Takes turns and prints a line.
+/// Runs pass and probes in turn and prints a line.
 fn turns(pass: &mut Loop<'_>, pools: &[ThreadPool; 2], probes: &mut [Loop<'_>]) {
     pass.take_turn(pools);
     pass.times.clear();

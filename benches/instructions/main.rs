@@ -74,7 +74,7 @@ fn by_hand() -> ByHand {
     }
 }
 
-/// Whether both bars have moved alike.
+/// Whether both bars have the same motion.
 fn agree() -> bool {
     let (mut general, mut own) = (minimal(), by_hand());
     for _ in 0..100 {
@@ -85,7 +85,7 @@ fn agree() -> bool {
     moved.into_iter().all(|(a, b)| (a[0] - b).abs() <= 1e-12 * b.abs())
 }
 
-/// The widest registers that the loops know and this processor has.
+/// The widest registers that the loops support on this processor.
 fn registers() -> &'static str {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     if std::arch::is_x86_feature_detected!("avx2") {
@@ -116,7 +116,7 @@ fn main() -> ExitCode {
         Some(name) if kernels::NAMES.contains(name) => {
             kernels::run(name, steps);
         }
-        // `cargo bench` runs every bench: nothing is counted then.
+        // `cargo bench` runs every bench: it counts nothing.
         _ if agree() => println!("the general solver and the loop by hand agree"),
         _ => {
             println!("the general solver and the loop by hand do NOT agree");

@@ -163,7 +163,7 @@ impl CheckFindings {
         self.applicable.is_some()
     }
 
-    /// A file that cannot be used.
+    /// Adds a file that cannot be used.
     pub(super) fn refused(&mut self, diagnostic: &Diagnostic) {
         if !self.is_json {
             return output::diagnose(diagnostic);

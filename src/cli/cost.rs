@@ -17,8 +17,8 @@ use std::{fs, io};
 pub(super) struct CostArgs {
     #[command(flatten)]
     targets: Targets,
-    /// Choose and run the most accurate setting that is predicted to take no longer: `10s`,
-    /// `500ms`, `2min`
+    /// Choose and run the most accurate setting with at most this predicted time: `10s`, `500ms`,
+    /// `2min`
     #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, conflicts_with_all = ["figures", "solver"])]
     budget: Option<f64>,
     #[command(flatten)]

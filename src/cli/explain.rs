@@ -105,7 +105,7 @@ fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     page + "\n"
 }
 
-/// The levels, once for all cases that have the same.
+/// The levels, once for all cases with the same levels.
 fn levels(suite: &Suite) -> String {
     let mut page = String::new();
     let planned = planned_levels(suite);

@@ -62,7 +62,7 @@ enum Command {
     /// memory), and the expectations
     Explain(explain::ExplainArgs),
     /// Run suites and print the `expect` entries that theory gives and the runs support, each with
-    /// its origin; no file is changed
+    /// its origin; changes no file
     Propose(propose::ProposeArgs),
     /// Find the cause if a case does not have the theoretical order: its finest levels run again
     /// with one change at a time

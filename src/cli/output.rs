@@ -21,7 +21,7 @@ pub(super) fn print_bytes(bytes: &[u8]) {
     note(io::stdout().lock(), bytes);
 }
 
-/// Why something could not be printed, if so.
+/// The first failure to print, as text; `None` if there is none.
 pub(super) fn failure() -> Option<&'static str> {
     FAILURE.get().map(String::as_str)
 }

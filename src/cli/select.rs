@@ -53,7 +53,7 @@ pub(super) fn named_singly(targets: &[PathBuf], suites: &[Suite]) -> BTreeSet<St
         suite: String,
     }
     if targets.iter().any(|target| target.as_os_str() == STDIN) {
-        // Standard input cannot be read again.
+        // Standard input cannot be read twice.
         return suites.iter().map(|suite| suite.name.clone()).collect();
     }
     let is_one = |target: &&PathBuf| match place(target) {
@@ -71,7 +71,7 @@ pub(super) fn is_known(target: &str) -> bool {
     target == STDIN || is_pattern(path) || place(path).is_some() || named(target).is_some()
 }
 
-/// Whether it is a pattern of names, and no file that is called so.
+/// Whether it is a pattern of names, and not the name of a file.
 fn is_pattern(target: &Path) -> bool {
     target.to_string_lossy().contains('*') && !target.exists()
 }

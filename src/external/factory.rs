@@ -9,7 +9,7 @@ pub trait SolverFactory: Sync {
     /// Its name, which is also that of its case.
     fn name(&self) -> &str;
 
-    /// Order in h that theory gives its displacements on a smooth solution.
+    /// Theoretical order in h of its displacements on a smooth solution.
     fn formal_order(&self) -> f64 {
         2.0
     }

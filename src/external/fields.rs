@@ -160,8 +160,8 @@ impl ProblemFields {
     /// after row. The body force is [`LevelProblem::body_force`](super::LevelProblem::body_force).
     ///
     /// # Errors
-    /// [`FieldError::Request`] for a place that is not on its face, [`FieldError::Undefined`] where
-    /// the problem has no such value.
+    /// [`FieldError::Request`] for a place that is not on its face, [`FieldError::Undefined`] if
+    /// the problem does not define the value.
     pub fn values(
         &self,
         of: FieldName,
@@ -193,7 +193,7 @@ pub(crate) trait ForceSource: Send + Sync {
         self.at(body, label, t)
     }
 
-    /// [`BodyForceField::at_places`], where that is cheaper than one place after another.
+    /// [`BodyForceField::at_places`], if it is cheaper than evaluation at single places.
     fn at_places(&self, _bodies: &[usize], _labels: &[&[f64]]) -> Option<PlacedBodyForce> {
         None
     }
@@ -218,13 +218,12 @@ impl BodyForceField {
         self.0.depends_on_displacement()
     }
 
-    /// The force (m/s2) as [`at`](Self::at), where the displacement is `u` (m).
+    /// The force (m/s2) like [`at`](Self::at), with the displacement `u` (m).
     pub fn at_displaced(&self, body: usize, label: &[f64], t: f64, u: &[f64; 3]) -> [f64; 3] {
         self.0.at_displaced(body, label, t, u)
     }
 
-    /// The force at places that are given once, with the body of each: much cheaper where the times
-    /// are many.
+    /// The force at fixed places, with the body of each: much cheaper for many times.
     pub fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
         self.0.at_places(bodies, labels).unwrap_or_else(|| {
             let (force, places) = (self.clone(), owned(bodies, labels));

@@ -48,7 +48,7 @@ pub struct LevelProblem {
     /// Initial state, loads and conditions on faces at any place of the bodies.
     #[serde(skip)]
     pub fields: Option<ProblemFields>,
-    /// Body force (m/s2), D numbers, where it is the same at every place and time.
+    /// Body force (m/s2), D numbers, if it is constant in space and time.
     #[serde(rename = "body_force_value", skip_serializing_if = "Option::is_none")]
     pub constant_body_force: Option<Vec<f64>>,
 }

@@ -308,7 +308,7 @@ fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
     }
 }
 
-/// Places in an element, 0 to 1: the middles of its quarters, where four particles would start.
+/// Places in an element, 0 to 1: the centres of its quarters, as for four particles.
 ///
 /// An element of degree k interpolates `u` with an error that, to leading order, is the same
 /// polynomial everywhere: `(1 - xi^2) u''` if linear, `xi (1 - xi^2) u'''` if quadratic. At the

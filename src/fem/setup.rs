@@ -39,7 +39,7 @@ named! {
 named! {
     /// Points at which the state is sampled.
     pub enum Sampling {
-        /// At four points inside each element, where an ordinary error shows.
+        /// At four points inside each element, which are not superconvergent.
         Inside = "inside",
         /// At the nodes, where the error of a smooth solution may be of a higher order.
         Nodes = "nodes",
@@ -102,7 +102,7 @@ pub enum SetupError {
     /// The density is not a finite, positive number.
     #[error("the density {0} kg/m3 is not finite and positive")]
     Density(f64),
-    /// A traction acts where the displacement is given.
+    /// A traction acts on an end with a prescribed displacement.
     #[error("the {0} end is fixed and cannot take a traction")]
     TractionAtFixedEnd(&'static str),
     /// The initial state is not one, or the mass matrix has no factor.

@@ -122,8 +122,8 @@ fn number(text: &str) -> String {
     format!("{before}{cell}{after}")
 }
 
-/// Text for LaTeX. Letters of Latin alphabets stay; other characters beyond ASCII become their
-/// command, or a question mark.
+/// Text for LaTeX. Letters of Latin alphabets do not change; other characters beyond ASCII become
+/// their command, or a question mark.
 pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

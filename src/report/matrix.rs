@@ -110,7 +110,7 @@ pub(crate) fn by_group<'a, T>(
     groups
 }
 
-/// Findings of a suite, one text for each of [`COLUMNS`]; a dash where it has no such case.
+/// Findings of a suite, one text for each of [`COLUMNS`]; a dash if it has no such case.
 pub(crate) fn findings(outcome: &SuiteOutcome) -> [String; COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcome.cases.iter().filter(|case| column_of(case) == column);

@@ -39,7 +39,7 @@ pub(crate) fn studies<R: StudyResults>(cases: &[CaseOutcome]) -> Vec<(&str, &R)>
     cases.iter().filter_map(|case| Some((case.case.as_str(), case.results()?))).collect()
 }
 
-/// The members of an object that `json!` makes.
+/// The members of an object from `json!`.
 pub(crate) fn members(object: Value) -> Map<String, Value> {
     match object {
         Value::Object(members) => members,

@@ -34,7 +34,7 @@ impl ResultCache {
     /// Uses a folder, and creates it if it does not exist.
     ///
     /// # Errors
-    /// If there can be no such folder, or the program cannot be read.
+    /// If the folder cannot be created, or the program cannot be read.
     pub fn open(folder: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
         let program = fingerprint(&fs::read(std::env::current_exe()?)?);
@@ -98,8 +98,8 @@ fn text(key: &str, level: &impl Serialize) -> Result<String, String> {
     Ok(format!("# {key}\n{}{END}", written(level)?))
 }
 
-/// Writes a file whole or not at all, also if the machine stops: under the name `unfinished` first,
-/// which becomes `path` once the bytes are on the disk.
+/// Writes a file atomically, also if the machine stops: the bytes are written to `unfinished`,
+/// which is renamed to `path`.
 fn write_whole(path: &Path, unfinished: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(unfinished)?;
     file.write_all(bytes)?;

@@ -1,6 +1,6 @@
 //! Sizes of an exact motion: amplitude, extremes, and the residual of a linearised solution.
 //!
-//! Extremes are taken on a raster of the body and the run, and at the places and times of the
+//! Extremes are computed on a raster of the body and the run, and at the places and times of the
 //! survey of the problem, which resolve a narrow pulse.
 
 use crate::exact::{Derivatives, Problem, Survey};
@@ -48,7 +48,7 @@ const ALONG: [usize; 3] = [16, 8, 4];
 /// Intervals of the raster over the run.
 const OVER: usize = 8;
 
-/// The largest values that a motion takes.
+/// The largest values of a motion.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Extremes {
     /// Largest |u| (m), axis by axis.
@@ -131,7 +131,7 @@ pub struct Linearisation {
 }
 
 impl Linearisation {
-    /// The linearisation of `problem` after a time `t` (s), if it is linearised; `motion` are its
+    /// The linearisation of `problem` after a time `t` (s), if it is linearised; `motion` has its
     /// extremes.
     ///
     /// For motions along one axis the error is the root mean square of the first correction, if

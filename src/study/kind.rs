@@ -139,7 +139,7 @@ impl RunContext<'_> {
     }
 }
 
-/// The plan as a study, if it is of one kind.
+/// Downcast of a plan to a study of one kind.
 type AsStudy = for<'a> fn(&'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study>;
 
 /// Every kind of study.

@@ -36,15 +36,15 @@ impl<'a> Runner<'a> {
         Self::with(self.suite, RunContext { solver: Some(solver), ..self.context })
     }
 
-    /// Stores finished levels in a cache, and takes them from it.
+    /// Stores finished levels in a cache, and uses stored ones.
     #[must_use]
     pub fn keeping(self, cache: Option<&'a ResultCache>) -> Self {
         Self::with(self.suite, RunContext { cache, ..self.context })
     }
 
-    /// Runs each level of a convergence study `count` times, in a new process if the solver is one,
-    /// and reports the spread between the runs. Results are then neither stored nor taken from a
-    /// cache. A `count` of 0 or 1 is one run, without a spread.
+    /// Runs each level of a convergence study `count` times, in a new process for an external
+    /// solver, and reports the spread between the runs. Results are then neither stored in a cache
+    /// nor taken from it. A `count` of 0 or 1 is one run, without a spread.
     #[must_use]
     pub fn repeating(self, count: usize) -> Self {
         Self::with(self.suite, RunContext { repeat: count.max(1), ..self.context })

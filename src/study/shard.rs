@@ -18,7 +18,7 @@ pub struct Shard {
     count: usize,
 }
 
-/// The text is not a number of a part and a count of parts.
+/// The text does not have the form `K/N`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("expected a number and a count, such as `2/5`, up to {MOST}")]
 pub struct ShardError;

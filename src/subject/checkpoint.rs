@@ -59,7 +59,7 @@ impl<'a> Checkpoint<'a> {
         matches!(self.0, Way::In([]))
     }
 
-    /// Writes `memory` down, or takes it back.
+    /// Records or restores `memory`.
     pub fn visit<T: Memory + ?Sized>(&mut self, memory: &mut T) {
         memory.visit(self);
     }

@@ -29,7 +29,7 @@ impl<T, const N: usize> Entry for [T; N] {}
 /// Size of a column: memory for each particle or node, or for some of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ColumnSize {
-    /// Name of the field that it holds.
+    /// Name of the field in the column.
     pub name: &'static str,
     /// Owner of an entry.
     pub holder: Holder,

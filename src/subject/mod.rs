@@ -174,11 +174,11 @@ pub struct RunCounters {
     /// Particle-node pairs visited by P2G and G2P so far; for FEM, pairs of quadrature point and
     /// node.
     pub transfers: u64,
-    /// How often a particle has changed its cell so far (MPM).
+    /// Number of cell changes of particles so far (MPM).
     pub crossings: Option<u64>,
     /// Particles outside the grid now (MPM).
     pub left_domain: Option<u64>,
-    /// Smallest J = det F met so far; NaN where it is not known.
+    /// Smallest J = det F so far; NaN if it is unknown.
     pub min_j: f64,
 }
 
@@ -190,7 +190,7 @@ impl RunCounters {
     }
 }
 
-/// Where a failure happened.
+/// Place of a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Site {
@@ -205,7 +205,7 @@ pub enum Site {
     Node(usize),
 }
 
-/// Why a subject could not go on.
+/// Reason why a subject failed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Failure {
@@ -214,18 +214,18 @@ pub enum Failure {
     NonFinite {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Where.
+        /// Place of the failure.
         site: Site,
     },
     /// The deformation gradient lost its orientation.
     #[error("{site} is inverted, J = {j:.3e}")]
     Inverted {
-        /// Where.
+        /// Place of the failure.
         site: Site,
         /// The determinant that was met.
         j: f64,
     },
-    /// A body starts deformed, and its law cannot tell the stress of that.
+    /// A body starts deformed, and its law does not define the stress there.
     #[error("the law has no stress for a body that starts deformed")]
     NotOfDeformation,
     /// A particle has no cell any more.

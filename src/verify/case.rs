@@ -33,7 +33,7 @@ pub struct CaseJudgement {
     pub study: Convergence,
 }
 
-/// Judges a case. `reruns` runs levels again where the verdict depends on it.
+/// Judges a case. `reruns` runs levels again if the verdict depends on it.
 pub fn judge_case<R: Reruns>(
     plan: &JudgePlan<'_>,
     mut levels: Vec<LevelOutcome>,

@@ -35,7 +35,7 @@ impl Conserved {
         self.name().replace('_', " ")
     }
 
-    /// The sum, and the size that a change of it is relative to.
+    /// The sum, and the scale of its changes.
     fn of(self, totals: &Totals) -> ([f64; 3], f64) {
         match self {
             Self::Mass => ([totals.mass, 0.0, 0.0], totals.mass.abs()),

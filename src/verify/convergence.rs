@@ -100,12 +100,12 @@ impl StudyResults for Convergence {
 }
 
 impl LevelOutcome {
-    /// Whether its step is longer than the stable time step, where that is known.
+    /// Whether its step is longer than the stable time step, if the latter is known.
     pub fn is_too_long(&self) -> bool {
         self.stable_time_step.is_some_and(|stable| self.dt > stable)
     }
 
-    /// The level as the judge takes it, with its failure, whether or not it may count.
+    /// The level as input of the judge, with its failure, whether it counts or not.
     pub(crate) fn to_level(&self) -> Level {
         let judged = Level::new(self.spacing, self.error);
         match &self.run.failure {

@@ -19,7 +19,7 @@ use crate::named::named;
 const MOST_SPREAD: f64 = 0.1;
 
 named! {
-    /// Why a level does not count for the observed order.
+    /// Reason why a level does not count for the observed order.
     pub enum Exclusion {
         /// Particles change their cell, which the theory does not cover.
         Crossings = "crossings",
@@ -56,7 +56,7 @@ pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
 }
 
 impl LevelOutcome {
-    /// Why the level does not count for the observed order, if it does not.
+    /// Why the level does not count for the observed order; `None` if it does.
     pub fn exclusion(&self) -> Option<Exclusion> {
         let is_steady = |spread: f64| spread <= MOST_SPREAD * self.error;
         if !self.usable {

@@ -44,9 +44,9 @@ pub(crate) use each_case_figure;
 /// Side on which a bound limits a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundKind {
-    /// The figure must not exceed the bound.
+    /// The figure must be at most the bound.
     Maximum,
-    /// The figure must not fall below the bound.
+    /// The figure must be at least the bound.
     Minimum,
 }
 
@@ -201,7 +201,7 @@ run_figures! {
     Stress = "stress", "stress/M", |trial| trial.stress;
     /// At the end, the largest displacement (m).
     Displacement = "displacement", "displacement", |trial| trial.displacement;
-    /// Steps taken.
+    /// Number of steps.
     Steps = "steps", "steps", |trial| trial.steps as f64;
 }
 

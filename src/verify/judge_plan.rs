@@ -18,7 +18,7 @@ use super::verdict::judge::{Judgement, judge};
 pub struct JudgePlan<'a> {
     /// Axis of refinement.
     pub axis: Axis,
-    /// Order that theory gives the method.
+    /// Theoretical order of the method.
     pub formal_order: f64,
     /// Norm of the judged error.
     pub norm: NormName,
@@ -28,7 +28,7 @@ pub struct JudgePlan<'a> {
     pub scale: Option<f64>,
     /// Scale that makes errors and work comparable with those of other cases.
     pub error_scale: ErrorScale,
-    /// Whether errors are taken against an exact solution or a reference.
+    /// Whether errors are measured against an exact solution or a reference.
     pub is_compared: bool,
     /// Whether levels on which particles change their cell are excluded.
     pub excludes_crossings: bool,
@@ -52,7 +52,7 @@ pub struct LevelSizes {
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
-    /// Time step (s) that is taken.
+    /// Actual time step (s).
     pub dt: f64,
     /// Particles per cell; `None` without particles.
     pub ppc: Option<u64>,
@@ -100,7 +100,7 @@ impl JudgePlan<'_> {
         with_exclusions(judgement, levels, self.axis)
     }
 
-    /// The judgement of a series of errors, whose order is expected within bounds if any are given.
+    /// The judgement of a series of errors, with the expected bounds of the order, if any.
     pub(super) fn judge_series(&self, levels: &[Level], expected: Option<Bounds>) -> Judgement {
         let (formal_order, axis) = (self.formal_order, self.axis);
         judge(levels, &OrderHypothesis { formal_order, expected, axis })

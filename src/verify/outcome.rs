@@ -1,4 +1,4 @@
-//! The results of a suite: all that reports are made of.
+//! The results of a suite: the input of all reports.
 
 use super::case::CaseJudgement;
 use super::convergence::Convergence;
@@ -94,7 +94,7 @@ impl CaseOutcome {
         self.lacks.is_empty() && self.exemption.is_none()
     }
 
-    /// The setting of its method that is called so.
+    /// The setting of its method with this name.
     pub fn setting(&self, name: &str) -> Option<&str> {
         self.settings.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
     }
@@ -169,7 +169,7 @@ impl CaseOutcome {
         }
     }
 
-    /// The convergence study, if the case is one.
+    /// The convergence study; `None` for other kinds of study.
     pub fn convergence(&self) -> Option<&Convergence> {
         self.results()
     }

@@ -19,7 +19,7 @@ use std::fmt::Display;
 
 /// Runs levels of a case again.
 pub trait Reruns: Sync {
-    /// Why a level cannot be run.
+    /// Error if a level cannot be run.
     type Error: Display + Send;
 
     /// Whether halving a spacing shows the axis of an error: it does not if the reference is the
@@ -33,7 +33,7 @@ pub trait Reruns: Sync {
         axis: Axis,
     ) -> Option<Result<LevelOutcome, Self::Error>>;
 
-    /// The level with a time step of `dt` (s), run as often as the levels of the case.
+    /// Runs the level with a time step of `dt` (s), as often as the levels of the case.
     ///
     /// # Errors
     /// If the level cannot be set up.
@@ -63,13 +63,13 @@ const MOST_ROUNDING: f64 = 0.01;
 /// Maximum number of times that the steps are halved.
 const HALVINGS: i32 = 3;
 
-/// Halving the step must reduce the finest error by this share, for the levels to run again.
+/// Minimum relative decrease of the finest error by half the step, for which the levels run again.
 const LEAST_FALL: f64 = 0.05;
 
 /// The time step follows the cells if it shrinks with at least this power of h.
 const FOLLOWS: f64 = 0.5;
 
-/// Effect of halving the axes that are not refined on the error of the finest level that counts.
+/// Effect of halving the spacings of the other axes on the error of the finest level that counts.
 /// `None` if it is not needed: the error has not stopped falling, and the suite expects no floor.
 ///
 /// Runs one to three probes in parallel; the results are in the order of the axes.
@@ -130,7 +130,7 @@ fn shorten<R: Reruns>(
     for halving in 1..=HALVINGS {
         let share = libm::exp2(-f64::from(halving));
         let shorter = |level: &LevelOutcome| reruns.run_with_step(level, share * level.dt);
-        // The finest level alone shows whether the step has a part in the error.
+        // The finest level alone shows whether the step contributes to the error.
         let finest = shorter(last).ok()?;
         if !(finest.error <= (1.0 - LEAST_FALL) * before) {
             return None;

@@ -39,7 +39,7 @@ fn defect(file: &str, block: &str) -> Result<Defect, String> {
             "after" => defect.after = Some(rest.to_owned()),
             "-" => join(&mut defect.original, rest),
             "+" => join(&mut defect.changed, rest),
-            // Why theory does not see it.
+            // Reason why theory does not detect it.
             "only" => {}
             _ => return Err(format!("{}: `{line}` says nothing known", defect.site)),
         }

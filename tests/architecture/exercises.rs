@@ -11,7 +11,7 @@ use std::fs;
 /// Folder of the compiled members.
 const FOLDER: &str = "tests/exercises";
 
-/// Reports members that a page does not show as they are, and members that no page shows.
+/// Reports members whose page differs from the file, and members without a page.
 pub(crate) fn stale(pages: &[Document]) -> Vec<String> {
     let mut shown = BTreeSet::new();
     let mut stale = Vec::new();

@@ -14,12 +14,12 @@ use crate::import::{Import, imports};
 use crate::source::{Module, Source};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-/// A file imports something of another.
+/// An import of one file by another.
 #[derive(Debug, Clone)]
 pub(crate) struct Edge {
     pub(crate) from: Module,
     pub(crate) to: Module,
-    /// Where, and the path as it is written.
+    /// Place, and the path as written.
     pub(crate) file: String,
     pub(crate) line: usize,
     pub(crate) path: String,
@@ -69,7 +69,7 @@ impl Graph<'_> {
         edges
     }
 
-    /// Follows `path` as it is written in `module`; a path to another crate leads to nothing.
+    /// Resolves `path` of `module`; a path to another crate resolves to nothing.
     fn resolve(
         &self,
         module: &[String],
@@ -95,7 +95,8 @@ impl Graph<'_> {
         if targets.is_empty() { vec![Target::Item(base.to_vec())] } else { targets }
     }
 
-    /// Follows `rest` from `module` down, through what it imports; nothing if it has no such name.
+    /// Resolves `rest` downwards from `module`, through its imports; empty if there is no such
+    /// name.
     fn walk(
         &self,
         module: &[String],

@@ -1,4 +1,5 @@
-//! Tables of documents that follow from the suites: written by `ci/pages`, held by a test.
+//! Tables of documents that are generated from the suites: written by `ci/pages`, checked by a
+//! test.
 //!
 //! A table is between `<!-- suites of FOLDER -->` and `<!-- end -->`. Quotations of reports must be
 //! in a snapshot.
@@ -39,7 +40,7 @@ fn row(file: &str, text: &str) -> Row {
     Row { folder, name, cells }
 }
 
-/// The question of a convergence study, by what it refines.
+/// The kind of a convergence study, by its refined keys.
 fn refined(suite: &Value) -> &'static str {
     let is_list = |key: &str| suite["refine"][key].is_sequence();
     match (is_list("cells"), is_list("dt"), is_list("ppc")) {
@@ -132,8 +133,8 @@ pub(crate) fn misquoted(page: &Document) -> (usize, Vec<usize>) {
 /// Page that quotes constants of the judge.
 pub(crate) const JUDGE: &str = "docs/judge.md";
 
-/// Rows of a page that quote a constant, and those of them that are wrong:
-/// `| \`src/FILE\` \`NAME\` | \`VALUE\` | ... |`.
+/// Number of rows of a page that quote a constant, and wrong rows: `| \`src/FILE\` \`NAME\` |
+/// \`VALUE\` | ... |`.
 pub(crate) fn constants<'a>(page: &'a str, files: &[(String, String)]) -> (usize, Vec<&'a str>) {
     let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| `src/")).collect();
     let is_right = |row: &&str| {

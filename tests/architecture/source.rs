@@ -1,4 +1,4 @@
-//! The files under `src/` and what of them is code that ships.
+//! The files under `src/`, and their code without tests.
 
 use crate::token::{Token, tokens};
 use std::collections::BTreeSet;
@@ -25,13 +25,13 @@ pub(crate) struct Source {
     pub(crate) lines: usize,
 }
 
-/// Reads the crate: every file of `src/` but those that are compiled for tests only.
+/// Reads the crate: every file of `src/` except those that are compiled for tests only.
 pub(crate) fn of_crate() -> Vec<Source> {
     of_files(&texts("src", ".rs"))
 }
 
-/// Paths from the root of the repository and texts of the files below `folder` (`""` for all of it)
-/// whose names end in `end`, without what is built.
+/// Paths (relative to the root of the repository) and texts of the files below `folder` (`""` for
+/// all) whose names end in `end`, without build output.
 pub(crate) fn texts(folder: &str, end: &str) -> Vec<(String, String)> {
     let files = paths(folder).into_iter().filter(|file| file.ends_with(end));
     let read = |file: &String| fs::read_to_string(root().join(file)).expect("a readable text");
@@ -110,7 +110,7 @@ fn module(file: &str) -> Module {
     if path == "lib" { Module::new() } else { path.split('/').map(str::to_owned).collect() }
 }
 
-/// Where the first item under `#[cfg(test)]` stands, from its attribute to its `;` or `}`.
+/// Range of the first item under `#[cfg(test)]`, from its attribute to its `;` or `}`.
 fn test_item(code: &[Token]) -> Option<Range<usize>> {
     let attribute = ["#", "[", "cfg", "(", "test", ")", "]"];
     let texts = |window: &[Token]| window.iter().zip(attribute).all(|(t, a)| t.text == a);

@@ -58,7 +58,7 @@ pub(super) fn new(args: &NewArgs) -> Result<Status, CommandError> {
 
 fn written(args: &NewArgs) -> Result<PathBuf, CommandError> {
     let path = args.output.clone().unwrap_or_else(|| format!("{}.yaml", args.name).into());
-    // Before any question; `save` makes sure.
+    // Checked before any question; `save` checks again.
     if path.exists() {
         return Err(in_the_way(&path));
     }
@@ -168,7 +168,7 @@ fn in_the_way(path: &Path) -> CommandError {
     ))
 }
 
-/// A choice that no option has made.
+/// A choice without an option.
 struct Question<'a> {
     /// Subject of the question.
     what: &'a str,
@@ -188,7 +188,7 @@ impl Question<'_> {
         self.ask_on(&mut input.lock(), &mut std::io::stderr())
     }
 
-    /// Asks until one of the choices is named; an empty line, or the end of input, takes the
+    /// Asks until an answer is one of the choices; an empty line, or the end of input, selects the
     /// default.
     fn ask_on(&self, input: &mut impl BufRead, out: &mut impl Write) -> String {
         let Self { what, choices, default } = self;

@@ -58,7 +58,7 @@ pub(super) fn prepare_file(option: &str, file: &Path) -> Result<(), CommandError
     made.map_err(|error| unwritable(option, file, &error))
 }
 
-/// Writes the results as JUnit XML; suites of `required` fail where they are not tested.
+/// Writes the results as JUnit XML; untested suites of `required` fail.
 pub(super) fn write_junit(
     file: &Path,
     outcomes: &[SuiteOutcome],
@@ -95,7 +95,7 @@ pub(super) fn write_page(
     fs::write(file, page::page(&parts, refused)).map_err(|error| unwritable("--html", file, &error))
 }
 
-/// Cases that are shown, and where.
+/// Cases for output, and its folder.
 pub(super) struct Series {
     folder: PathBuf,
     /// Whether all cases of the run are shown, or only unexpected ones.

@@ -1,4 +1,4 @@
-//! `run --gate` and `--solver-config`: the terms that a solver must meet, and whether it passes.
+//! `run --gate` and `--solver-config`: the requirements of a solver, and whether it passes.
 
 use super::args::JudgedSolverArgs;
 use crate::cli::{output, select, solver};
@@ -17,7 +17,7 @@ pub(super) struct SolverGate {
     named: BTreeSet<String>,
     /// Whether these may be not applicable.
     allows_not_applicable: bool,
-    /// Suites that no external solver can take.
+    /// Suites that no external solver can run.
     left_out: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Printed text of a run, and when it is printed.
+//! Printed text of a run, and the time of printing.
 
 use super::args::{ReportArgs, RunFormat};
 use super::labels::labelled;

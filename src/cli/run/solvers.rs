@@ -18,7 +18,7 @@ pub(super) struct JudgedSolver {
 /// Starts all solvers of the command line.
 ///
 /// # Errors
-/// One cannot be used, or their names do not tell them apart.
+/// If a solver cannot be used, or if their names are not unique.
 pub(super) fn greeted(args: &JudgedSolverArgs) -> Result<Vec<JudgedSolver>, CommandError> {
     let mut names = BTreeSet::new();
     for one in &args.solver {
@@ -44,7 +44,7 @@ pub(super) fn greeted(args: &JudgedSolverArgs) -> Result<Vec<JudgedSolver>, Comm
 
 /// A suite as it runs: with its own methods, with each solver, or both.
 pub(super) struct SuiteRuns {
-    /// The suite, and the number of the solver that runs it, if it is not run by its methods.
+    /// The suite, and the index of the solver that runs it, if it is not run by its methods.
     parts: Vec<SuitePart>,
 }
 
@@ -111,7 +111,7 @@ impl SuiteRuns {
         (!parts.is_empty()).then_some(Self { parts })
     }
 
-    /// The part of the cases that `shard` has, where each suite runs in one way only.
+    /// The cases in `shard`; each suite must run in one way only.
     pub(super) fn shard(runs: Vec<Self>, shard: Shard, extent: Extent) -> Vec<Self> {
         let solver = runs.iter().find_map(|runs| runs.parts[0].solver);
         let suites: Vec<Suite> = runs.into_iter().map(|runs| runs.suite().clone()).collect();

@@ -9,8 +9,8 @@ use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::violation::Violation;
 
-/// Holds the motion `now` of a point of `face` against a wall with a coefficient of friction.
-/// Residuals are compared with the sizes of displacement (m), velocity (m/s) and stress (Pa).
+/// Checks the motion `now` of a point of `face` at a wall with a coefficient of friction. Residuals
+/// are compared with the sizes of displacement (m), velocity (m/s) and stress (Pa).
 ///
 /// # Errors
 /// The first violation.
@@ -51,8 +51,8 @@ pub(crate) struct InterfaceTraction {
     pub(crate) coefficient: f64,
 }
 
-/// Coulomb's law on a surface with its normal along `axis`, up to the residuals that are allowed of
-/// stress (Pa) and velocity (m/s).
+/// Checks Coulomb's law on a surface with its normal along `axis`, up to tolerances of stress (Pa)
+/// and velocity (m/s).
 ///
 /// # Errors
 /// If the traction along the surface does not follow Coulomb's law.
@@ -93,7 +93,7 @@ mod tests {
     use std::sync::Arc;
 
     /// A layer of height 1 under gravity (3, -4), with shear modulus 100, density 1 and lambda = 0,
-    /// that the wall holds or slows by friction: shear and pressure grow towards it.
+    /// which sticks to the wall or is slowed by friction: shear and pressure grow towards it.
     fn layer(coefficient: f64, [x, y]: [&str; 2]) -> Problem {
         let bind = |text: &str, names: &[&str]| {
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), names).unwrap()
@@ -127,7 +127,7 @@ mod tests {
 
     /// Under its own weight: the pressure at the wall is 4.
     const SETTLED: &str = "4/200*(Y^2/2 - Y)";
-    /// mu = 1/2 takes 2 of the 3 that pull it along.
+    /// Friction with mu = 1/2 compensates 2 of the 3 that act along the wall.
     const SLIDES: &str = "t^2/2 - 2/100*(Y^2/2 - Y)";
     const STAYS: &str = "-3/100*(Y^2/2 - Y)";
 

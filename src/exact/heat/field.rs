@@ -1,5 +1,5 @@
-//! A temperature T(X, t) given by a formula, with its derivatives, and the flow of heat in a
-//! deformed body.
+//! A temperature T(X, t) given by a formula, with its derivatives, and the heat flux in a deformed
+//! body.
 //!
 //! The heat flux refers to the reference configuration. Fourier's law holds in the current
 //! configuration, `q = -k grad T` per current area. Per reference area it is
@@ -37,7 +37,7 @@ impl Temperature {
         Self { formula, dimension }
     }
 
-    /// The formula, as the suite gives it.
+    /// The formula of the suite.
     pub fn source(&self) -> &str {
         self.formula.source()
     }
@@ -85,9 +85,9 @@ impl Temperature {
     }
 }
 
-/// A temperature at places that have been given once, at one time after another.
+/// A temperature at fixed places, for many times.
 pub(super) trait TemperaturePlaces: Send {
-    /// Moves on to the time `t` (s).
+    /// Sets the time `t` (s).
     fn set_time(&mut self, t: f64);
 
     /// The derivatives at a place, by its index in `labels`. Does not allocate.

@@ -83,7 +83,7 @@ impl Connection {
             }
         });
         let longest = Arc::new(AtomicUsize::new(SHORT));
-        // A process that talks on and on waits in its own pipe.
+        // A process with unlimited output blocks on its own pipe.
         let (found, answers) = sync_channel(1);
         let most = Arc::clone(&longest);
         thread::spawn(move || read_all(output, &most, &found));
@@ -180,7 +180,7 @@ impl Connection {
         }
     }
 
-    /// The status with which the process ends, if it does so soon.
+    /// The exit status of the process, if it ends soon.
     fn status(&mut self) -> Option<ExitStatus> {
         patiently(GRACE.min(self.silence), || self.child.try_wait().ok().flatten())
     }

@@ -26,14 +26,14 @@ pub(super) struct Inquiry {
     /// Version of the protocol that the solver speaks.
     version: u64,
     binary: bool,
-    /// Requests so far, and the largest number of them.
+    /// Number of requests so far, and its maximum.
     asked: u64,
     most: u64,
 }
 
 impl Inquiry {
-    /// The answers to a solver of `problem` that speaks a `version` of the protocol. Places that a
-    /// request does not give are the particles.
+    /// The answers to a solver of `problem` with this `version` of the protocol. Places of a
+    /// request are the particles by default.
     pub(super) fn new(problem: &LevelProblem, version: u64, binary: bool) -> Self {
         Self {
             dimension: problem.dimension,

@@ -1,4 +1,4 @@
-//! The protocol as a JSON Schema (draft 2020-12), made from the types that read and write it.
+//! The protocol as a JSON Schema (draft 2020-12), generated from the types that read and write it.
 
 use super::answer::{Answer, ColumnText};
 use super::solver::{PROTOCOL, VERSIONS};

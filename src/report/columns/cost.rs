@@ -1,4 +1,4 @@
-//! Columns of the tables of cost: the work that methods take for an error.
+//! Columns of the tables of cost: the work of methods for an error.
 
 use super::{Cell, TableColumn, decimals, json_object, short};
 use crate::report::columns::number;
@@ -49,7 +49,7 @@ fn name<'a>(heading: &'static str) -> MethodColumn<'a> {
         .flush_left()
 }
 
-/// The table of exponents, where they are known.
+/// The table of exponents, if they are known.
 pub(crate) fn exponents<'a>() -> Vec<MethodColumn<'a>> {
     let columns = exponent().map(|column| column.within(|row: &Ranked| row.exponent.as_ref()));
     std::iter::once(name("work ~ error^k")).chain(columns).collect()
@@ -177,7 +177,7 @@ pub(crate) fn reach_text(reach: Reach) -> String {
     }
 }
 
-/// How many times: two decimals, more digits being noise.
+/// A ratio with two decimals: further digits are noise.
 fn ratio(times: f64) -> String {
     if times < 1000.0 { format!("{times:.2}") } else { short(times) }
 }

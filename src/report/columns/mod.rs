@@ -1,4 +1,4 @@
-//! Columns of tables, each declared once: heading, JSON key, meaning, and value.
+//! Columns of tables. Each is declared once with its heading, JSON key, meaning, and value.
 //!
 //! Text, JSON, Markdown and `docs/columns.md` read the same lists. To add a column is to add an
 //! entry to a list.

@@ -41,7 +41,7 @@ fn same(a: &LevelDocument, b: &LevelDocument) -> bool {
 pub(super) fn is_rounding(old: &CaseDocument, new: &CaseDocument) -> bool {
     let tiny = |case: &CaseDocument| {
         let small = |level: &LevelDocument| relative(case.judge.as_ref(), level) < ROUNDING;
-        // Roundings may have an order by chance, which the gate does not take for one.
+        // Rounding errors may have an order by chance, which the gate does not accept as one.
         let has_no_order = case.observed_order.is_none() || case.verdict == AT_ROUNDING;
         has_no_order && case.levels.iter().all(small)
     };

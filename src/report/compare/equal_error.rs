@@ -48,7 +48,7 @@ fn round_above(x: f64) -> Option<f64> {
     }
     let power = libm::floor(libm::log10(x)) as i32;
     let ladder = [(1, power), (2, power), (5, power), (1, power + 1)];
-    // Through the decimal text, so that the target is the number that is printed.
+    // Parsed from the decimal text, so that the target is the printed number.
     let rungs = ladder.iter().filter_map(|(k, power)| format!("{k}e{power}").parse().ok());
     rungs.into_iter().find(|rung| *rung >= x)
 }

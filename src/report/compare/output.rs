@@ -271,7 +271,7 @@ fn dash() -> String {
     "-".to_owned()
 }
 
-/// A ratio: `1.80 x`, and `1.004 x` where it is close to one.
+/// A ratio: `1.80 x`, or `1.004 x` close to one.
 fn times(ratio: f64) -> String {
     match ratio {
         r if !r.is_finite() => "-".to_owned(),
@@ -292,7 +292,7 @@ pub(super) fn code(text: &str) -> String {
     format!("`{}`", text.chars().map(plain).collect::<String>())
 }
 
-/// Text without any markup, also as an attribute; the arrow of a change is one.
+/// Escaped text without markup, also as an attribute; the arrow of a change is kept.
 pub(super) fn prose(text: &str) -> String {
     let plain = |c: char| match c {
         c if c.is_control() => "\u{fffd}".to_owned(),

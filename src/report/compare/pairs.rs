@@ -87,7 +87,7 @@ fn shown(case: &CaseDocument) -> String {
     if case.passed { case.verdict.clone() } else { format!("{} (FAIL)", case.verdict) }
 }
 
-/// How a case moved, if it did.
+/// The change of a case; `None` without a change.
 fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) -> Option<Moved> {
     let comparable = old.judge == new.judge || old.judge.is_none() || new.judge.is_none();
     let common = accuracy::common(old, new);

@@ -4,7 +4,7 @@
 use super::document::JsonNumber;
 use super::document::{CaseDocument, LevelDocument, OrderDocument, ReportDocument, SuiteDocument};
 
-/// Axis of a study whose finest level alone is known.
+/// Axis of a study with a known finest level only.
 pub(super) const FINEST: &str = "finest";
 
 impl ReportDocument {

@@ -4,7 +4,7 @@ use super::changes::ratio_moved;
 use super::document::JsonNumber;
 use super::document::{LimitDocument, StabilityDocument, StabilityRowDocument};
 
-/// How a stability study moved.
+/// Changes of a stability study.
 #[derive(Debug, Default)]
 pub(super) struct StabilityMove {
     /// Rows whose verdict changed, each as text.

@@ -142,11 +142,11 @@ fn one_change(#[case] path: &str, #[case] value: Value, #[case] expected: Option
 #[test]
 fn a_small_change_is_seen() {
     let found = after(&case("a", 1.0, 1.0), set("/levels/3/transfers", json!(6426)));
-    // Between the two finest levels the share of it is less: 1.004^0.82.
+    // Between the two finest levels only a share of the change applies: 1.004^0.82.
     assert!(text(&found).contains("  1.004 x     1.003 x at 2e-4"), "{}", text(&found));
 }
 
-/// NaN before and after is the same failure; a number in its place is an improvement.
+/// NaN before and after is the same failure; a number instead of NaN is an improvement.
 #[test]
 fn what_failed_before_is_not_worse_now() {
     let broken = {
@@ -185,7 +185,7 @@ fn work_is_compared_at_equal_error(
         compare(&document(&[case("a", 1.0, 1.0)]), &document(&[case("a", c, w)]), TOLERANCE);
     let page = text(&found);
     assert!(page.contains(shown), "{page}");
-    // Better on the same grid, and yet more expensive for the same error.
+    // More accurate on the same grid, but more expensive for the same error.
     let expected = if shown.starts_with("2.00 x at 2e-4") { Rank::MoreExpensive } else { expected };
     assert_eq!(rank(&found), Some(expected), "{page}");
 }

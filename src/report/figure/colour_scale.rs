@@ -1,5 +1,5 @@
-//! Colours of numbers, from dark to light in steps of equal lightness, so that they survive grey
-//! print.
+//! Colours of numbers, from dark to light in steps of equal lightness, so that they are
+//! distinguishable in grey print.
 
 use super::plot::scale::{Pad, Scale};
 use super::plot::style::INK;
@@ -45,7 +45,7 @@ impl ColourScale {
             let (fill, _) = colour((f64::from(k) + 0.5) / f64::from(SHADES));
             let at = x + step * f64::from(k);
             let shade = SvgElement::new("rect").at("x", at).at("y", y);
-            // Wider than its place, so that no gap shows between neighbours.
+            // Wider than its place, so that there is no gap between neighbours.
             let wide = if k + 1 < SHADES { step + 0.6 } else { step };
             group.add(&shade.at("width", wide).at("height", BAR).set("fill", &fill));
         }

@@ -1,5 +1,5 @@
-//! The error of each part of the body, a panel for each case: all of one scale of lengths and one
-//! of colours, so that cases can be compared by eye.
+//! The error of each part of the body, with a panel for each case: all panels share the scales of
+//! lengths and colours, so that cases are comparable by eye.
 
 use super::colour_scale::{ColourScale, colour};
 use super::plot::canvas::{Heading, canvas, shorten, wrap};

@@ -42,7 +42,7 @@ impl LogLogPlot {
         self.to_svg_among(std::slice::from_ref(self))
     }
 
-    /// The figure, with axes that hold all of `figures`. `figures` contains this figure.
+    /// The figure, with axes that contain all of `figures`. `figures` contains this figure.
     pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
         let plot = self.plot(figures);
         let lines = self.lines();
@@ -66,7 +66,7 @@ impl LogLogPlot {
         self.others.iter().map(SeriesLine::in_grey).chain(named).collect()
     }
 
-    /// The frame whose axes hold all of `figures`, with a free strip below the data where slope
+    /// The frame whose axes contain all of `figures`, with a free strip below the data if slope
     /// triangles need one.
     fn plot(&self, figures: &[Self]) -> Plot<'_> {
         let all: Vec<Vec<SeriesLine>> = figures.iter().map(Self::lines).collect();

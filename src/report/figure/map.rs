@@ -1,8 +1,8 @@
 //! The map: a table of numbers over coloured fields, a row for each case.
 //!
-//! Numbers are printed in the fields, so that colours only guide the eye; they run from dark to
-//! light in steps of equal lightness and survive grey print. A gap parts rows whose names begin
-//! otherwise.
+//! Numbers are printed in the fields, so that colours are only a guide; they run from dark to light
+//! in steps of equal lightness and are distinguishable in grey print. A gap separates rows whose
+//! names have different beginnings.
 
 use super::colour_scale::{BAR_WIDTH, ColourScale, colour};
 use super::plot::canvas::{Heading, canvas, text_width};
@@ -77,7 +77,7 @@ impl Map {
         svg.render() + "\n"
     }
 
-    /// Where rows lie that start at `y`, and where they end.
+    /// Positions of the rows from `y` on, and their end.
     fn places(&self, mut y: f64) -> (Vec<f64>, f64) {
         let mut places = Vec::new();
         let mut group = None;

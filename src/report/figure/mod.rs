@@ -6,7 +6,7 @@
 //! compared byte by byte: coordinates have two decimals, and transcendental functions come from
 //! `libm`.
 //!
-//! No input can make a figure fail. A value which has no place on its axis is marked as failed,
+//! No input can make a figure fail. A value without a position on its axis is marked as failed,
 //! interrupts its curve, or is counted in a note under the figure.
 //!
 //! ```

@@ -13,7 +13,8 @@ const MOST_POINTS: usize = 400;
 /// Place of the legend.
 const LEGEND: &str = "legend pos=outer north east, legend cell align=left";
 
-/// Decades of a logarithmic axis below which it is labelled at 1, 2 and 5 times powers of ten.
+/// Number of decades of a logarithmic axis below which it has labels at 1, 2 and 5 times powers of
+/// ten.
 const SHORT: f64 = 2.0;
 
 /// Panels of an error map that are next to each other.
@@ -78,7 +79,7 @@ fn number(value: f64) -> String {
     if value.is_finite() { format!("{value:e}") } else { "nan".to_owned() }
 }
 
-/// The option for the labels of a logarithmic axis with these values, if it is short: powers of ten
+/// The option for the labels of a short logarithmic axis with these values, for which powers of ten
 /// alone would be too few.
 fn log_ticks(axis: &str, values: impl Iterator<Item = f64> + Clone) -> String {
     let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(0.0, f64::max));

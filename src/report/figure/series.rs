@@ -80,7 +80,7 @@ pub(super) struct SeriesLine<'a> {
 }
 
 impl<'a> SeriesLine<'a> {
-    /// A series in its colour.
+    /// A series in its own colour.
     pub(super) fn new(series: &'a PlotSeries) -> Self {
         let look = look(series.look);
         Self { name: &series.name, look, grey: false, levels: levels(&series.points) }

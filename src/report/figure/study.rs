@@ -90,7 +90,7 @@ pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
     Some(svg.render())
 }
 
-/// Number of a case in its suite, which gives it its colour in all figures.
+/// Index of a case in its suite, which determines its colour in all figures.
 fn look(outcome: &SuiteOutcome, case: &str) -> usize {
     outcome.cases.iter().position(|known| known.case == case).unwrap_or(0)
 }
@@ -125,7 +125,7 @@ fn spacing(axis: Axis) -> &'static str {
     }
 }
 
-/// Where the error of each case is, on the finest level.
+/// Maps of the error of each case on the finest level.
 fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
     let field = |(name, study): (&str, &Convergence)| {
         let level = study.levels.last()?;

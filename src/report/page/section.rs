@@ -179,7 +179,7 @@ fn svg_width(document: &str) -> Option<f64> {
     view.split([' ', '"']).nth(2)?.parse().ok()
 }
 
-/// The ids of a document, each once.
+/// The ids of a document, without duplicates.
 fn ids(document: &str) -> Vec<&str> {
     let mut ids: Vec<&str> = document
         .match_indices(" id=\"")

@@ -18,7 +18,7 @@ pub struct SuiteSource<'a> {
     pub file: &'a str,
     /// Text of the file.
     pub yaml: &'a str,
-    /// SVG sketch of the scene, where the suite has one.
+    /// SVG sketch of the scene, if the suite has a scene.
     pub sketch: Option<&'a str>,
 }
 
@@ -196,7 +196,7 @@ fn case_row(source: &SuiteSource<'_>, case: &CaseOutcome) -> Html {
     )
 }
 
-/// A region that scrolls by itself where it is wider than the screen; by keyboard too.
+/// A region that scrolls separately if it is wider than the screen, also by keyboard.
 pub(super) fn scrolled(label: &str, content: Html) -> Html {
     let attributes =
         [("class", "wide"), ("role", "region"), ("tabindex", "0"), ("aria-label", label)];

@@ -42,7 +42,7 @@ fn of(outcomes: &[SuiteOutcome], yaml: &str) -> String {
     page(&outcomes.iter().map(source).collect::<Vec<_>>(), 0)
 }
 
-/// Every start tag with its attributes; fails unless each is closed where it must be.
+/// Every start tag with its attributes; fails unless each is closed correctly.
 fn tags(page: &str) -> Vec<(String, String)> {
     let (mut open, mut seen): (Vec<String>, _) = (Vec::new(), Vec::new());
     let mut rest = page.strip_prefix("<!DOCTYPE html>").expect("a document type");
@@ -102,8 +102,8 @@ fn ids_are_unique_and_links_lead_somewhere() {
     }
 }
 
-/// The place where cost tables and work-precision diagrams appear once suites report them: every
-/// line of the text report and every figure is on the page.
+/// Cost tables and work-precision diagrams of a suite appear on the page: every line of the text
+/// report and every figure does.
 #[test]
 fn whatever_a_suite_reports_is_on_the_page() {
     let outcome = outcome("a", "words & more", &[]);

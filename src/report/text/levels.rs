@@ -22,7 +22,7 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     richardson(lines, studies);
 }
 
-/// The levels themselves, once for all cases that have the same.
+/// The levels, once for all cases with the same levels.
 fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     for (levels, names) in shared(studies.iter().map(|(name, study)| (*name, setting(study)))) {
         row(lines, "levels", &format!("{levels}{names}"));

@@ -125,7 +125,7 @@ fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     table.flush_left(&["effects"]).lines()
 }
 
-/// Bytes of a holder: everywhere, and where something acts only.
+/// Bytes per holder: everywhere, and only where an effect acts.
 fn bytes(profile: &Profile, holder: Holder) -> [usize; 2] {
     let whole = profile.holders(holder);
     let of_holder = || profile.columns.iter().filter(|column| column.holder == holder);

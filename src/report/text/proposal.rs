@@ -1,4 +1,4 @@
-//! Proposed expectations, as the part of a suite that they would be.
+//! Proposed expectations, in the notation of suites.
 
 use super::prose::wrap;
 use crate::verify::{Convergence, Proposal, ProposedKey, SuiteOutcome, propose};

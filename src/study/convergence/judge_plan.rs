@@ -36,8 +36,8 @@ pub(super) fn judge_plan<'a>(
     }
 }
 
-/// Distance (m) of neighbouring positions that the solver of a case rounds to, if it computes in
-/// single precision, its displacement is judged and a formula gives the motion.
+/// Spacing (m) of the floating-point numbers of positions in a solver in single precision, if its
+/// displacement is judged and the motion is given by formulas.
 fn position_spacing(plan: &ConvergencePlan, case: &Case) -> Option<f64> {
     let is_judged = plan.of == Quantity::Displacement && case.against != Against::Nothing;
     let exact = plan.exact.as_ref().filter(|_| is_judged && case.method.is_single_precision())?;
@@ -152,8 +152,8 @@ fn begins(problem: &Problem) -> [bool; 2] {
     [first[0] > AT_REST * ever[0], first[1] > AT_REST * ever[1]]
 }
 
-/// Intervals of the sampling raster along each axis and in time, in 1-D and 2-D, and in 3-D, where
-/// it has many points. Even numbers, so that the middle is a point.
+/// Intervals of the sampling raster along each axis and in time, in 1-D and 2-D; a smaller number
+/// is used in 3-D. Even numbers, so that the middle is a point.
 const FINE: usize = 20;
 const COARSE: usize = 8;
 

@@ -28,11 +28,11 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// Runs cases of a convergence study. What several cases share is computed once: a reference, and
-/// manufactured forces at the same places and times.
+/// Runs cases of a convergence study. Data of several cases are computed once: a reference, and
+/// manufactured forces at equal places and times.
 pub(crate) struct ConvergenceRunner<'a> {
     plan: ConvergencePlan,
-    /// Cases that have not run yet.
+    /// Number of cases that have not run yet.
     left: AtomicUsize,
     context: RunContext<'a>,
     references: Vec<(f64, OnceLock<Result<Reference, String>>)>,
@@ -300,7 +300,7 @@ impl CaseRuns<'_, '_> {
     }
 }
 
-/// The sizes of a level with the step that was taken.
+/// The sizes of a level with its actual step.
 fn taken(level: &LevelOutcome) -> LevelPlan {
     let LevelOutcome { cells, h, dt, ppc, .. } = *level;
     LevelPlan { cells, h, dt, ppc }

@@ -95,7 +95,7 @@ fn judged(plan: &ConvergencePlan) -> String {
     plan.scale.map_or_else(|| judged.clone(), |scale| format!("{judged}, divided by {scale}"))
 }
 
-/// Time steps and particles; and cells, where it is not they that are refined.
+/// Rows of time steps and particles, and of cells if they are not refined.
 fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     let (plan, instants) = (&study.refine, study.instants);
     let list = |of: &dyn Fn(&LevelPlan) -> Option<u64>, levels: &[LevelPlan]| {

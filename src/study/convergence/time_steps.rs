@@ -29,7 +29,7 @@ pub struct TimeStep {
     pub level: LevelPlan,
     /// Requested time step (s).
     pub wanted: f64,
-    /// Steps that are taken.
+    /// Actual steps.
     pub clock: Clock,
 }
 
@@ -184,7 +184,7 @@ fn simplest(method: Method) -> Method {
     Method::Mpm { basis, transfer, scheme, start: Start::AtZero, mass, frame }
 }
 
-/// The step (s) that is taken.
+/// The actual step (s).
 fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     case.clock(plan, level.dt).map_or(level.dt, |clock| clock.dt())
 }

@@ -123,7 +123,7 @@ impl Setting {
 }
 
 impl Candidate {
-    /// The candidate with the errors of ever finer levels, and the seconds that these take.
+    /// The candidate with the errors of finer and finer levels, and their times.
     fn judged_within(
         self,
         suite: &Suite,

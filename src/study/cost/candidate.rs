@@ -14,12 +14,12 @@ use std::sync::Arc;
 /// Maximum refinement of a method beyond the levels of the suite.
 const FINER: u64 = 8;
 
-/// How many times finer than all levels that have been judged an error is predicted at last.
+/// Maximum refinement beyond all judged levels at which an error is predicted.
 pub(crate) const REACH: u64 = 2;
 
 /// A method that may be chosen.
 pub(crate) struct Candidate {
-    /// The plan of this case alone.
+    /// A plan with this case only.
     pub(crate) plan: ConvergencePlan,
     pub(crate) case: Case,
     pub(crate) study: Convergence,
@@ -27,7 +27,7 @@ pub(crate) struct Candidate {
     pub(crate) error: PredictedError,
     /// Common divisor of the numbers of cells of the suite.
     pub(crate) stride: u64,
-    /// How many times finer than its levels it may be chosen.
+    /// Maximum refinement beyond its levels at which it may be chosen.
     pub(crate) reach: u64,
 }
 
@@ -130,7 +130,7 @@ impl Candidate {
         self.case.against.fine_grid().map_or(u64::MAX, |level| level.cells / FINE_GRID)
     }
 
-    /// Why a level is the finest that is considered, if it is.
+    /// Why a level is the finest one considered; `None` if it is not.
     pub(crate) fn limit(&self, level: LevelPlan) -> Option<String> {
         let next = level.cells.saturating_add(self.stride);
         let last = next > self.most_cells();

@@ -52,7 +52,7 @@ impl Goal<'_> {
         self.error
     }
 
-    /// Sets the level up and takes its steps; the seconds of the steps.
+    /// Sets up the level and runs its steps; returns the time of the steps (s).
     ///
     /// # Errors
     /// One line with the reason why it cannot be set up.

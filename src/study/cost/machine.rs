@@ -29,8 +29,8 @@ pub(crate) struct Observed {
     waited: Option<f64>,
 }
 
-/// Time of a piece of work (s): wall time, and the part in which this thread waited for a core that
-/// ran something else, where the system reports it.
+/// Time (s) of a piece of work: wall time, and the part in which this thread waited for a core, if
+/// the system reports it.
 pub(crate) struct LoadMonitor {
     start: Instant,
     waited: Option<f64>,
@@ -66,7 +66,7 @@ impl Observed {
         Self { load: load(), loops, passed: Instant::now(), waited: waited() }
     }
 
-    /// Times the loop once.
+    /// Runs and times the loop once.
     pub(crate) fn look(&mut self) {
         let watch = LoadMonitor::start();
         let mut x = black_box(0.5_f64);

@@ -1,4 +1,4 @@
-//! Why a case does not have the order of theory.
+//! Finds the cause if a case does not have the theoretical order.
 //!
 //! ```text
 //! session        runs of one case within a budget, and whether `check` accepts a remedy
@@ -40,7 +40,7 @@ use crate::verify::{
 /// Number of levels, the finest, that are run again.
 const LEVELS: usize = 5;
 
-/// Factor of the amplitude in the probe that makes the motion smaller.
+/// Factor of the amplitude in the probe with a smaller motion.
 const SMALLER: f64 = 0.1;
 
 /// Every change that a plan can carry out, the most specific first.
@@ -131,7 +131,7 @@ pub fn diagnose(
     Ok(Some(diagnosis))
 }
 
-/// Why a case cannot be run, with the cause where that is known.
+/// Why a case cannot be run, with the cause if it is known.
 fn with_cause(session: &Session<'_>, plan: &ConvergencePlan, reason: String) -> String {
     let lost = |level| walls::particle_on_wall(session, plan, level);
     let Some(finding) = plan.refine.levels.iter().copied().find_map(lost) else { return reason };
@@ -143,8 +143,8 @@ fn finest_error(levels: &[LevelOutcome]) -> f64 {
     levels.last().map_or(f64::NAN, |level| level.error)
 }
 
-/// The runs of the levels of `finest` with one thing changed at a time, where they are `levels`
-/// without a change.
+/// Runs the levels of `finest` with one change at a time; `levels` are their results without a
+/// change.
 fn changed_runs(
     session: &Session<'_>,
     finest: &ConvergencePlan,

@@ -152,8 +152,8 @@ fn compared_with(plan: &ConvergencePlan, against: Against) -> ConvergencePlan {
     plan
 }
 
-/// The plan with every level changed, and with them the fine grid of the exact solution; `None` if
-/// one cannot be, or is too large.
+/// The plan with every level changed, including the fine grid of the reference; `None` if a level
+/// cannot be changed, or becomes too large.
 fn changed_levels(
     plan: &ConvergencePlan,
     change: impl Fn(LevelPlan) -> Option<LevelPlan>,

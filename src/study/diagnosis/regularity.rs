@@ -38,7 +38,7 @@ fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
     Some((jump as f64 - differentiated + of_support).max(0.0) * front)
 }
 
-/// A finding about an exact solution on which the order of theory cannot be reached.
+/// A finding about an exact solution for which the theoretical order cannot be reached.
 pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     let problem = plan.exact.as_ref().filter(|_| case.against == Against::Exact)?;
@@ -117,7 +117,7 @@ const LINES: [usize; 3] = [1, 5, 3];
 /// Share of the largest value of a derivative that a jump has at least.
 const LEAST: f64 = 1e-3;
 
-/// Share of the length of a line that is taken for a point.
+/// Share of the length of a line below which it counts as a point.
 const POINT: f64 = 1e-9;
 
 /// Share of its natural size below which a derivative is rounding.

@@ -121,7 +121,7 @@ pub(super) fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) ->
     plan
 }
 
-/// Why `check` refuses the suite in `source` with everything that `after` changes in `before`, two
+/// Why `check` refuses the suite in `source` with all differences between `before` and `after`, two
 /// plans of one case; `None` if `check` accepts the suite.
 pub(super) fn refusal(
     source: &Source,

@@ -35,8 +35,7 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     beyond_the_grid(known, level).or_else(|| particle_on_wall(known.session, known.plan, level))
 }
 
-/// A wall that moves along its normal by more than a cell, while the nodes of the grid stay where
-/// they are.
+/// Finding on a wall that moves along its normal by more than a cell, while the grid does not move.
 fn moving_wall(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, session) = (known.plan, known.session);
     let problem = plan.exact.as_ref()?;
@@ -148,7 +147,8 @@ fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<KnownCause> {
     })
 }
 
-/// A particle that starts at the end of the grid, where rounding decides whether it is outside.
+/// Finding on a particle that starts at the end of the grid, where rounding decides whether it is
+/// outside.
 pub(super) fn particle_on_wall(
     session: &Session<'_>,
     plan: &ConvergencePlan,

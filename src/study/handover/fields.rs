@@ -66,7 +66,7 @@ impl SceneFields {
         Ok(values)
     }
 
-    /// The Cauchy stress at the start, as the law of each body gives it to particles.
+    /// The Cauchy stress at the start, which the law of each body gives.
     fn stress(&self, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
         let d = self.scene.dimension();
         let mut values = vec![0.0; at.bodies.len() * d * d];

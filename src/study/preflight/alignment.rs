@@ -66,7 +66,7 @@ fn loaded_faces(scene: &Scene) -> Vec<Plane> {
             let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
             let what = format!("the loaded {} face", face.name);
             let path = Path::top("scene").then("loads");
-            // Particles carry the load; where their weights take it is a matter of the method.
+            // Particles carry the load; the method determines where their weights apply it.
             Plane { axis: face.axis, x, what, path, severity: Severity::Note }
         })
         .collect()

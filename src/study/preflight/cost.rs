@@ -1,12 +1,12 @@
-//! Seconds and memory that a suite will take, before anything runs.
+//! Predicted time and memory of a suite, before any run.
 
 use crate::suite::compile::check::size;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
 
-/// Seconds that a particle takes in a step, by dimension, errors and set-up included: fitted to
-/// whole runs of eight suites in the profile of `cargo run`, one thread. Single suites differ from
-/// it by a factor of up to three.
+/// Seconds per particle and step, by dimension, including errors and set-up: fitted to whole runs
+/// of eight suites in the profile of `cargo run`, on one thread. Single suites differ by a factor
+/// of up to three.
 const SECONDS: [f64; 3] = [2.5e-7, 6e-7, 1.8e-6];
 
 /// Time (s) of a case without a prediction.

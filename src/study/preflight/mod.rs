@@ -50,7 +50,7 @@ const RULES: [(WarningName, PreflightRule); 3] = [
     (WarningName::Undamped, undamped::check),
 ];
 
-/// A finding whose help, if it is a warning, has the name under which it is acknowledged.
+/// A finding. The help of a warning includes the name with which it is acknowledged.
 fn with_name(finding: Diagnostic, name: WarningName) -> Diagnostic {
     if finding.severity() != Severity::Warning {
         return finding;

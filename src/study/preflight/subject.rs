@@ -1,4 +1,4 @@
-//! The study that rules speak of, and the places in its file.
+//! The study of the preflight rules, and the paths in its file.
 
 use crate::mpm::FrameName;
 use crate::study::exact_motion::Extremes;
@@ -13,7 +13,7 @@ use crate::verify::{Axis, Verdict};
 /// A convergence study before it runs.
 pub(crate) struct Preflight<'a> {
     pub(crate) plan: &'a ConvergencePlan,
-    /// Extremes of the exact motion, where formulas give one and an order is claimed.
+    /// Extremes of the exact motion, if it is given by formulas and an order is expected.
     pub(crate) extremes: Option<Extremes>,
     source: &'a Source,
 }

@@ -165,15 +165,15 @@ mod tests {
         }
     }
 
-    /// In uniaxial strain: the elastic range and beyond, where loading never reverses; a fluid at
-    /// rest.
+    /// In uniaxial strain: the elastic range and beyond, with loading that never reverses; a fluid
+    /// at rest.
     #[rstest]
     fn mpm_and_truth_mean_the_same_law(
         #[values(0.0, 40.0)] hardening: f64,
         #[values(0.7, 0.97, 1.0, 1.03, 1.4)] stretch: f64,
     ) {
-        // The return of clay has order 1 in the step, so that one step is not the exact stress;
-        // `mpm::material::clay_paths` compares both.
+        // The return of clay has order 1 in the step, so that one step does not give the exact
+        // stress; `mpm::material::clay_paths` compares both.
         let exact = known(hardening).filter(|(plan, _)| plan.name() != "cam_clay");
         for (plan, truth) in exact.filter(|(_, truth)| truth.admits(1, true).is_ok()) {
             let mut grad = [[0.0; 3]; 3];

@@ -30,7 +30,7 @@ pub(crate) struct Body<'a> {
     pub(crate) heat: Option<&'a Conduction>,
     /// Whether F is stored even if neither law nor basis reads it.
     pub(crate) keeps_deformation: bool,
-    /// Particles that are not where the lattice has them.
+    /// Changes of particles from the lattice.
     pub(crate) lattice: LatticeEdits,
 }
 

@@ -29,8 +29,8 @@ pub fn subject(
     }
 }
 
-/// Profile of a step of `method` on one level: of the second step, since the first allocates.
-/// None for FEM, and where the solver fails before.
+/// Profile of a step of `method` on one level: of the second step, because the first one allocates.
+/// `None` for FEM, and if the solver fails earlier.
 pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) -> Option<Profile> {
     fn of_second_step<const D: usize>(
         plan: &ConvergencePlan,

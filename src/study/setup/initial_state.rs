@@ -20,7 +20,7 @@ pub(crate) struct Initial {
 }
 
 impl Initial {
-    /// The initial state of a subject of `plan` that is one body.
+    /// The initial state of a subject of `plan` with one body.
     pub(crate) fn of(plan: &ConvergencePlan) -> Self {
         Self::of_body(plan, &plan.scene)
     }
@@ -31,7 +31,7 @@ impl Initial {
         Self { motion: exact.map(|problem| problem.motion.clone()), ..Self::stated(body) }
     }
 
-    /// The stated initial state alone.
+    /// The stated initial state only.
     pub(crate) fn stated(scene: &Scene) -> Self {
         let Scene { initial_stress, initial_displacement, initial_velocity, .. } = scene;
         let formulas = |all: &Vec<Formula>| (!all.is_empty()).then(|| Motion::new(all.clone()));
@@ -84,7 +84,7 @@ impl Initial {
         for (grad_v, now) in particles.grad_v.iter_mut().zip(&states) {
             let f: Matrix<D> = Matrix::from_fn(|i, j| now.grad[i][j]) + Matrix::identity();
             let rate = Matrix::from_fn(|i, j| now.grad_rate[i][j]);
-            // Where F has no inverse, the solver refuses the start.
+            // If F has no inverse, the solver refuses the start.
             *grad_v = f.try_inverse().map_or_else(Matrix::zeros, |inverse| rate * inverse);
         }
         if self.motion.is_some() || self.displacement.is_some() {

@@ -32,7 +32,7 @@ pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
     needs
 }
 
-/// The solver at the start of a run of the suite called `suite`.
+/// The solver at the start of a run of the suite named `suite`.
 ///
 /// # Errors
 /// One line with the reason why it cannot be observed.

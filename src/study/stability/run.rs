@@ -127,8 +127,8 @@ impl CaseRun<'_> {
         })
     }
 
-    /// The limit of the sought parameter: predicted and confirmed where the particles are frozen,
-    /// else observed.
+    /// The limit of the sought parameter: predicted and confirmed if the particles are frozen,
+    /// otherwise observed.
     fn critical(
         &self,
         value: f64,

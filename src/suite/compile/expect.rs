@@ -86,7 +86,7 @@ pub(crate) fn assign(
     names.iter().map(owner).collect()
 }
 
-/// Expectation of a full run, where an entry states that it differs.
+/// Expectation of a full run, if an entry states a different one.
 fn in_full(
     evaluator: &Evaluator<'_>,
     path: &Path,

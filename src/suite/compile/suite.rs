@@ -48,8 +48,8 @@ impl Suite {
     }
 }
 
-/// The convergence study that `source` holds, with `factor` times its amplitude: of the exact
-/// motion and of the initial state, not of loads.
+/// The convergence study in `source`, with the amplitude of the exact motion and of the initial
+/// state multiplied by `factor`. Loads are not scaled.
 ///
 /// # Errors
 /// If the scaled motion is not a solution, as with loads that are not scaled.
@@ -57,7 +57,7 @@ pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diag
     with_changes(source, |spec| scale_amplitude(spec, factor))
 }
 
-/// The convergence study that `source` holds, without expectations and with these changes.
+/// The convergence study in `source`, without expectations and with these changes.
 ///
 /// # Errors
 /// A [`Diagnostic`] with the reason why the changed suite is refused.
@@ -91,7 +91,7 @@ struct Compiled<'a> {
     evaluator: &'a Evaluator<'a>,
     spec: &'a ConvergenceSpec,
     plan: &'a ConvergencePlan,
-    /// Where the file states the levels.
+    /// Paths of the levels in the file.
     levels: Vec<LevelPaths>,
     /// End of the longest run (s).
     latest: f64,
@@ -172,7 +172,7 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     Ok(assemble(head, parameters, &spec.functions, plan))
 }
 
-/// The warnings that a suite acknowledges. Each needs its reason, and appears once.
+/// The warnings that a suite acknowledges. Each must have a reason, and occur once.
 fn acknowledged(
     evaluator: &Evaluator<'_>,
     specs: &[AcknowledgeSpec],

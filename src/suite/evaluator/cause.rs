@@ -1,11 +1,11 @@
-//! Which parameter is to blame for a number that cannot be used.
+//! Finds the parameter that causes an invalid number.
 
 use super::{Evaluator, shown};
 use crate::exact::formula::{Expr, Formula};
 use crate::suite::yaml::{Diagnostic, NumberText, Path, Place, Step};
 
-/// Values that hardly any formula fails for. A parameter is suspected where one of them, or its
-/// own magnitude, in its place gives a finite number.
+/// Values for which most formulas are finite. A parameter is suspected if the formula is finite
+/// with one of them, or with its own magnitude, in its place.
 const HARMLESS: [f64; 2] = [1.0, 0.5];
 
 impl Evaluator<'_> {
@@ -57,7 +57,7 @@ impl Evaluator<'_> {
         constants.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
-    /// Whether the formula gives a finite number with another value of a parameter.
+    /// Whether the formula is finite with another value of a parameter.
     fn is_finite_with(&self, text: &NumberText, name: &str, value: f64) -> bool {
         let scope = self.scope.with(name, value);
         let formula =

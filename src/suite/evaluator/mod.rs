@@ -153,7 +153,7 @@ impl<'a> Evaluator<'a> {
         texts.iter().enumerate().map(bind).collect()
     }
 
-    /// A finite number, given as such or by a formula of parameters.
+    /// A finite number, stated directly or by a formula of parameters.
     pub(crate) fn number(&self, path: &Path, text: &NumberText) -> Result<f64, Diagnostic> {
         let formula = self.formula(path, text, &[])?;
         let value = formula.constant().unwrap_or(f64::NAN);

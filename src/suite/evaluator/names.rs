@@ -1,4 +1,4 @@
-//! The names that a suite declares: tables, names that are taken, unused, or declared too late.
+//! The names that a suite declares: tables, and errors about duplicate, unused or late names.
 
 use super::{Evaluator, ParameterSpec, TableSpec, shown, with_help};
 use crate::exact::formula::Scope;
@@ -72,7 +72,7 @@ fn name_in(head: &str) -> &str {
 }
 
 impl Evaluator<'_> {
-    /// Declares the table `name`. Returns its text and, where it is read by a parameter, its value.
+    /// Declares the table `name`. Returns its text and, if its argument is a parameter, its value.
     pub(super) fn declare_table(
         &mut self,
         path: &Path,

@@ -30,7 +30,7 @@ pub(crate) struct ConvergenceSpec {
     /// Numbers, formulas of the parameters above them, or tables; each must be used.
     #[serde(default)]
     pub(crate) parameters: Ordered<ParameterSpec>,
-    /// Functions for formulas that need something more than once: `s(tau): "..."`.
+    /// Functions for formulas: `s(tau): "..."`.
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
     /// The body with its conditions and loads.
@@ -161,13 +161,13 @@ pub(crate) struct ObserveSpec {
 pub(crate) struct RunSpec {
     /// End of the run (s), or a list of ends.
     pub(crate) until: OneOrMany<NumberText>,
-    /// Absent where `refine` lists time steps.
+    /// Absent if `refine` lists time steps.
     pub(crate) dt: Option<StepSpec>,
-    /// Number of instants at which the error is taken.
+    /// Number of instants at which the error is measured.
     pub(crate) instants: Option<NumberText>,
 }
 
-/// The key that holds a list is refined, from coarse to fine.
+/// The key with a list is refined, from coarse to fine.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -18,7 +18,7 @@ macro_rules! expect_spec {
 pub(crate) struct ExpectSpec {
     /// Cases that it speaks of, `*` standing for any text; all unless stated.
     pub(crate) case: Option<OneOrMany<String>>,
-    /// The verdict; `converging` where an `order` is given.
+    /// The verdict; `converging` if an `order` is stated.
     #[cfg_attr(feature = "schemas", schemars(schema_with = "verdicts", default))]
     pub(crate) verdict: Option<String>,
     /// Lowest and highest order: the whole confidence interval must lie within.
@@ -36,7 +36,7 @@ pub(crate) struct ExpectSpec {
     pub(crate) energy_rate: Option<Vec<NumberText>>,
     /// The reason for expecting it.
     pub(crate) because: String,
-    /// Expectation of a full run, where that differs.
+    /// Expectation of a full run, if it differs.
     pub(crate) full: Option<Box<ExpectSpec>>,
 }
 

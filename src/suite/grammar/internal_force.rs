@@ -25,7 +25,7 @@ pub(crate) struct InternalForceSpec {
     /// Numbers, formulas of the parameters above them, or tables; each must be used.
     #[serde(default)]
     pub(crate) parameters: Ordered<ParameterSpec>,
-    /// Functions for formulas that need something more than once: `s(tau): "..."`.
+    /// Functions for formulas: `s(tau): "..."`.
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
     /// The set-up.

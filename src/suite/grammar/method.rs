@@ -42,7 +42,7 @@ pub(crate) enum MethodSpec {
         law: Option<OneOrMany<EquationName>>,
         /// Time of the initial velocity; default `at_zero`.
         start: Option<OneOrMany<Start>>,
-        /// Points at which the error is taken.
+        /// Points at which the error is measured.
         sampling: Option<OneOrMany<Sampling>>,
     },
     /// MPM of a body at rest, in which heat flows.
@@ -54,7 +54,7 @@ pub(crate) enum MethodSpec {
     External {
         /// Its name, a part of the case's.
         name: String,
-        /// Order that theory gives its displacements; 2 unless stated.
+        /// Theoretical order of its displacements; default 2.
         formal_order: Option<NumberText>,
         /// Precision of its numbers.
         precision: Option<Precision>,

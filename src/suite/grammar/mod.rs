@@ -39,7 +39,7 @@ pub(crate) enum SuiteSpec {
     Convergence(Box<ConvergenceSpec>),
     /// Internal force on a node while a particle moves through it.
     InternalForce(Box<InternalForceSpec>),
-    /// Whether runs stay bounded, and up to which value of a parameter.
+    /// Whether runs stay bounded, and the limit of a parameter.
     Stability(Box<StabilitySpec>),
 }
 
@@ -60,7 +60,7 @@ pub(crate) enum StudyName {
     Convergence,
     /// Internal force on a node while a particle moves through it.
     InternalForce,
-    /// Whether runs stay bounded, and up to which value of a parameter.
+    /// Whether runs stay bounded, and the limit of a parameter.
     Stability,
 }
 

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde::de::value::{Error, StrDeserializer};
 
-/// A key, or a key of an owner where the same key has another value elsewhere, and a sample.
+/// A key, or a key of an owner if it has another value elsewhere, and a sample value.
 pub(crate) const SAMPLES: &[(&str, &str)] = &[
     // Every study.
     ("suite", "my-suite"),

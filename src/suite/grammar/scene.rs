@@ -75,7 +75,7 @@ pub(crate) struct StressSpec {
     pub(crate) xz: Option<NumberText>,
 }
 
-/// How bodies push each other where they meet.
+/// Contact between bodies.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

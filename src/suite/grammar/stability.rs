@@ -25,7 +25,7 @@ pub(crate) struct StabilitySpec {
     /// Numbers, formulas of the parameters above them, or tables; each must be used.
     #[serde(default)]
     pub(crate) parameters: Ordered<ParameterSpec>,
-    /// Functions for formulas that need something more than once: `s(tau): "..."`.
+    /// Functions for formulas: `s(tau): "..."`.
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
     /// The body with its conditions and loads.
@@ -34,7 +34,7 @@ pub(crate) struct StabilitySpec {
     pub(crate) particles: ParticleSpec,
     /// Time step and number of steps.
     pub(crate) run: StabilityRunSpec,
-    /// One parameter, and the values that it takes.
+    /// One parameter, and its values.
     pub(crate) sweep: Ordered<OneOrMany<NumberText>>,
     /// The parameter whose largest stable value is determined for each row.
     pub(crate) critical: Option<CriticalSpec>,
@@ -49,7 +49,7 @@ pub(crate) struct StabilitySpec {
     pub(crate) expect: Vec<StabilityExpectSpec>,
 }
 
-/// How the body is filled.
+/// Particles of the body.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -65,7 +65,7 @@ pub(crate) struct ParticleSpec {
     pub(crate) extra: Vec<Vec<NumberText>>,
 }
 
-/// How it is run.
+/// Settings of a run.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -78,9 +78,9 @@ pub(crate) struct StabilityRunSpec {
     pub(crate) every: Option<NumberText>,
     /// Number of steps.
     pub(crate) steps: NumberText,
-    /// Steps of a full run, where that takes more.
+    /// Steps of a full run, if it has more.
     pub(crate) full_steps: Option<NumberText>,
-    /// Whether particles stay where they are.
+    /// Whether the particles do not move.
     #[serde(default)]
     pub(crate) frozen: bool,
     /// Size of random perturbations of the state at the start.
@@ -91,7 +91,7 @@ pub(crate) struct StabilityRunSpec {
     pub(crate) unstable_above: Option<NumberText>,
 }
 
-/// The parameter whose limit is sought, and where.
+/// The parameter whose limit is sought, and its range.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -129,7 +129,7 @@ pub(crate) struct StabilityExpectSpec {
 pub(crate) struct FigureSpec {
     /// A closed form, of the parameters.
     pub(crate) is: Option<NumberText>,
-    /// Largest deviation from it: a share of it, or of one if it is smaller.
+    /// Maximum deviation: a share of the value, or of one if the value is smaller.
     pub(crate) within: Option<NumberText>,
     /// Lower bound.
     pub(crate) above: Option<NumberText>,

@@ -112,8 +112,8 @@ impl ConvergencePlan {
         }
     }
 
-    /// The order that theory gives a solver of this formal order on the problem, and the reason;
-    /// `None` along another axis than space whose order the suite does not state.
+    /// The theoretical order of a solver with this formal order on the problem, and the reason;
+    /// `None` for an axis other than space if the suite does not state its order.
     fn required_order(&self, formal_order: f64) -> Option<(f64, String)> {
         let is_gradient = matches!(self.of, Quantity::Stress | Quantity::DeformationGradient);
         let (of_solver, reason) = if is_gradient && formal_order > 1.0 {

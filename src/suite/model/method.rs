@@ -39,12 +39,12 @@ pub enum Method {
         law: EquationName,
         /// Treatment of the initial velocity.
         start: Start,
-        /// Where the error is taken.
+        /// Points at which the error is measured.
         sampling: Sampling,
     },
     /// An external solver.
     External {
-        /// Order in h that theory gives its displacements, by its own account.
+        /// Theoretical order in h of its displacements, as stated by the solver.
         formal_order: f64,
         /// Precision of its numbers, by its own account.
         precision: Precision,
@@ -61,14 +61,14 @@ impl Method {
         }
     }
 
-    /// Whether it is a solver that computes in single precision.
+    /// Whether it is an external solver in single precision.
     pub fn is_single_precision(&self) -> bool {
         matches!(self, Self::External { precision: Precision::Single, .. })
     }
 
-    /// The order of the displacement error that theory gives the method on a smooth solution:
-    /// p + 1 for a basis of degree p, but no more than 2 with the lumped mass matrix of MPM; 2p for
-    /// the nodal values of elements that superconverge (Strang & Fix 1973, section 1.6).
+    /// The theoretical order of the displacement error of the method on a smooth solution: p + 1
+    /// for a basis of degree p, but at most 2 with the lumped mass matrix of MPM; 2p for the nodal
+    /// values of elements that superconverge (Strang & Fix 1973, section 1.6).
     pub fn formal_order(&self) -> f64 {
         match self {
             Self::Mpm { basis, mass: MassName::Consistent, .. } => basis.formal_order(),
@@ -129,7 +129,7 @@ impl Method {
 pub struct ExternalMethod<'a> {
     /// Its name, which is also that of its cases.
     pub name: &'a str,
-    /// Order in h that theory gives its displacements.
+    /// Theoretical order in h of its displacements.
     pub formal_order: f64,
     /// Precision of its numbers.
     pub precision: Precision,

@@ -53,7 +53,7 @@ pub struct Suite {
 pub struct ConvergencePlan {
     /// The body with its conditions and loads.
     pub scene: Scene,
-    /// The problem that the formulas solve, already checked; absent if only a reference is given.
+    /// The problem that the formulas solve, already checked; `None` if there is only a reference.
     pub exact: Option<Problem>,
     /// The heat problem that a temperature solves in a body at rest, already checked.
     pub conduction: Option<Conduction>,
@@ -65,11 +65,11 @@ pub struct ConvergencePlan {
     pub refine: RefinePlan,
     /// Offsets of particles from their lattice.
     pub scatter: LatticeOffsets,
-    /// Instants at which the error is taken.
+    /// Instants at which the error is measured.
     pub instants: u64,
     /// The judged error.
     pub norm: NormName,
-    /// Quantity whose error is taken.
+    /// Quantity whose error is measured.
     pub of: Quantity,
     /// The judged sum with its exact value, if the judged quantity is a sum over the body.
     pub sum: Option<Arc<JudgedSum>>,
@@ -94,11 +94,11 @@ pub struct Case {
     pub name: String,
     /// The method.
     pub method: Method,
-    /// Name of the external solver, if the method is one.
+    /// Name of the external solver; `None` for built-in methods.
     pub solver: Option<String>,
     /// End of the run (s).
     pub until: f64,
-    /// Truth against which errors are taken.
+    /// Solution against which errors are measured.
     pub against: Against,
     /// Expectation on a usual run; `None` if the suite explores.
     pub expectation: Option<Expectation>,
@@ -147,12 +147,12 @@ impl Against {
         }
     }
 
-    /// Whether it is computed, and known at instants only that all runs have in common.
+    /// Whether it is computed, and available only at instants that all runs share.
     pub fn is_computed(self) -> bool {
         matches!(self, Self::Reference | Self::SameMethod(_))
     }
 
-    /// The level on which it is computed, if it is the same method on a fine grid.
+    /// The level of a reference run on a fine grid; `None` for other references.
     pub fn fine_grid(self) -> Option<LevelPlan> {
         match self {
             Self::SameMethod(SameMethod::FineGrid(level)) => Some(level),
@@ -226,7 +226,7 @@ impl StudyPlan for ConvergencePlan {
 }
 
 impl ConvergencePlan {
-    /// The problem whose force is manufactured, if it is.
+    /// The problem with a manufactured force; `None` without one.
     pub fn manufactured(&self) -> Option<&Problem> {
         self.exact.as_ref().filter(|problem| problem.manufactured)
     }

@@ -19,7 +19,7 @@ pub struct StabilityPlan {
     pub values: Vec<f64>,
     /// The parameter whose limit is sought, and the range.
     pub sought: Option<(String, f64, f64)>,
-    /// Whether particles stay where they are.
+    /// Whether the particles do not move.
     pub frozen: bool,
     /// Figures that tables show.
     pub figures: Vec<RunFigure>,

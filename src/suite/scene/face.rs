@@ -11,7 +11,7 @@ pub(crate) const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "
 /// One face of the body.
 #[derive(Debug, Clone)]
 pub struct SceneFace {
-    /// Name that suites give it.
+    /// Name in suites.
     pub name: &'static str,
     /// Axis of its normal.
     pub axis: usize,

@@ -52,7 +52,7 @@ pub(crate) fn per_axis(ppc: u64, dimension: usize) -> Option<usize> {
     (root > 0 && root.checked_pow(dimension as u32) == Some(ppc)).then_some(root as usize)
 }
 
-/// Where the grid starts on an axis (m), and its number of cells.
+/// Lower end of the grid on an axis (m), and its number of cells.
 pub(crate) fn grid_axis(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
     let (low, high) = match &scene.grid {
         Some((from, to)) => (from[axis], to[axis]),

@@ -56,9 +56,8 @@ pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     })
 }
 
-/// Whether `holds` returns true for some particle of a `body` with a free rim, given the place (m)
-/// of the particle and its part of a share of the lattice, on the grid of `scene` with cells of
-/// size `h`.
+/// Whether `holds` returns true for a particle of a `body` with a free rim, given the position (m)
+/// of the particle and its part of a lattice cell, on the grid of `scene` with cells of size `h`.
 pub(crate) fn any_particle(
     body: &Scene,
     scene: &Scene,

@@ -88,7 +88,8 @@ impl Scene {
             return false;
         }
         let Some(outline) = &self.outline else { return true };
-        // A place next to the rim is inside once it is moved across the rim.
+        // A place next to the rim counts as inside if it is inside after a small shift across the
+        // rim.
         let moved = |k: usize| {
             let step = |axis: usize| near * ((k / [1, 3, 9][axis]) % 3) as f64 - near;
             label.iter().enumerate().map(|(axis, x)| x + step(axis)).collect::<Vec<f64>>()

@@ -97,12 +97,12 @@ impl Diagnostic {
         self.0.severity
     }
 
-    /// The file, as the user named it.
+    /// The file, as named by the user.
     pub fn file(&self) -> &str {
         &self.0.file
     }
 
-    /// Where it is, unless it concerns the file as a whole.
+    /// Its place, unless it concerns the file as a whole.
     pub fn place(&self) -> Option<Place> {
         self.0.excerpt.as_ref().map(|excerpt| excerpt.place)
     }

@@ -201,7 +201,7 @@ impl<'de> Visitor<'de> for Walk<'_> {
     }
 }
 
-/// Compares a key, and fails there if it is the one whose own place is sought.
+/// Compares a key, and fails at the key whose place is sought.
 struct Key<'a> {
     wanted: &'a str,
     last: bool,

@@ -8,8 +8,8 @@ use std::marker::PhantomData;
 
 /// A number in a suite, or a formula for one: `25`, `1e-3` or `"pi/(2*L)"`.
 ///
-/// Formulas are not parsed here; `Display` gives the text to parse, for a number the shortest
-/// that reads back as the same number.
+/// Formulas are not parsed here; `Display` gives the text to parse. For a number this is the
+/// shortest text that reads back as the same number.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NumberText {
     /// A finite number.

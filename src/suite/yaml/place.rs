@@ -15,8 +15,8 @@ pub struct Place {
 impl Place {
     /// The place of a byte range of `text`, cut at the end of its first line.
     ///
-    /// Any range is good: it is moved onto character boundaries and into the text. One that
-    /// starts at the end of the text is moved back to where the text visibly ends.
+    /// Any range is valid: it is moved onto character boundaries and into the text. A range that
+    /// starts at the end of the text is moved back to the last visible character.
     pub fn of(text: &str, range: Range<usize>) -> Self {
         let start = if range.start >= text.len() {
             text.trim_end().len()

@@ -43,7 +43,7 @@ impl<'s> CheckedShape<'s> {
         &self.top
     }
 
-    /// Reads the file into a type, with a sample value for a missing key where one is known.
+    /// Reads the file into a type, with a sample value for a missing key if one is known.
     ///
     /// # Errors
     /// The first error in the file, with its place.
@@ -74,7 +74,7 @@ pub(crate) fn written<T: Serialize>(value: &T) -> Result<String, WriteError> {
     Ok(serde_yaml::to_string(value)?)
 }
 
-/// The value of a text, if it is one.
+/// The value of a text; `None` if it is invalid.
 pub(crate) fn read_again<T: DeserializeOwned>(text: &str) -> Option<T> {
     serde_yaml::from_str(text).ok()
 }

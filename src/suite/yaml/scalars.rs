@@ -1,4 +1,4 @@
-//! How far a scalar reaches, by the rules of its style.
+//! Extent of a scalar, by the rules of its style.
 
 use super::Diagnostic;
 use super::scan::{Scalar, Scanner, Style};
@@ -59,7 +59,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// The first column that still belongs to the block around this point.
+    /// The first column that belongs to the block around this point.
     fn least_column(&self) -> usize {
         self.indents.last().map_or(0, |indent| indent + 1)
     }

@@ -25,7 +25,7 @@ pub(crate) enum Style {
 }
 
 impl Scalar {
-    /// The bytes that are the value, if they are so one for one: no escape, no folded line.
+    /// The bytes of the value, if they are verbatim: without escapes and folded lines.
     pub(crate) fn verbatim(&self, text: &str) -> Option<Range<usize>> {
         let Range { start, end } = self.range;
         let (inside, altered) = match self.style {
@@ -73,7 +73,7 @@ pub(crate) struct Scanner<'t> {
     pub(crate) open: Vec<usize>,
     /// Whether a key may start here.
     pub(crate) key_allowed: bool,
-    /// Where the token starts that a `:` later on the same line makes a key.
+    /// Start of a token that a later `:` on the line makes a key.
     pub(crate) possible_key: Option<usize>,
     document: DocumentState,
     pub(crate) scalars: Vec<Scalar>,

@@ -33,8 +33,7 @@ impl Source {
     /// Reads the output of a program, up to the maximum size of a suite.
     ///
     /// # Errors
-    /// If it cannot be read, is too large or not UTF-8, and for all that [`Source::from_text`]
-    /// refuses.
+    /// If it cannot be read, is too large or not UTF-8, or if [`Source::from_text`] refuses it.
     pub fn from_reader(name: &str, reader: impl Read) -> Result<Self, Diagnostic> {
         Self::from_bytes(name, limited(name, reader)?)
     }
@@ -94,7 +93,7 @@ impl Source {
         Self::group_of(Path::new(&self.name))
     }
 
-    /// The file as the user named it.
+    /// The file, as named by the user.
     pub fn name(&self) -> &str {
         &self.name
     }

@@ -104,7 +104,7 @@ pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breac
 
 /// Counters and sums that differ between two states with equal samples.
 fn counted(wanted: &RunState, seen: &RunState) -> Option<String> {
-    // As text, for a NaN is one where it is expected.
+    // Compared as text, because a NaN equals an expected NaN.
     let text = |state: &RunState| (format!("{:?}", state.counters), format!("{:?}", state.totals));
     let ((a, b), (c, d)) = (text(wanted), text(seen));
     match (a == c, b == d) {

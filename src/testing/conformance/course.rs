@@ -158,7 +158,7 @@ pub(super) fn work(states: &[RunState]) -> Option<Breach> {
     Some(Breach::new("work counters", wanted, seen))
 }
 
-/// Other counters that do not count the run so far.
+/// A breach by counters that do not count the run so far.
 pub(super) fn counters(problem: &LevelProblem, states: &[RunState]) -> Vec<Breach> {
     let given = problem.particles.len() as u64;
     let volumes = problem.particles.volume.iter().zip(&problem.particles.reference_volume);
@@ -209,7 +209,7 @@ pub(super) fn totals(problem: &LevelProblem, states: &[RunState]) -> Option<Brea
     ))
 }
 
-/// The smallest det F of the points; infinite where F is not given.
+/// The smallest det F of the points; infinite if F is not reported.
 fn smallest_j(samples: &Samples) -> f64 {
     let d = samples.dimension;
     let all = samples.deformation_gradient.chunks_exact(d * d);

@@ -146,7 +146,7 @@ pub(super) struct AffineField {
     pub(super) value: [f64; 3],
     /// Row i has the derivatives of component i.
     pub(super) gradient: [[f64; 3]; 3],
-    /// Place (m) where the field has `value`.
+    /// Position (m) at which the field has `value`.
     pub(super) centre: [f64; 3],
 }
 

@@ -46,7 +46,7 @@ impl SolverFinding {
 #[serde(tag = "result", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum ExaminationResult {
-    /// It was made.
+    /// The examination was made.
     Examined {
         /// Figures that were measured.
         measured: String,

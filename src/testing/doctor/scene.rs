@@ -9,11 +9,10 @@ use crate::suite::{ConvergencePlan, Suite};
 /// A dimension and the name of a law.
 pub(super) type Kind = (usize, &'static str);
 
-/// Laws of finite elasticity, linear where strains are small, the simplest first.
+/// Laws of finite elasticity, linear at small strains, the simplest first.
 pub(super) const FINITE: [&str; 4] = ["linear_elastic", "neo_hookean", "corotated", "hencky"];
 
-/// Laws that are linear elasticity where strains are small; `j2` with a yield stress that no scene
-/// reaches.
+/// Laws that are linear elastic at small strains; `j2` with a yield stress that no scene reaches.
 pub(super) const ELASTIC: [&str; 5] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2"];
 
@@ -21,7 +20,7 @@ pub(super) const ELASTIC: [&str; 5] =
 pub(super) const ANY: [&str; 7] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2", "newtonian", "linear_fluid"];
 
-/// Cell size (m): a power of two, so that a lattice can lie on cell faces without rounding.
+/// Cell size (m): a power of two, so that a lattice can be on cell faces without rounding.
 pub(super) const H: f64 = 0.125;
 
 /// Factor of a stiffness without effect, even at nodes whose mass is only rounding error.

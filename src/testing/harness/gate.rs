@@ -80,7 +80,7 @@ impl Gate {
         }
     }
 
-    /// The folder of a suite's snapshot: where its file lies among the suites.
+    /// The folder of the snapshot of a suite, from the place of its file among the suites.
     fn snapshots_of(&self, file: &Path) -> PathBuf {
         let folder = file.parent().unwrap_or(Path::new(""));
         self.snapshots.join(folder.strip_prefix(&self.folder).unwrap_or(Path::new("")))
@@ -134,7 +134,7 @@ fn conforms(solver: &dyn SolverFactory, suite: &Suite) -> Result<Completion, Fai
     }
 }
 
-/// A suite with its outcomes: each case runs once, whichever tests ask for it.
+/// A suite with its outcomes: each case runs once, also if several tests need it.
 struct SharedSuite {
     suite: &'static Suite,
     runner: Runner<'static>,
@@ -199,7 +199,7 @@ fn trials(
     snapshots: &Path,
     solver: Option<&'static dyn SolverFactory>,
 ) -> (Vec<Trial>, Arc<SharedSuite>) {
-    // The tests live as long as the process; so does the suite.
+    // The tests, and so the suite, live until the end of the process.
     let suite: &'static Suite = Box::leak(Box::new(suite));
     let names = suite.case_names();
     let runner = Runner::new(suite);
@@ -215,7 +215,7 @@ fn trials(
     });
     let case = |(index, case): (usize, &&str)| {
         let shared = Arc::clone(&shared);
-        // Of a suite that explores nothing is expected: it must not look like a gate that passed.
+        // An exploring suite has no expectations: it must not look like a gate that passed.
         Trial::ignorable_test(format!("{}::{case}", suite.name), move || shared.hold(index))
             .with_ignored_flag(suite.explores())
     };

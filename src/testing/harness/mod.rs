@@ -53,7 +53,7 @@ impl SuiteFolder {
     /// needs a missing capability is ignored, with the reason, and does not count as passed.
     #[must_use]
     pub fn judging(mut self, solver: impl SolverFactory + 'static) -> Self {
-        // The tests live as long as the process; so does the solver.
+        // The tests, and so the solver, live until the end of the process.
         self.0.solver = Some(Box::leak(Box::new(solver)));
         self
     }
@@ -89,7 +89,7 @@ impl SuiteFolder {
     {
         let mut arguments = Arguments::from_iter(words);
         // Cases run on the threads of rayon, and the thread of a test only waits. A thread that has
-        // done its part of one case takes up another, which then holds up the first.
+        // finished its part of one case starts another case, which then delays the first.
         arguments.test_threads =
             arguments.test_threads.or(Some(WAITING * rayon::current_num_threads()));
         let found = libtest_mimic::run(&arguments, self.0.trials());

@@ -1,7 +1,7 @@
 //! Cost of one more digit: work ~ error^exponent, observed and in theory.
 //!
-//! With an error ~ h^p and a work ~ h^-g the exponent is -g/p: g = D + 1 where cells are refined
-//! and time steps follow h, D where they stay, 1 where time steps alone are refined.
+//! With an error ~ h^p and a work ~ h^-g the exponent is -g/p: g = D + 1 if cells are refined and
+//! time steps are proportional to h, D if the steps are constant, 1 if only time steps are refined.
 //!
 //! The line is fitted to `ln error` over `ln work`, because work is counted and has no noise. The
 //! exponent is the inverse of its slope, and so are the ends of the interval (the fiducial limits

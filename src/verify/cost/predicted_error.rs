@@ -33,7 +33,7 @@ pub struct PredictedError {
     beyond: Result<(FittedLine, f64), Unpredicted>,
 }
 
-/// Why no error is predicted beyond the levels.
+/// Reason why no error is predicted beyond the levels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unpredicted {
     /// The levels have another verdict than converging.

@@ -261,7 +261,7 @@ proptest! {
         }
     }
 
-    /// A finer target is not reached where a coarser one is not.
+    /// A finer target is not reached if a coarser one is not.
     #[test]
     fn a_coarser_target_is_reached_first(samples in series(), target in 1e-9..1e-1_f64) {
         let fine = reach(&samples, target);

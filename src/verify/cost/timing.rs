@@ -64,7 +64,7 @@ pub struct TimedSuite {
     /// For each case and level the workload, and the time that it took; `None` if the set-up
     /// failed. The time of a failed run ends at the failure.
     pub levels: Vec<Vec<(Workload, Option<Timing>)>>,
-    /// Where.
+    /// State of the machine.
     pub machine: Machine,
 }
 
@@ -81,7 +81,7 @@ impl TimedSuite {
         by_transfers(&self.outcome.cases)
     }
 
-    /// How long a level took.
+    /// Time of a level.
     pub fn timing(&self, case: &str, level: usize) -> Option<Timing> {
         let index = self.outcome.cases.iter().position(|known| known.case == case)?;
         self.levels.get(index)?.get(level)?.1
@@ -121,7 +121,7 @@ pub struct BestCandidate {
     pub beyond: bool,
     /// Why no finer setting was considered, if the budget is not the reason.
     pub limit: Option<String>,
-    /// Why the run ended early, if it did.
+    /// Reason if the run ended early.
     pub failure: Option<String>,
     /// The model that predicted.
     pub model: Model,

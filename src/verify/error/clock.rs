@@ -8,7 +8,7 @@ pub struct Clock {
     pub until: f64,
     /// Number of steps.
     pub steps: u64,
-    /// Number of instants at which the error is taken, the last one at `until`.
+    /// Number of instants at which the error is measured, the last one at `until`.
     pub instants: u64,
 }
 
@@ -39,7 +39,7 @@ impl Clock {
         Some(Self { until, steps, instants })
     }
 
-    /// `steps`, at least one, if they make a run.
+    /// `steps`, at least one; `None` if they are invalid.
     fn usable(until: f64, wanted: f64, instants: u64, steps: f64) -> Option<u64> {
         let positive = |time: f64| time > 0.0 && time.is_finite();
         let usable = positive(until) && positive(wanted) && instants > 0;
@@ -56,7 +56,7 @@ impl Clock {
         self.until * step as f64 / self.steps as f64
     }
 
-    /// Whether the error is taken after `step` steps.
+    /// Whether the error is measured after `step` steps.
     pub fn is_instant(&self, step: u64) -> bool {
         is_instant(step, self.steps, self.instants)
     }
@@ -65,7 +65,7 @@ impl Clock {
 /// Whether step number `step` of `steps` ends at one of `instants`, which are as equally spaced as
 /// the steps allow; the last one ends the run.
 pub(crate) fn is_instant(step: u64, steps: u64, instants: u64) -> bool {
-    // Instants up to the end of a step: one more than up to the end of the step before.
+    // Number of instants up to the end of a step: it grows by one at an instant.
     let passed = |step: u64| u128::from(step) * u128::from(instants) / u128::from(steps);
     step > 0 && passed(step) > passed(step - 1)
 }

@@ -26,10 +26,10 @@ pub(super) struct Declaration {
     pub(super) exact_at_all: Option<ExactAtAll>,
     /// Natural size of exact values, which errors are compared with.
     pub(super) size: SolutionSize,
-    /// Size of the numbers that its value is the difference of, on a body of length L (m); NaN
-    /// where it is not known.
+    /// Size of the numbers whose difference is the value, on a body of length L (m); NaN if it is
+    /// unknown.
     pub(super) rounding_size: fn(f64) -> f64,
-    /// Whether it is an unknown that a subject solves for: tables show its errors.
+    /// Whether it is a primary unknown of a subject: tables show its errors.
     pub(super) is_primary: bool,
     /// Whether only some subjects and some truths have it.
     pub(super) is_optional: bool,

@@ -22,8 +22,8 @@ pub struct ErrorField {
     pub is_plane: bool,
     /// Size of a part (m).
     pub size: f64,
-    /// Position now (m) and largest magnitude of the error in each part with particles; NaN where
-    /// one has no error that is a number. A part is a square of many particles, or one particle.
+    /// Current position (m) and largest magnitude of the error in each part with particles; NaN if
+    /// no error in it is finite. A part is a square of many particles, or one particle.
     pub parts: Vec<[f64; 3]>,
 }
 
@@ -51,13 +51,13 @@ impl ErrorField {
         if !(size > 0.0 && size.is_finite()) {
             return None;
         }
-        // Parts smaller than particles: each particle is one.
+        // Parts would be smaller than particles: each particle is one part.
         let volume = samples.weight.iter().sum::<f64>() / samples.len() as f64;
         let spacing = libm::pow(volume, 1.0 / d as f64);
         let is_coarse = spacing >= size;
         let mut parts: BTreeMap<[i64; 2], [f64; 3]> = BTreeMap::new();
-        // The end of the body belongs to the last part, not to one beyond it; a particle that is a
-        // part is one there too.
+        // The end of the body belongs to the last part, not to one beyond it; this also holds for
+        // particles as parts.
         let end = [0, 1].map(|axis| (high[axis] - low[axis]) / size);
         let last = end
             .map(|end| if is_coarse { end } else { (libm::ceil(end - ROUNDING) - 1.0).max(0.0) });

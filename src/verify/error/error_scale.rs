@@ -1,4 +1,4 @@
-//! Natural sizes that make the errors and the work of different methods comparable.
+//! Natural scales that make the errors and the work of different methods comparable.
 
 /// Scale that errors of a case are compared by, and growth of its work.
 #[derive(Debug, Clone, PartialEq)]

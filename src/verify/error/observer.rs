@@ -45,7 +45,7 @@ impl History {
     }
 }
 
-/// Labels on each axis that take part in an interpolation.
+/// Number of labels on each axis in an interpolation.
 const NEAR: usize = 4;
 
 /// The displacement at a fixed point of a body whose labels form a lattice: cubic Lagrange

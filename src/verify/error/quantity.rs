@@ -79,7 +79,7 @@ impl Quantity {
         self.declaration().unit
     }
 
-    /// Whether it is an unknown that a subject solves for, whose errors tables show.
+    /// Whether it is a primary unknown of a subject, whose errors tables show.
     pub fn is_primary(self) -> bool {
         self.declaration().is_primary
     }
@@ -124,8 +124,8 @@ impl Quantity {
         self.declaration().sum
     }
 
-    /// Size of the numbers whose rounding its error cannot fall below, on a body of length `length`
-    /// (m); NaN where it is not known.
+    /// Size of the numbers whose rounding is a lower bound of its error, on a body of length
+    /// `length` (m); NaN if it is unknown.
     pub fn rounding_size(self, length: f64) -> f64 {
         (self.declaration().rounding_size)(length)
     }

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 pub struct Comparison<'a> {
     /// The judged quantity.
     pub of: Quantity,
-    /// Its exact value, where it is a sum over the body.
+    /// Its exact value, if it is a sum over the body.
     pub sum: Option<&'a JudgedSum>,
     /// Point to be observed (m).
     pub observe: Option<&'a [f64]>,
@@ -231,19 +231,19 @@ pub fn errors(samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
 pub struct RunResult {
     /// Errors of the compared quantity.
     pub errors: RunErrors,
-    /// Errors of the displacement (m), where another quantity is compared.
+    /// Errors of the displacement (m), if another quantity is compared.
     pub displacement_errors: Option<RunErrors>,
-    /// How far the body's totals drifted, if the subject gives them; NaN if the run failed.
+    /// Drifts of the totals of the body, if the subject reports them; NaN if the run failed.
     pub drift: Option<ConservationError>,
-    /// The totals at t = 0 and at every instant that was reached (s), if the subject gives them.
+    /// The totals at t = 0 and at every reported instant (s), if the subject reports them.
     pub account: Vec<(f64, Totals)>,
     /// Rate of the energy, d ln E/dt (1/s), over the run, with its confidence interval.
     pub energy_rate: Option<Interval>,
     /// Counters at the end, or at the failure.
     pub counters: RunCounters,
-    /// Steps taken.
+    /// Number of steps.
     pub steps: u64,
-    /// Why and when the run ended early.
+    /// Reason and time if the run ended early.
     pub failure: Option<String>,
     /// The observed label, if one was requested and the run reached its end.
     pub history: Option<History>,
@@ -254,7 +254,7 @@ pub struct RunResult {
     /// Its distance (m) from the exact one.
     pub observed_error: Option<f64>,
     /// Largest speed towards the end, over
-    /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest), where that is given.
+    /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest), if that is set.
     pub residual_speed: Option<f64>,
 }
 
@@ -306,7 +306,7 @@ mod tests {
         }
     }
 
-    /// It ends where cos t = 0, and errors of the way there do not count.
+    /// The run ends at cos t = 0, and errors before the end do not count.
     #[test]
     fn a_body_that_turns_is_not_at_rest() {
         let until = 2.5 * std::f64::consts::PI;

@@ -19,10 +19,10 @@ use thiserror::Error;
 /// Minimum loss of order due to a defect.
 const FAULT: f64 = 0.5;
 
-/// How `run --gate` treats a case of an external solver.
+/// Treatment of a case of an external solver by `run --gate`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Gating {
-    /// The case must meet a requirement.
+    /// The case has a requirement.
     Required(Requirement),
     /// The case runs without requirement, for this reason.
     NotGated(String),
@@ -37,8 +37,8 @@ pub struct Requirement {
     pub order: Option<f64>,
     /// Errors at or below this bound are accepted without an order.
     pub error_below: Option<f64>,
-    /// Bound on the errors of the suite's own methods, if no other bound is stated. It is not
-    /// required of other methods where the levels are too few for an order.
+    /// Bound on the errors of the suite's own methods, if no other bound is stated. It does not
+    /// apply to other methods if the levels are too few for an order.
     pub own_error_below: Option<f64>,
     /// The reason, in one line.
     pub because: String,
@@ -123,8 +123,8 @@ impl Requirement {
         Some(format!("{count}, and an order needs {FEWEST_LEVELS}{own}"))
     }
 
-    /// How the requirement is met by the errors of `levels`, given the judgement of them and the
-    /// error that rounding explains.
+    /// How the errors of `levels` meet the requirement, given their judgement and the error due to
+    /// rounding.
     ///
     /// # Errors
     /// One line with the requirement and the observation.

@@ -4,7 +4,7 @@ use crate::verify::conservation::{ConservationError, Conserved};
 use crate::verify::figure::{BoundKind, CaseFigure};
 use crate::verify::order::format_number::{format_number, rounded};
 
-/// Bounds, themselves allowed. Every one that is given must hold.
+/// Bounds, which are themselves allowed values. All stated bounds must hold.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Limits {
     /// Bounds on figures, in the order of [`CaseFigure::ALL`].
@@ -19,9 +19,9 @@ pub struct Limits {
 /// Measured values that are limited.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// Values of [`CaseFigure::ALL`]; `None` where the levels do not have the figure.
+    /// Values of [`CaseFigure::ALL`]; `None` if the levels do not have the figure.
     pub figures: [Option<f64>; CaseFigure::ALL.len()],
-    /// Largest drifts of the levels that count; `None` if the subject gives no totals.
+    /// Largest drifts of the levels that count; `None` if the subject reports no totals.
     pub drift: Option<ConservationError>,
     /// Union of the confidence intervals of the rate of the energy (1/s) on the levels that count;
     /// `None` if one level has no interval.

@@ -13,8 +13,8 @@ use super::verdict::name::Verdict;
 /// Bounds, both included.
 pub type Bounds = (f64, f64);
 
-/// An expectation, as binding when it names a failure as when it names an order. Every part that
-/// is present must hold.
+/// An expectation. Expected failures are as binding as expected orders. Every part that is present
+/// must hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expectation {
     /// The expected verdict; `None` for a case with limits only.
@@ -27,7 +27,7 @@ pub struct Expectation {
     pub crossings: Option<bool>,
     /// Bounds on figures.
     pub limits: Limits,
-    /// Whose error the finest level must show.
+    /// Expected cause of the error floor.
     pub floor: Option<FloorCause>,
     /// The reason, in one line.
     pub because: String,

@@ -96,7 +96,7 @@ fn seen(study: &Convergence) -> String {
     format!("{}{}", study.verdict(), order.unwrap_or_default())
 }
 
-/// The claim on the verdict, if the run gives one that a repetition would meet.
+/// The expected verdict to propose, if a repetition of the run would meet it.
 fn claim(study: &Convergence) -> Option<ProposedOrder> {
     let formal = study.formal_order;
     let theory = match study.axis {
@@ -207,7 +207,7 @@ mod tests {
         propose(study).keys.into_iter().map(|key| key.text).collect()
     }
 
-    /// An order that theory does not give is proposed to the nearest half.
+    /// An order without theory is proposed as the nearest multiple of 1/2.
     #[test]
     fn orders_go_by_halves() {
         let halves = |order: f64| {

@@ -76,7 +76,7 @@ impl FittedLine {
         (sxx > 0.0 && line.slope.is_finite()).then_some(line)
     }
 
-    /// How far a point lies above the line: `ln` of its error over the error the line predicts.
+    /// Distance of a point above the line: `ln` of its error over the error of the line.
     pub(crate) fn departure(&self, point: &LogPoint) -> f64 {
         (point.y - self.mean_y) - self.slope * (point.x - self.mean_x)
     }
@@ -101,8 +101,8 @@ impl FittedLine {
         Interval { value, low: value - half_width, high: value + half_width }
     }
 
-    /// The drift of the order over the points this line was put through: fits the parabola
-    /// `line + c q(x)`, `q` being `x^2` made orthogonal to the line.
+    /// The drift of the order over the points of this line: fits the parabola `line + c q(x)`,
+    /// where `q` is `x^2` made orthogonal to the line.
     pub(crate) fn drift(&self, points: &[LogPoint]) -> Option<Trend> {
         let parabola: Vec<LogPoint> =
             points.iter().map(|p| LogPoint { y: square(p.x - self.mean_x), ..*p }).collect();

@@ -3,21 +3,20 @@
 use super::format_number::format_number;
 use super::level::Axis;
 
-/// An order that theory gives, and the range in which the observed one must lie.
+/// A theoretical order, and the range in which the observed order must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrderHypothesis {
     /// The order of the method in theory.
     pub formal_order: f64,
-    /// The range of the observed order; `formal_order` -+ [`OrderHypothesis::TOLERANCE`] if not
-    /// given.
+    /// The range of the observed order; default `formal_order` -+ [`OrderHypothesis::TOLERANCE`].
     pub expected: Option<(f64, f64)>,
     /// Axis of refinement: names the spacing in sentences, changes no figure.
     pub axis: Axis,
 }
 
 impl OrderHypothesis {
-    /// How far the observed order may lie from the formal one if no range is given: a fifth of
-    /// the gap between two methods whose orders differ by a half.
+    /// Maximum distance of the observed order from the formal one without stated range: a fifth of
+    /// the gap between two methods whose orders differ by 0.5.
     pub const TOLERANCE: f64 = 0.1;
 
     /// Maximum width of a range: a wider one could not distinguish neighbouring integer orders.

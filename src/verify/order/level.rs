@@ -44,10 +44,10 @@ pub struct Level {
     pub h: f64,
     /// A norm of the error.
     pub error: f64,
-    /// False for a level that is shown but must not count, for instance because particles
-    /// crossed cells there and the theory does not cover that.
+    /// False for a level that is shown but does not count, for instance because particles crossed
+    /// cells there and the theory does not cover this.
     pub usable: bool,
-    /// Why the run of this level failed, if it did.
+    /// Reason if the run of this level failed.
     pub failed: Option<String>,
 }
 
@@ -69,7 +69,7 @@ impl Level {
         Self { failed: Some(reason.into()), ..self }
     }
 
-    /// Defect that makes this level worthless, usable or not.
+    /// Defect that makes this level invalid, whether it counts or not.
     fn diagnostic(&self, axis: Axis) -> Option<String> {
         let (name, h) = (axis.symbol(), format_number(self.h));
         if let Some(reason) = &self.failed {

@@ -21,7 +21,7 @@ use std::fmt;
 /// Safety factor of the grid-convergence index for three grids (Roache 1998).
 pub const SAFETY_FACTOR: f64 = 1.25;
 
-/// How three values behave under refinement.
+/// Behaviour of three values under refinement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RichardsonClass {
     /// The change shrinks and has a constant sign, as for a positive order.
@@ -59,7 +59,7 @@ impl fmt::Display for RichardsonClass {
 pub struct Richardson {
     /// `(u2 - u3) / (u1 - u2)`, the coarse change over the fine one; `2^p` for halvings.
     pub ratio: f64,
-    /// How the values behave.
+    /// Behaviour of the values.
     pub class: RichardsonClass,
     /// The observed order, only if monotone convergent.
     pub order: Option<f64>,
@@ -96,8 +96,8 @@ impl Richardson {
     }
 }
 
-/// The limit of the ratio for an order of zero, `ln r32 / ln r21`, divides convergence from
-/// divergence; it is one if the spacing shrinks equally.
+/// The limit of the ratio for an order of zero, `ln r32 / ln r21`, separates convergence from
+/// divergence; it is one for equal ratios of spacing.
 fn classify(changes: [f64; 2], ratio: f64, rates: [f64; 2]) -> RichardsonClass {
     let shrinks = rates.iter().all(|rate| rate.is_finite() && *rate > 0.0);
     if !(shrinks && changes.iter().all(|change| change.is_finite())) {

@@ -24,23 +24,23 @@ use super::variance_ratio;
 /// Minimum number of levels for an order: two degrees of freedom remain for the interval.
 pub(crate) const FEWEST_LEVELS: usize = 4;
 
-/// The risk that pure noise makes the window shorter, over all candidates of one step: a tenth of
-/// the 5 % of the confidence interval.
+/// The risk that pure noise shortens the window, over all candidates of one step: a tenth of the 5
+/// % of the confidence interval.
 const SELECTION_RISK: f64 = 0.005;
 
-/// The least departure, in `ln error`, for which a level is dropped: 5 %. Keeps round-off from
-/// choosing the window of noise-free data, where any departure is statistically significant.
+/// Minimum departure, in `ln error`, of a dropped level: 5 %. It prevents round-off from
+/// determining the window of noise-free data, where any departure is statistically significant.
 const MATERIAL: f64 = 0.05;
 
 /// Maximum order that does not count as a fall: over a halving of `h` the error changes by less
 /// than 15 %.
 pub(crate) const FLAT_ORDER: f64 = 0.2;
 
-/// Where the error falls by less than this fraction of the order before (and of the formal
-/// order), it has stopped following the line.
+/// Fraction of the previous order (and of the formal order) below which the error has stopped
+/// following the line.
 const FLOOR_FRACTION: f64 = 0.5;
 
-/// A contiguous run of points and the line through it.
+/// A contiguous range of points and the line through it.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     pub(crate) range: Range<usize>,

@@ -90,7 +90,7 @@ mod tests {
     use super::*;
     use crate::subject::{RunCounters, Samples, Subject};
 
-    /// A state whose step is `a' = a/2 + b, b' = 3 b`, with a third number that `third` gives.
+    /// A state with the step `a' = a/2 + b, b' = 3 b`, and a third number from `third`.
     struct Linear {
         state: Vec<f64>,
         third: fn(f64) -> f64,

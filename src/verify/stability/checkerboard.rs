@@ -1,4 +1,4 @@
-//! How far particles disagree about the pressure: neighbours, and all of them.
+//! Non-uniformity of the pressure: between neighbouring particles, and over all particles.
 
 use crate::subject::Samples;
 
@@ -57,7 +57,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// A row of particles under the given stresses.
+    /// A row of particles with these stresses.
     fn row(stress: &[f64]) -> Samples {
         let n = stress.len();
         Samples {

@@ -9,7 +9,7 @@ use crate::verify::order::format_number::format_number;
 /// Expectation of one row.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StabilityExpectation {
-    /// How the run ends.
+    /// Expected end of the run.
     pub verdict: Option<Stability>,
     /// The limit that is sought.
     pub critical: Option<FigureBounds>,
@@ -17,7 +17,7 @@ pub struct StabilityExpectation {
     pub figures: Vec<(RunFigure, FigureBounds)>,
 }
 
-/// Bounds of a figure; all that are given must hold.
+/// Bounds of a figure; all stated bounds must hold.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FigureBounds {
     /// A value, and the maximum difference of the figure: a share of the value, or of one if that

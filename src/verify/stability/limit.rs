@@ -1,14 +1,14 @@
 //! The smallest value of a parameter that is not stable.
 //!
-//! The range is scanned from below, for stability need not be lost once and for all, and the first
-//! interval that ends unstable is halved until it is short enough.
+//! The range is scanned from below, because stability may be lost and regained. The first interval
+//! with an unstable end is bisected until it is short enough.
 
-/// Where stability ends.
+/// Limit of stability.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StabilityLimit {
     /// The lowest value of the range is not stable.
     Below(f64),
-    /// Stable up to here.
+    /// Stable up to this value.
     At(f64),
     /// Every tested value is stable, up to the end of the range.
     Above(f64),

@@ -24,7 +24,7 @@ pub struct StabilityStudy {
 pub struct StabilityRow {
     /// The value.
     pub value: f64,
-    /// The run, where no limit is sought.
+    /// The run, if no limit is sought.
     pub trial: Option<Trial>,
     /// The limit of the sought parameter, if the study has one.
     pub critical: Option<Critical>,
@@ -32,7 +32,7 @@ pub struct StabilityRow {
     pub refused: Option<String>,
 }
 
-/// Where stability ends, as predicted and as observed.
+/// Limit of stability, predicted and observed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Critical {
     /// From the amplification matrix of a frozen configuration.

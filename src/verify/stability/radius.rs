@@ -10,7 +10,7 @@ const PATIENCE: usize = 1_000;
 /// threshold below some tens of rounding errors is never reached.
 const SMALL: f64 = 1e-13;
 
-/// Squarings of the matrix: powers up to 2^30.
+/// Number of squarings of the matrix: powers up to 2^30.
 const SQUARINGS: i32 = 30;
 
 /// The largest modulus of an eigenvalue.
@@ -69,8 +69,8 @@ fn by_powers(matrix: &DMatrix<f64>) -> f64 {
     libm::exp(logarithm)
 }
 
-/// The matrix times itself, summed in the order of its columns: the product of the library takes
-/// another order, and fused operations, where the processor has wider registers.
+/// The matrix times itself, summed in the order of its columns: the product of the library has
+/// another order, and uses fused operations on processors with wider registers.
 fn square(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let mut square = DMatrix::zeros(matrix.nrows(), matrix.ncols());
     for (mut into, factors) in square.column_iter_mut().zip(matrix.column_iter()) {

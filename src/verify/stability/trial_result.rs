@@ -4,7 +4,7 @@ use crate::named::named;
 use serde::{Deserialize, Serialize};
 
 named! {
-    /// How a run ended.
+    /// End of a run.
     pub enum Stability {
         /// The energy stayed within the range of exchange between its kinds.
         Stable = "stable",
@@ -12,7 +12,7 @@ named! {
         BoundedGrowth = "bounded_growth",
         /// It grew out of all bounds.
         Unstable = "unstable",
-        /// The subject could not go on, or a figure is not finite.
+        /// The subject failed, or a figure is not finite.
         Failed = "failed",
     }
 }
@@ -49,11 +49,11 @@ pub struct Scales {
 /// Results of a run. Figures of a failed run are those up to its last step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
-    /// How it ended.
+    /// End of the run.
     pub verdict: Stability,
     /// Reason if the run did not reach its end: the failure, the particle and the step.
     pub why: Option<String>,
-    /// Steps taken.
+    /// Number of steps.
     pub steps: u64,
     /// The largest energy over that at the start.
     pub energy: f64,
@@ -70,7 +70,7 @@ pub struct Trial {
     /// The largest speed met, over the wave speed.
     pub speed: f64,
     /// Kinetic energy in the null space of the map to the grid, at the end, over the largest
-    /// kinetic energy met; NaN where it is not measured.
+    /// kinetic energy of the run; NaN if it is not measured.
     pub null_share: f64,
     /// The largest kinetic energy met in the null space over the largest kinetic energy met.
     pub largest_null_share: f64,

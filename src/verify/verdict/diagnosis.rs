@@ -87,7 +87,7 @@ pub struct KnownCause {
     pub evidence: String,
     /// Change of the suite that removes the cause; `None` if there is none.
     pub remedy: Option<String>,
-    /// Observed order without the cause, where that was measured.
+    /// Observed order without the cause, if it was measured.
     pub order: Option<Interval>,
     /// Whether the observed order is the one that follows from the cause. Otherwise there is a
     /// larger cause.
@@ -118,7 +118,7 @@ pub struct Diagnosis {
     pub finest_error: f64,
     /// Levels that are run again, by name.
     pub levels: Vec<String>,
-    /// Whether the solver is external, so that its own settings cannot be changed.
+    /// Whether the solver is external, so that its settings cannot be changed.
     pub is_external: bool,
     /// Causes that are known without a change of the method.
     pub findings: Vec<KnownCause>,

@@ -35,10 +35,11 @@ const TURNS: usize = 3;
 
 /// From which point on the error grows, if it does at the fine end.
 ///
-/// From the first, if the line through all points rises with an order below -0.2 and its
-/// confidence interval excludes zero. Otherwise the part judged begins at the smallest error. It
-/// must have at least three levels, grow at least twofold, and either end above the first error
-/// of the series by that factor, or rise over its last two pairs, or have a rising line as above.
+/// The first level, if the line through all points rises with an order below -0.2 and its
+/// confidence interval excludes zero. Otherwise the divergent part begins at the smallest error. It
+/// must have at least three levels and grow at least twofold. It must also end above the first
+/// error of the series by this factor, rise over its last two pairs, or have a rising line as
+/// above.
 pub(crate) fn divergence(points: &[LogPoint]) -> Option<usize> {
     if points.len() < FEWEST_LEVELS {
         return None;
@@ -68,9 +69,9 @@ fn line_rises(part: &[LogPoint]) -> bool {
         .is_some_and(|order| order.value < -FLAT_ORDER && order.high < 0.0)
 }
 
-/// From which point on the error is flat, if it is at the fine end: the longest tail whose errors
-/// lie in a band of a factor of two with an order of less than 0.2, after a part that fell (or
-/// from the first level on). None if the formal order would not have shown there either.
+/// The first point of a flat fine end: the longest tail whose errors lie in a band of a factor of
+/// two with an order of less than 0.2, after a part that fell (or from the first level on). `None`
+/// if even the formal order would have a negligible effect on the tail.
 pub(crate) fn flat_tail(points: &[LogPoint], formal_order: f64) -> Option<usize> {
     let starts = 0..=points.len().checked_sub(FEWEST_OF_TREND)?;
     starts.into_iter().find(|&start| {

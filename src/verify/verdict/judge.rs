@@ -10,7 +10,7 @@
 //! 6. `too good` or `too low` if the order itself is out of the expected range; `converging` if
 //!    the whole interval is inside; `pre-asymptotic` if only the order is.
 //!
-//! Levels that are not usable take part in the first question only.
+//! Levels that are not usable are only used in step 1.
 
 use std::ops::Range;
 
@@ -92,7 +92,7 @@ pub fn judge(levels: &[Level], hypothesis: &OrderHypothesis) -> Judgement {
     }
 }
 
-/// A verdict whose window is still one of points.
+/// A verdict with its window as points.
 struct Finding {
     verdict: Verdict,
     reason: Reason,
@@ -239,7 +239,7 @@ fn settled(
     (verdict, Reason::Against { verdict, range, overlaps })
 }
 
-/// The change of the order along the window, if it is significant and material.
+/// The change of the order along the window; `None` unless it is significant and material.
 fn drift(window: &Window, points: &[LogPoint]) -> Option<f64> {
     let drift = window.line.drift(points)?;
     (drift.p_value < DRIFT_RISK && drift.change.abs() > DRIFT).then_some(drift.change)

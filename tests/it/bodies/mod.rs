@@ -1,4 +1,4 @@
-//! Several bodies on one grid: what they share, what they keep, and how they push each other.
+//! Several bodies on one grid: shared velocities, separate states, and contact.
 
 mod viscosity;
 
@@ -10,7 +10,7 @@ use mpm_verify::mpm::{
 use mpm_verify::subject::{Samples, Start, Subject, Totals};
 use rstest::rstest;
 
-/// The methods, in space only those that take little time.
+/// The methods; in 3-D only fast ones.
 fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     let few = |(basis, transfer): &(BasisName, TransferName)| match transfer {
         TransferName::Flip => matches!(basis, BasisName::Linear | BasisName::ContiguousGimp),
@@ -75,7 +75,7 @@ fn one_body_with_contact_is_its_solver_bit_for_bit(
     in_dimension!(dimension, is_the_solver(scheme, friction));
 }
 
-/// Two bodies that no node sees both of.
+/// Two bodies without common nodes.
 fn do_not_know_each_other<const D: usize>(scheme: SchemeName) {
     for method in coupled_methods(D) {
         let setups = || [[0.6, 1.6], [5.6, 6.4]].map(|ends| part::<D>(method, scheme, ends));
@@ -225,9 +225,9 @@ fn friction_is_a_share_of_the_pressure_and_none_without(
     }
 }
 
-/// Bars of length 1 with rho = c = 1 that run into each other with a velocity v0 each (V14). Until
-/// when they push each other with more than half of rho c v0, and what share of its velocity each
-/// has afterwards. The push is known by the momentum that one of them has.
+/// Bars of length 1 with rho = c = 1 that collide with a velocity v0 each (V14). Returns the end of
+/// the time with a contact force above rho c v0/2, and the share of its velocity that each bar has
+/// afterwards. The force follows from the momentum of one bar.
 fn impact(cells: usize, scheme: SchemeName) -> (f64, f64) {
     let (h, v0) = (1.0 / cells as f64, 1e-3);
     let bar = |from: f64, v: f64| {
@@ -254,10 +254,10 @@ fn impact(cells: usize, scheme: SchemeName) -> (f64, f64) {
     (last, -before / v0)
 }
 
-/// Contact ends when the wave has been to the free ends and back, after 2L/c. In any scheme of
-/// second order the front of that wave is as wide as h^(2/3) once it has gone a long way (Brenner &
-/// Thomee 1971), and so is the error of the contact time: within h/c on grids like these, and
-/// beyond it in the end.
+/// Contact ends when the wave has travelled to the free ends and back, after 2L/c. In any scheme of
+/// second order the width of its front grows like h^(2/3) over a long distance (Brenner & Thomee
+/// 1971), and so does the error of the contact time: within h/c on these grids, but not on much
+/// finer ones.
 #[rstest]
 fn two_bars_part_when_the_wave_is_back(
     #[values(10, 20, 40)] cells: usize,

@@ -1,5 +1,5 @@
-//! `cost`: what accuracy costs on this machine. Seconds differ from run to run; what is asked here
-//! is what does not.
+//! `cost`: the cost of accuracy on this machine. Seconds differ from run to run; the tests only
+//! check what does not.
 
 use super::{BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
 use serde_json::Value;
@@ -62,7 +62,7 @@ fn every_level_has_its_seconds_and_its_work() {
     assert_eq!(works, ["seconds", "transfers"]);
 }
 
-/// With steps of twice its limit a method breaks; its levels are rows.
+/// With steps of twice its limit a method fails; its levels are still rows.
 #[test]
 fn what_breaks_is_a_row() {
     let folder = Folder::with(

@@ -1,4 +1,4 @@
-//! `explain`: the problem, its source, and what is expected and why.
+//! `explain`: the problem, its source, and the expectations with their reasons.
 
 use super::{BAR, Folder, SOUND, assert_contains, refusals};
 use rstest::rstest;

@@ -1,4 +1,4 @@
-//! Suites that expect nothing: what a run says, and the expectations that it would support.
+//! Suites without expectations: the output of a run, and the expectations that it would support.
 
 use super::{BAD_INPUT, BAR, Folder, SOUND, assert_contains};
 use serde_json::Value;

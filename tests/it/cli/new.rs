@@ -1,4 +1,4 @@
-//! `new`: suites that run as they are written.
+//! `new`: suites that run without changes.
 
 use super::{Folder, SOUND, assert_contains, refusals};
 use mpm_verify::mpm::{BasisName, SchemeName, TransferName};

@@ -1,9 +1,9 @@
-//! Refinement plans: which spacing is judged, where a floor comes from, and what `--full` adds.
+//! Refinement plans: the judged spacing, the cause of a floor, and the effect of `--full`.
 
 use super::{BAR, FAILED, Folder, SOUND, assert_contains};
 use serde_json::Value;
 
-/// The bar with another plan and another time step; nothing is expected of the orders here.
+/// The bar with another plan and another time step, without expected orders.
 fn bar(run: &str, refine: &str, expect: &str) -> String {
     let text = BAR
         .replace("run: {until: 0.05, dt: 1e-3}", run)

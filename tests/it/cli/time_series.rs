@@ -111,7 +111,7 @@ fn a_folder_that_cannot_be_written_is_told_before_anything_runs() {
     assert!(errors.starts_with("error: --vtu "), "{errors}");
 }
 
-/// Two dimensions: vectors get a third component, tensors nine in all.
+/// In 2-D vectors are extended to three components, and tensors to nine.
 #[test]
 fn a_problem_has_a_vertex_for_each_particle() {
     let folder = Folder::new();

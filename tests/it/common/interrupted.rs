@@ -18,7 +18,7 @@ fn state(subject: &mut impl Subject) -> Vec<u8> {
     checkpoint.into_bytes()
 }
 
-/// All that is seen of a subject, bit by bit.
+/// All observable state of a subject, as bits.
 fn seen(subject: &mut impl Subject) -> (Vec<u8>, Vec<u8>, Vec<u8>, String) {
     let mut samples = Samples::default();
     subject.sample(&mut samples);

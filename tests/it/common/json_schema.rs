@@ -3,7 +3,7 @@
 
 use serde_json::{Map, Value};
 
-/// Keywords that refuse nothing.
+/// Keywords without constraints.
 const NOTES: [&str; 7] =
     ["$schema", "title", "description", "default", "definitions", "$defs", "format"];
 

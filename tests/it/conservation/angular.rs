@@ -16,7 +16,7 @@ const CELLS: usize = 12;
 const STEPS: usize = 60;
 const DT: f64 = 0.01;
 
-/// A square or cube that turns about its centre at one radian per second.
+/// A square or cube that rotates about its centre at one radian per second.
 fn turning<const D: usize>() -> Particles<D> {
     let side = H * CELLS as f64;
     let centre = Vector::<D>::from_fn(|axis, _| 0.5 * side + 0.01 * axis as f64);

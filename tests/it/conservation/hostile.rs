@@ -1,6 +1,6 @@
-//! Particles as no one would set them up: every method, scheme and material meets every extreme
-//! state in one, two and three dimensions. A step goes on with numbers only, or says which
-//! particle it cannot go on with; it never panics, and never keeps a NaN to itself.
+//! Invalid states of particles: every method, scheme and material meets every extreme state in one,
+//! two and three dimensions. A step ends with finite numbers, or names the particle of the failure;
+//! it never panics, and never hides a NaN.
 
 #[path = "../fuzz_input/scene.rs"]
 mod scene;
@@ -105,7 +105,7 @@ fn meets_every_extreme<const D: usize>() {
             for material in materials() {
                 for (what, spoil) in extremes::<D>() {
                     turn += 1;
-                    // Without a factor in common with the periods of what is chosen by turns.
+                    // A stride without common factor with the periods of the choices.
                     if turn % [1, 7, 13, 61][D] != 0 {
                         continue;
                     }
@@ -127,7 +127,7 @@ fn no_extreme_makes_a_panic_or_a_silent_nan(#[values(1, 2, 3)] dimension: usize)
     in_dimension!(dimension, meets_every_extreme());
 }
 
-/// The culprit is named before it has spread to those that see the same nodes.
+/// The failing particle is named before the failure spreads through common nodes.
 fn names_the_culprit<const D: usize>(value: f64) {
     let start = Start::AtZero;
     for method in every_method() {

@@ -1,4 +1,4 @@
-//! Whole steps of a body that nothing holds.
+//! Whole steps of a free body.
 
 use super::{conservative, some};
 use crate::common::{DT, body, free_body, in_dimension};
@@ -16,7 +16,7 @@ fn momentum<const D: usize>(particles: &Particles<D>) -> Vector<D> {
     particles.v.iter().zip(&particles.mass).map(|(v, m)| v * *m).sum()
 }
 
-/// Sum of |m v|: what round-off in the momentum is measured by.
+/// Sum of |m v|, the scale of round-off in the momentum.
 fn size<const D: usize>(particles: &Particles<D>) -> f64 {
     particles.v.iter().zip(&particles.mass).map(|(v, m)| v.norm() * m).sum()
 }

@@ -115,7 +115,7 @@ fn with(page: &str, of: &str, table: &str) -> String {
     format!("{before}{begin}{table}\n<!-- end -->{after}")
 }
 
-/// The page as it is, and as it should be.
+/// The present page, and the generated page.
 fn page() -> (String, String) {
     let (page, asked) = (std::fs::read_to_string(root().join(PAGE)).expect(PAGE), asked());
     let anew = PARTS.iter().fold(with(&page, "suite", &outcomes(&asked)), |page, part| {

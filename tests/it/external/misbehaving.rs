@@ -6,7 +6,7 @@ use super::program::HELLO;
 use crate::cli::{BAD_INPUT, FAILED, Folder, SOUND};
 use rstest::rstest;
 
-/// A script that is sound until it is asked to advance, and then does `then`.
+/// A script that is correct until it is asked to advance, and then runs `then`.
 fn script(then: &str) -> String {
     format!(
         "read -r m; echo '{HELLO}'\nread -r m || exit 0\ncase \"$m\" in *bye*) exit 0;; esac\n\
@@ -100,7 +100,8 @@ fn what_breaks_the_protocol_fails_and_says_how(#[case] then: &str, #[case] words
     assert!(flat.contains(words), "no `{words}` in\n{said}");
 }
 
-/// A process that reads nothing is found by its silence, however much waits in its pipe.
+/// A process that reads nothing is detected by the response timeout, for any amount of data in its
+/// pipe.
 #[test]
 fn a_process_that_reads_nothing_is_silent() {
     let deaf = format!(

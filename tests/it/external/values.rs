@@ -1,4 +1,4 @@
-//! Values that the harness hands over: constants in the message `problem`, and fields at requested
+//! Values that the harness passes: constants in the message `problem`, and fields at requested
 //! places and times.
 
 use super::program::{HELLO, SECOND_ORDER};
@@ -13,7 +13,7 @@ use mpm_verify::suite::{ConvergencePlan, Suite, embedded};
 use rstest::rstest;
 use serde_json::{Value, json};
 
-/// A body with every load and condition that the protocol hands over.
+/// A body with every load and condition of the protocol.
 const LOADED: &str = r#"suite: loaded
 title: A body with many loads
 source: a test
@@ -65,8 +65,8 @@ fn hello() -> String {
     .to_string()
 }
 
-/// A script that sends `requests` while it is set up, keeps the problem and the answers in the file
-/// `log`, and then breaks off.
+/// A script that sends `requests` during its set-up, stores the problem and the answers in the file
+/// `log`, and then exits.
 fn script(requests: &[Value]) -> String {
     let ask = |request: &Value| format!("echo '{request}'; read -r m; echo \"$m\" >>log\n");
     let ask: String = requests.iter().map(ask).collect();
@@ -304,7 +304,7 @@ fn a_pressure_on_a_rim_is_handed_over() {
     assert!(reason.contains("is not on the inner rim, whose radius is 1 m"), "{reason}");
 }
 
-/// The first state of a solver with points of its own is the initial state there.
+/// The first state of a solver with its own sample points is the initial state there.
 #[test]
 fn points_start_in_the_initial_state() {
     let folder = Folder::new();
@@ -411,7 +411,7 @@ fn fails(script: &str, reason: &str) {
     assert!(flat.contains("explored short-bar::odd converging"), "{}", found.out);
 }
 
-/// A solver of version 1 is not given what only version 2 has in numbers.
+/// A solver of version 1 does not receive loads and conditions whose numbers only version 2 passes.
 #[test]
 fn version_1_lacks_loads_and_conditions_with_numbers() {
     let folder = Folder::new();
@@ -451,7 +451,7 @@ fn a_check_lists_what_a_solver_can_take() {
     assert!(found.out.ends_with(&quiet.out), "{}", found.out);
 }
 
-/// A name that means nothing is reported by every command, and where it is lacking.
+/// An unknown name is reported by every command, and in the list of missing capabilities.
 #[rstest]
 #[case::check("check", SOUND)]
 #[case::run("run", 1)]

@@ -1,4 +1,4 @@
-//! Three values and what they say.
+//! Tests of Richardson extrapolation from three values.
 
 use approx::assert_relative_eq;
 use rstest::rstest;

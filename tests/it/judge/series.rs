@@ -1,4 +1,4 @@
-//! Synthetic series and the verdict that each must get.
+//! Synthetic series with their expected verdicts.
 
 use approx::assert_abs_diff_eq;
 use rstest::rstest;

@@ -80,7 +80,7 @@ fn read(text: &str) -> Vec<Level> {
     levels
 }
 
-/// Displacement, velocity, stress and F - I of all particles; the last is empty if nothing in the
+/// Displacement, velocity, stress and F - I of all particles; the last is empty if no part of the
 /// solver reads F.
 fn fields(samples: &Samples) -> [Vec<f64>; 4] {
     let Samples { displacement, velocity, stress, deformation_gradient, .. } = samples;

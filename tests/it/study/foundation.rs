@@ -6,9 +6,9 @@ use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::{CaseOutcome, LevelOutcome};
 use rstest::rstest;
 
-/// A free bar that springs pull back as a whole, in six steps of 1/w. The leapfrog of an oscillator
-/// turns by 2 asin(w dt/2) in a step, here by 60 degrees: after six it is back where it was, while
-/// the exact one has turned by 6 radians.
+/// A free bar on springs that act on its whole displacement, in six steps of 1/w. The leapfrog of
+/// an oscillator advances the phase by 2 asin(w dt/2) per step, here by 60 degrees: after six steps
+/// it is back at its start, while the exact phase has advanced by 6 radians.
 const FREE: &str = r#"suite: free
 title: Free bar
 source: a test

@@ -206,7 +206,7 @@ fn a_loaded_face_inside_a_cell_is_noted() {
     assert!(found.is_empty(), "{found:#?}");
 }
 
-/// The suite of a linearised wave leaves 2e-6 of its terms, for which it allows 5e-6.
+/// The suite of a linearised wave has a residual of 2e-6, and allows 5e-6.
 #[rstest]
 #[case::at_a_strain_that_will_show(
     &[("eps: 1e-6", "eps: 1e-4"), ("5e-6", "5e-4")],
@@ -260,8 +260,8 @@ fn a_stiff_body_follows_what_a_linearised_solution_leaves() {
     assert!((2e-5..100.0 * 2e-5).contains(&error), "{error:e}");
 }
 
-/// Errors that remain on fine grids (m): of the bar that settles under its weight by theory, and of
-/// the others measured in runs with 384 or 512 cells.
+/// Errors that remain on fine grids (m): by theory for the bar that settles under its weight, and
+/// measured in runs with 384 or 512 cells for the others.
 #[rstest]
 #[case::a_bar_that_settles(settling_bar(), 3.2e-8)]
 #[case::a_column_of_large_amplitude(embedded_text("acoustic-column-amplitude"), 2.026e-6)]

@@ -42,7 +42,7 @@ impl Heading {
         Self { lines: wrap(title, 1.12 * TITLE, width - 2.0 * LEFT, LINES), width }
     }
 
-    /// Where the figure below may begin (px).
+    /// Vertical position (px) at which the figure below may begin.
     pub(crate) fn bottom(&self) -> f64 {
         TOP + LEADING * self.lines.len() as f64
     }
@@ -79,7 +79,7 @@ fn advance(c: char) -> f64 {
     }
 }
 
-/// Cuts `text` to `limit` pixels, with an ellipsis where something is missing.
+/// Shortens `text` to `limit` pixels, with an ellipsis for removed text.
 pub(crate) fn shorten(text: &str, size: f64, limit: f64) -> String {
     if text_width(text, size) <= limit {
         return text.to_owned();

@@ -54,7 +54,7 @@ const MAJOR: f64 = 6.0;
 const MINOR: f64 = 3.0;
 
 impl<'a> Plot<'a> {
-    /// Lays the frame out so that titles and tick labels have their place around it.
+    /// Computes the layout of the frame with space for titles and tick labels around it.
     pub(crate) fn new(titles: Titles<'a>, x: Scale, y: Scale) -> Self {
         let heading = Heading::new(titles.title, WIDTH);
         let y = PlotAxis::new(y, FRAME_HEIGHT, |_| TEXT + 10.0);

@@ -1,6 +1,6 @@
 //! Sizes, colours, and the marks that distinguish series.
 
-/// Width of a figure in pixels: on a narrow screen its texts still have 9 pixels.
+/// Width of a figure in pixels, so that texts still have 9 pixels on a narrow screen.
 pub(crate) const WIDTH: f64 = 440.0;
 /// Height of the frame around the data in pixels.
 pub(crate) const FRAME_HEIGHT: f64 = 256.0;

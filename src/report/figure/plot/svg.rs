@@ -108,7 +108,7 @@ impl SvgElement {
     }
 }
 
-/// A coordinate with two decimals; a negative zero would make equal figures differ in bytes.
+/// A coordinate with two decimals, without negative zero: equal figures must have equal bytes.
 pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     if text == "-0.00" { "0.00".to_owned() } else { text }

@@ -17,7 +17,8 @@ struct Triangle {
 }
 
 impl Triangle {
-    /// Whether the triangle is neither too flat nor too narrow. Sides that are not numbers are.
+    /// Whether the triangle is neither too flat nor too narrow; false for sides that are not
+    /// finite.
     fn is_drawn(&self) -> bool {
         self.run >= SHORTEST && self.rise >= SHORTEST
     }
@@ -79,8 +80,8 @@ impl TriangleRow {
     /// Share of the frame that must be free below the data so that triangles do not touch `paths`.
     /// `plot` is drawn with `pad` at the ends of its vertical axis; `paths` are its pixels.
     ///
-    /// A wider strip compresses the data, and triangles of the new axis are lower. A triangle that
-    /// is too narrow now may then be drawn, so that all heights count.
+    /// A wider strip compresses the data, so that the triangles become lower. A triangle that is
+    /// too narrow now may then be drawn, so that all heights count.
     pub(crate) fn strip(&self, plot: &Plot, paths: &[Vec<Pt>], pad: Pad) -> f64 {
         let highest = self.triangles.iter().map(|t| t.rise).fold(0.0, f64::max);
         let left = plot.frame.right() - self.widest - CLEAR;

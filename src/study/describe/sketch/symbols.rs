@@ -12,11 +12,11 @@ use crate::suite::scene::load::{ListedLoad, LoadTarget};
 const STEP: f64 = 9.0;
 const ARROW_STEP: f64 = 26.0;
 
-/// How far symbols reach out from a face.
+/// Distance by which symbols extend from a face.
 const REACH: f64 = 8.0;
 const ARROW: f64 = 20.0;
 
-/// Share of a traction along the normal below which it is one along the face.
+/// Normal share of a traction below which it is drawn along the face.
 const ALONG: f64 = 0.3;
 
 /// A face on the canvas: its ends, and the direction out of the body.
@@ -213,7 +213,7 @@ pub(super) fn direction(at: impl Fn(f64) -> Pt) -> Option<Pt> {
     size.is_finite().then(|| (x / size, -y / size))
 }
 
-/// The stated velocities of a body at the start, where they are not zero.
+/// The stated initial velocities of a body, if they are not zero.
 pub(super) fn initial_velocity(view: &View, body: &Scene) -> SvgElement {
     let (low, high) = view.rise(body);
     let rows = if body.dimension() == 1 { 1 } else { PER_AXIS };

@@ -1,4 +1,4 @@
-//! The part of the plane that a sketch shows, and where a place lies on the canvas.
+//! The part of the plane in a sketch, and its map to the canvas.
 
 use crate::report::figure::plot::style::WIDTH;
 use crate::report::figure::plot::svg::Pt;

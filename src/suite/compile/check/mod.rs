@@ -125,7 +125,7 @@ fn refuse_fem_without(
     }
 }
 
-/// Refuses to judge a quantity that the reference FEM does not give.
+/// Refuses to judge a quantity that the reference FEM does not compute.
 pub(crate) fn refuse_quantity_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

@@ -1,4 +1,4 @@
-//! Time steps that runs can take.
+//! Checks that time steps are usable.
 
 use super::size::LevelPaths;
 use crate::suite::evaluator::{Evaluator, shown};

@@ -229,7 +229,7 @@ fn solver_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<Str
     Err(diagnostic.with_label(&label))
 }
 
-/// The order that theory gives a solver: two, unless it is stated.
+/// The theoretical order of a solver: two by default.
 fn stated_order(
     evaluator: &Evaluator<'_>,
     path: &Path,

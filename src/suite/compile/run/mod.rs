@@ -1,5 +1,4 @@
-//! The run: levels, time steps and methods, and the cases that they make: the product of everything
-//! that a suite gives as a list.
+//! The run: levels, time steps and methods, and the cases: the product of all lists of a suite.
 
 pub(crate) mod methods;
 pub(crate) mod places;
@@ -150,7 +149,7 @@ fn combined(
     })
 }
 
-/// Refuses a product of lists that is too long, before it is unfolded.
+/// Refuses a product of lists that is too long, before it is computed.
 fn few(
     evaluator: &Evaluator<'_>,
     path: &Path,

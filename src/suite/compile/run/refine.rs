@@ -1,5 +1,5 @@
-//! The refinement plan of a suite: the key that holds a list is refined. Time steps are stated, or
-//! follow from a rule: a share of the stable time step.
+//! The refinement plan of a suite: the key with a list is refined. Time steps are stated, or
+//! automatic: a share of the stable time step.
 
 use crate::exact::formula::Formula;
 use crate::suite::compile::check::size::LevelPaths;
@@ -200,7 +200,7 @@ fn steps(
     texts.into_iter().map(bind).collect()
 }
 
-/// The share that `auto` takes.
+/// The share for `auto`.
 const AUTO: f64 = 0.5;
 
 /// The share of the stable time step that `spec` at `path` states, if the step is automatic.

@@ -44,7 +44,7 @@ fn refuse_face_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Resul
     Err(evaluator.diagnostic_at_key(path, &message).with_help("give the set another name"))
 }
 
-/// A set must have a part of the body of some extent.
+/// A set must contain a part of the body.
 fn refuse_outside(
     evaluator: &Evaluator<'_>,
     path: &Path,

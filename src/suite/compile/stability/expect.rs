@@ -76,7 +76,7 @@ fn row(
     })
 }
 
-/// Refuses to expect a limit that is not sought, or the outcome of a run that is not made.
+/// Refuses to expect a limit that is not sought, or the result of a run that does not exist.
 fn refuse_idle(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -192,7 +192,7 @@ fn refuse_methods_without_heat(
 
 /// Inputs of a heat problem in addition to the scene.
 pub(crate) struct ConductionInputs {
-    /// How the body deforms.
+    /// Deformation of the body.
     pub(crate) motion: Option<Motion>,
     /// Whether the source follows from the temperature.
     pub(crate) manufactured: bool,

@@ -31,7 +31,7 @@ pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Resul
     Err(diagnostic.with_help("state a solution under `exact`, or bound what the run keeps"))
 }
 
-/// Checks the `problems` of all bodies of a scene, each by `check`, and the faces where they meet.
+/// Checks the `problems` of all bodies of a scene with `check`, and the faces between them.
 ///
 /// # Errors
 /// A diagnostic of `check`, or of a violation by `diagnostic`; and one about bodies for which no

@@ -1,4 +1,4 @@
-//! How well a stated solution must meet its problem, and how well one that is linearised.
+//! Tolerances of stated solutions, and of linearised ones.
 
 use crate::exact::{Linearised, Problem, Violation};
 use crate::suite::evaluator::Evaluator;
@@ -72,7 +72,7 @@ pub(crate) fn violated(
 /// Largest relative residual that may be a matter of rounding or of a series that was cut off.
 const ROUNDING: f64 = 1e-5;
 
-/// How to accept a violation that is small, for a solution with a `tolerance`.
+/// Advice on how to accept a small violation, for a solution with a `tolerance`.
 pub(crate) fn if_rounded(violation: &Violation, tolerance: f64) -> String {
     match violation.accepted_by(tolerance) {
         Some(accepted) if accepted <= ROUNDING => format!(

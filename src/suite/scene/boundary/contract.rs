@@ -17,7 +17,7 @@ pub(crate) trait BoundaryKeys {
     /// The first error in its keys.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic>;
 
-    /// Whether the face is one and the same with the opposite one.
+    /// Whether the face coincides with the opposite one.
     fn is_periodic(&self) -> bool {
         false
     }
@@ -34,7 +34,8 @@ impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
     }
 }
 
-/// Where a condition on a face is compiled: its place in the file, and the dimension of the scene.
+/// Context of the compilation of a condition on a face: its path in the file, and the dimension of
+/// the scene.
 pub(crate) struct FaceEntry<'a> {
     pub(crate) evaluator: &'a Evaluator<'a>,
     /// Path of its value.
@@ -106,7 +107,7 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         false
     }
 
-    /// Whether the face is one and the same with the opposite one.
+    /// Whether the face coincides with the opposite one.
     fn is_periodic(&self) -> bool {
         false
     }
@@ -121,7 +122,7 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         false
     }
 
-    /// Whether the face can but stay where the grid ends.
+    /// Whether the face cannot move away from the end of the grid.
     fn stays(&self) -> bool {
         false
     }
@@ -136,7 +137,7 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         false
     }
 
-    /// Why it cannot hold a scene of several bodies, if it cannot.
+    /// Why it cannot be used with several bodies; `None` if it can.
     fn against_several_bodies(&self) -> Option<&'static str> {
         None
     }

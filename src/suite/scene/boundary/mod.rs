@@ -66,6 +66,6 @@ conditions! {
     Friction = "friction" of friction::FrictionSpec;
     /// State equal to that of the opposite face.
     Periodic = "periodic" is periodic::PeriodicFace;
-    /// A given velocity (m/s), formulas of the coordinates and t.
+    /// Prescribed velocity (m/s), formulas of the coordinates and t.
     Velocity = "velocity" of velocity::VelocitySpec;
 }

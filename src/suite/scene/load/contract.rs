@@ -71,7 +71,7 @@ pub(crate) enum LoadTarget {
 }
 
 impl LoadTarget {
-    /// The number of the face, if the load acts on one.
+    /// The number of the face, if the load acts on a face.
     pub(crate) fn face(self) -> Option<usize> {
         match self {
             Self::Face(number) => Some(number),
@@ -123,7 +123,7 @@ in_every_dimension! {
 
 /// A load or effect that a scene lists, with every number computed.
 pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
-    /// Where it acts.
+    /// Part of the scene on which it acts.
     fn target(&self) -> LoadTarget {
         LoadTarget::Body
     }
@@ -153,7 +153,7 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
         Vec::new()
     }
 
-    /// The conduction, if the load is one.
+    /// The conduction; `None` for other loads.
     fn heat(&self) -> Option<&SceneHeat> {
         None
     }

@@ -46,7 +46,7 @@ pub(crate) trait LoadKeys {
         None
     }
 
-    /// Why the load does not go with a body in this state across its plane, if it does not.
+    /// Why the load is invalid in a body with this state across its plane; `None` if it is valid.
     fn against_plane(&self, _: PlaneState) -> Option<&'static str> {
         None
     }
@@ -66,13 +66,14 @@ pub(crate) trait LoadKeys {
         self.face().is_some()
     }
 
-    /// Whether the load makes sense in a body that does not move at all.
+    /// Whether the load is valid in a body that does not move.
     fn acts_at_rest(&self) -> bool {
         false
     }
 }
 
-/// Where a load is compiled: its place in the file, and the scene with the loads before it.
+/// Context of the compilation of a load: its path in the file, and the scene with the previous
+/// loads.
 pub(crate) struct LoadEntry<'a> {
     pub(crate) evaluator: &'a Evaluator<'a>,
     pub(crate) effect: EffectName,
@@ -136,7 +137,7 @@ impl LoadEntry<'_> {
         self.evaluator.formula(path, text, &coordinates_and_time(self.dimension()))
     }
 
-    /// The face called `name`, which is free and takes the load.
+    /// The free face named `name`, for a load.
     pub(crate) fn free_face(&self, name: &str) -> Result<LoadedFace, Diagnostic> {
         let Self { evaluator, scene, .. } = self;
         let path = self.path.then("on");

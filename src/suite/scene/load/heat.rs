@@ -154,7 +154,7 @@ fn initial<const D: usize>(
     }
 }
 
-/// The source as the scene states it.
+/// The source as stated in the scene.
 fn stated<const D: usize>(formula: &Formula) -> HeatSource<D> {
     let formula = formula.clone();
     Box::new(move |t, particles, into| {

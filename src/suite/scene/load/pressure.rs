@@ -22,8 +22,7 @@ pub(crate) struct PressureSpec {
     on: String,
     /// Pressure (Pa), a formula of the coordinates and `t`.
     value: NumberText,
-    /// Where it acts on a face; at the outermost particles unless stated. On a rim it acts at the
-    /// surface.
+    /// Point of action on a face; by default at the outermost particles. On a rim it is the surface.
     at: Option<Placement>,
 }
 
@@ -79,7 +78,7 @@ impl Term for PressureLoad {
     }
 }
 
-/// `P n = -p J F^-T n`: it stays normal to the moving face.
+/// `P n = -p J F^-T n`: it is normal to the moving face.
 impl Condition for PressureLoad {
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
         let (p, area) = (point.value(&self.value), point.present_area());

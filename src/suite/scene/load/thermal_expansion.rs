@@ -1,4 +1,4 @@
-//! Thermal expansion: strain that temperature makes.
+//! Thermal expansion: strain due to temperature.
 
 use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};

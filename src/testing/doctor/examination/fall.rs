@@ -156,7 +156,7 @@ pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, Strin
     ("gravity-scaled", cause.to_owned())
 }
 
-/// Positions that are not g t^2/2, where velocities have no defect.
+/// Finding on positions other than g t^2/2, if velocities have no defect.
 fn of_distance(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
     let (last, dt, axis) = (course.last(), course.problem.dt, course.problem.dimension - 1);
     let end = course.times[last];

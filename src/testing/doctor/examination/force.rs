@@ -242,7 +242,8 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     ))
 }
 
-/// A force that grows along X, so that each point has a different one after one step.
+/// Finding with a force that grows along X, so that each point has a different force after one
+/// step.
 fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     let (mut x, mut v, mut across) = (Vec::new(), Vec::new(), 0.0_f64);
     for (label, speed) in course.points(velocity, 1) {

@@ -123,7 +123,7 @@ fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFindi
     let courses = patient.run_all(&[scene.clone(), scene.soft()])?;
     let impulse = |course: &Course| impulses(course, &scene, 0, 0)[course.last()];
     let d = scene.dimension;
-    // The first Piola stress along the stretch by Simpson's rule: J = F_00, so that P_00 is
+    // The first Piola stress along the stretch by Simpson's rule: J = F_00, so that P_00 equals
     // sigma_00.
     let mut expected = 0.0;
     for (share, weight) in [(0.0, 1.0), (0.25, 4.0), (0.5, 2.0), (0.75, 4.0), (1.0, 1.0)] {
@@ -183,7 +183,7 @@ fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
     let mut f = vec![0.0; d * d];
     for i in 0..d {
         for j in 0..d {
-            // Points lie evenly about the centre, so that axes do not mix.
+            // Points are symmetric about the centre, so that axes do not mix.
             let slope: f64 = points.iter().map(|(x, u)| x[j] * u[i]).sum();
             let squares: f64 = points.iter().map(|(x, _)| x[j] * x[j]).sum();
             f[i * d + j] = f64::from(u8::from(i == j)) + slope / squares;

@@ -1,4 +1,4 @@
-//! A body at rest, without stress and loads, which stays where it is.
+//! Examination of a body at rest without stress and loads, which must not move.
 
 use crate::subject::Precision;
 use crate::testing::doctor::course::{

@@ -253,7 +253,7 @@ fn cause(
         // error.
         None => stretch.later > 0.65 * stretch.first,
     };
-    // Shares: FLIP may take the place of a part of the averaging of any basis.
+    // Shares: FLIP may replace a part of the averaging of any basis.
     let is_blend = averaging.iter().any(|l| {
         let share = stretch.first / l.first;
         let decay = 1.0 - share * (1.0 - l.later / l.first);

@@ -15,7 +15,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Powers of two, so that not even rounding changes.
+/// Powers of two, so that even rounding does not change.
 const THOUSANDTH: f64 = 1.0 / 1024.0;
 const TINY: f64 = THOUSANDTH * THOUSANDTH * THOUSANDTH * THOUSANDTH;
 

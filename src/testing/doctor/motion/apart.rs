@@ -53,8 +53,8 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
         return Ok(None);
     }
     let again = UniformMotion { course, scene: &halved, ..*motion };
-    // At the end of the first step, before losses saturate. A drag takes the same in twice the
-    // steps, and weights take twice as much: the limit lies in the middle.
+    // At the end of the first step, before losses saturate. With twice the number of steps a drag
+    // loses the same, and weights lose twice as much: the limit is in the middle.
     let (once, twice) = (lost(motion, 1), lost(&again, 2));
     let is_noise = !(once.1 * scene.steps as f64 > motion.patient.rounding());
     if is_noise || !((twice.1 / once.1).max(once.1 / twice.1) <= SQRT_2) {
@@ -155,7 +155,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let first = (1..=course.last()).find(crosses)?;
     let error = |k| motion.way_off(k) / (size(motion.velocity) * course.times[course.last()]);
     let (before, at) = (first.checked_sub(1).map(error)?, error(course.last()));
-    // Two steps that were right tell that it is not the steps as such.
+    // Two correct steps show that the steps themselves are not the cause.
     if first < 3 || !(before <= 1e-4 * at && at > 10.0 * motion.patient.rounding()) {
         return None;
     }
@@ -176,7 +176,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     ))
 }
 
-/// An error that begins at the rim alone.
+/// Finding on an error that begins at the rim only.
 fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
     let whole = size(v) * course.times[course.last()];

@@ -48,7 +48,7 @@ struct Client {
     f: Vec<[f64; 4]>,
     sigma: Vec<[f64; 4]>,
     steps: u64,
-    /// Number of the run among those of the maker.
+    /// Number of this run of the factory.
     run: u32,
 }
 

@@ -1,4 +1,4 @@
-//! The doctor: each defect of a small client is named, and nothing else is.
+//! The doctor: each defect of a small client is reported, without false positives.
 
 mod client;
 mod defect;

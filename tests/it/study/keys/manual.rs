@@ -15,7 +15,7 @@ const BESIDES: [&str; 4] = ["expect.full", "refine.full", "parameters.by", "para
 /// Maximum number of characters of a quotation.
 const LONGEST: usize = 70;
 
-/// A key with the names that may stand under it.
+/// The allowed names of each key.
 pub(super) type Names = BTreeMap<String, BTreeSet<String>>;
 
 /// Quotations by key: the text and the file.
@@ -52,7 +52,7 @@ fn add(study: &str, path: &str, node: &Node, keys: &mut Names) {
     }
 }
 
-/// Suites with the files that show them: those of the repository, and those on the pages.
+/// Suites with their files: those of the repository, and those on pages.
 fn suites() -> Vec<(String, Value)> {
     let files = mpm_verify::suite::yaml::Source::files_in(&root().join("verification"));
     let read = |file: PathBuf| {
@@ -72,7 +72,7 @@ fn suites() -> Vec<(String, Value)> {
     parsed.collect()
 }
 
-/// Of each key a list or a map that a suite says, or else a number or a word: the shortest.
+/// For each key the shortest value in a suite: a list or a map, or else a number or a name.
 pub(super) fn quotations(grammars: &[(&str, Node)]) -> Quotations {
     let mut found = Quotations::new();
     for (file, suite) in suites() {
@@ -125,7 +125,7 @@ fn quote(
     }
 }
 
-/// Whether the author names what stands under a key.
+/// Whether the author chooses the sub-keys of a key.
 fn is_of_author(path: &str) -> bool {
     ["parameters", "functions"].contains(&path)
 }
@@ -159,7 +159,7 @@ pub(super) fn pages() -> Vec<(PathBuf, String)> {
     pages.into_iter().map(read).collect()
 }
 
-/// Key and row, of a line that is the row of a key.
+/// Key and row, for a line that is the row of a key.
 fn row(line: &str) -> Option<(&str, &str)> {
     let (key, rest) = line.strip_prefix("| `")?.split_once("` | ")?;
     (rest.matches(" | ").count() >= 2 && rest.ends_with('|')).then_some((key, rest))

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 const BEGIN: &str = "<!-- written by ci/keys -->\n";
 const END: &str = "<!-- end -->";
 
-/// Predicted seconds of a suite in the sample, and which of such rows are of it.
+/// Maximum predicted time (s) of a suite in the sample, and the stride of the sample.
 const QUICK: f64 = 0.015;
 const EVERY: usize = 4;
 
@@ -17,7 +17,7 @@ const EVERY: usize = 4;
 pub(super) struct Line {
     /// Suites that use it.
     suites: usize,
-    /// The smallest change that is noticed, empty if none is.
+    /// The smallest change that is noticed; empty if no change is.
     pub(super) least: String,
     gate: String,
     /// Suite and case.
@@ -27,7 +27,7 @@ pub(super) struct Line {
     pub(super) reason: String,
 }
 
-/// Names that may stand under a key, with the number of suites and the reason that the table gives.
+/// Allowed names of a key, with the number of suites and the reason in the table.
 pub(super) type Names = BTreeMap<(String, String), (usize, String)>;
 
 /// A row of the sample.
@@ -85,7 +85,7 @@ pub(super) fn names() -> Names {
     rows().into_iter().flat_map(of_row).collect()
 }
 
-/// Every so many-th number that a quick suite notices.
+/// A subset of the numbers that a quick suite notices.
 pub(super) fn sample() -> Vec<Sampled> {
     let known = [1.01, 1.001, 1.0001].map(Change::Times).map(|change| (change.shown(), change));
     let quick = numbers().into_iter().filter_map(|(key, line)| {

@@ -67,7 +67,7 @@ pub(crate) fn shape<'a>(
     }
 }
 
-/// Rims are free: a scene cannot hold them, and only some loads act on those of round bodies.
+/// Rims are free: a scene has no conditions on them, and only some loads act on round rims.
 ///
 /// # Errors
 /// A diagnostic of the first condition or load on a rim.

@@ -1,13 +1,13 @@
 //! Stresses by the momentum that flows through the middle of a body.
 //!
-//! The columns `stress` and `deformation_gradient` of a solver that gives them.
+//! The columns `stress` and `deformation_gradient` of a solver that reports them.
 
 use crate::testing::doctor::course::{AffineField, Course, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::{BoxScene, H, Kind};
 
 /// Rates of stretch along the first axis and of shear (1/s): strains stay below 1e-3. The body is
-/// compressed, as artificial viscosities act in compression only.
+/// compressed, because artificial viscosities act in compression only.
 pub(super) const STRETCH: f64 = -5e-3;
 pub(super) const SHEAR: f64 = 4e-3;
 
@@ -145,8 +145,8 @@ pub(in crate::testing::doctor) fn impulses(
 /// Maximum relative difference of a column: it may be one step old, and waves are near.
 pub(super) const NEAR: f64 = 0.2;
 
-/// Ratio of the growth of the column `stress` along the stretch to its expected value; `None` if
-/// the column is not given.
+/// Ratio of the growth of the column `stress` along the stretch to its expected value; `None`
+/// without this column.
 pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
     let (lambda, mu) = scene.lame();
@@ -191,7 +191,7 @@ pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> 
     found
 }
 
-/// Mean of a tensor within a cell of the middle; `None` if the column is not given.
+/// Mean of a tensor within one cell of the middle; `None` without this column.
 pub(in crate::testing::doctor) fn inside(
     course: &Course,
     scene: &BoxScene,
@@ -203,8 +203,8 @@ pub(in crate::testing::doctor) fn inside(
     })
 }
 
-/// Mean of a tensor (`d * d` numbers per point) over points whose label `is_near`; `None` if the
-/// column is not given, NaN without such points.
+/// Mean of a tensor (`d * d` numbers per point) over points whose label `is_near`; `None` without
+/// this column, NaN without such points.
 pub(in crate::testing::doctor) fn mean_tensor(
     course: &Course,
     column: &[f64],

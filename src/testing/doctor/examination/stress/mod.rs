@@ -34,7 +34,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Examines every dimension that the solver can take, until one has findings.
+/// Examines every dimension that the solver supports, until one has findings.
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let first = patient.able(&[2, 3, 1], &ELASTIC, &spreading)?;
     let mut all = Examined::default();

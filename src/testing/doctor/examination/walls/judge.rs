@@ -15,26 +15,26 @@ const NONE: f64 = 0.2;
 /// Force below which the wall counts as missing.
 const ABSENT: f64 = 0.1;
 
-/// Difference of the forces of walls that are mirror images, or that differ in their hold along
-/// the wall only.
+/// Maximum relative difference of the forces of walls that are mirror images, or that differ in
+/// their condition along the wall only.
 const UNEVEN: f64 = 0.05;
 
 /// Displacement of a body through the wall that counts as no wall, over that of a free body in the
 /// time of one cell.
 const THROUGH: f64 = 0.8;
 
-/// Relative error of the force under gravity, which begins smoothly: averaging (PIC) with cubic
-/// functions makes it 0.15.
+/// Maximum relative error of the force under gravity, which begins smoothly: averaging (PIC) with
+/// cubic functions has 0.15.
 const SMOOTH: f64 = 0.2;
 
 /// Part of the weight of a cell that may be missing in the force of a wall under gravity.
 const WEIGHT: f64 = 0.3;
 
-/// Part of the weight of a cell that may be too much in that force: averaging (PIC) makes it 0.14.
+/// Maximum excess of this force, as a share of the weight of a cell: averaging (PIC) has 0.14.
 const CARRIED: f64 = 0.4;
 
-/// Error of displacements in an even stretch: sound clients have up to 0.04 with quadratic
-/// functions that are modified at the wall, functions cut at the wall 0.07 or more.
+/// Maximum error of displacements in a uniform stretch: correct clients have up to 0.04 with
+/// quadratic functions that are modified at the wall, functions cut at the wall 0.07 or more.
 const STRETCH: f64 = 0.05;
 
 /// Kinds of findings; those that explain others come first.

@@ -21,14 +21,14 @@ const STRETCH_TRAVEL: f64 = 4.0;
 const STRETCH_STEPS: u64 = 16;
 const STRETCH_RATE: f64 = 1e-4;
 
-/// Gravity (m/s2): the speed that it gives in the run is of that order.
+/// Gravity (m/s2), which gives a speed of this order in the run.
 const GRAVITY: f64 = 1e-3;
 
 /// Displacement into a wall, over g t times the time of one cell, that is examined with half the
 /// step.
 pub(super) const SUNK: f64 = 0.1;
 
-/// One wall, as the runs show it: `None` where no run does.
+/// Results of the runs for one wall; `None` if no run shows the figure.
 #[derive(Debug, Clone)]
 pub(super) struct Wall {
     pub(super) face: &'static str,
@@ -86,8 +86,8 @@ pub(super) fn bar(kind: Kind, axis: usize, condition: &'static str) -> BoxScene 
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// Both walls across `axis`: the bar is thrown, moves along the wall, and falls. On the first axis
-/// it is thrown both ways.
+/// Both walls across `axis`: the bar has an initial velocity, moves along the wall, and falls. On
+/// the first axis the velocity has both signs.
 pub(super) fn walls_across(
     patient: &Patient<'_>,
     kind: Kind,
@@ -195,7 +195,7 @@ fn stretch_errors(
             let error = (-end.sign() * u[axis] - strain * depth) / (strain * H);
             (depth <= 2.0 * H).then_some(error)
         });
-        // The larger one; NaN stays.
+        // The larger one; NaN propagates.
         errors.fold(0.0, |largest: f64, error| {
             if largest.is_nan() || error.abs() <= largest.abs() { largest } else { error }
         })
@@ -295,7 +295,7 @@ impl BarEnd {
         [constant / (scene.h * GRAVITY), rate / (c * GRAVITY)]
     }
 
-    /// Mean normal stress (Pa) within two cells of the wall at the end, if the solver gives the
+    /// Mean normal stress (Pa) within two cells of the wall at the end, if the solver reports the
     /// column.
     fn stress_column(self, course: &Course, scene: &BoxScene) -> Option<f64> {
         let d = scene.dimension;
