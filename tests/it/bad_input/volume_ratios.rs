@@ -1,0 +1,119 @@
+//! Averaged volume ratios, where they mean nothing.
+
+use super::samples::BAR;
+use super::{Edits, load, refused};
+use rstest::rstest;
+
+const SHEARS: &str =
+    include_str!("../../../verification/equilibrium/two-shears-nearly-incompressible.yaml");
+const COLUMN: &str =
+    include_str!("../../../verification/plasticity-and-fluids/acoustic-column-amplitude.yaml");
+const WAVE: &str =
+    include_str!("../../../verification/axisymmetry-and-plane-stress/plane-stress-wave.yaml");
+const PANEL: &str = include_str!("../../../verification/equilibrium/cooks-membrane-averaged.yaml");
+
+const BASES: &str = "- mpm: {basis: [linear, cpdi]";
+const LAW: &str = "neo_hookean: {young: E, poisson: nu, density: rho}";
+
+#[test]
+fn sound() {
+    for text in [SHEARS, PANEL] {
+        if let Err(diagnostic) = load(text) {
+            panic!("{diagnostic}");
+        }
+    }
+}
+
+#[rstest]
+#[case::of_no_known_name(
+    &[("volume: [particle, averaged]", "volume: ▸average")],
+    &["unknown name `average`", "did you mean `averaged`?"]
+)]
+#[case::of_a_name_unlike_any(
+    &[("volume: [particle, averaged]", "volume: ▸cells")],
+    &["unknown name `cells`", "`particle`", "`averaged`"]
+)]
+#[case::that_are_a_number(
+    &[("volume: [particle, averaged]", "volume: ▸2")],
+    &["expected"]
+)]
+#[case::in_the_reference_configuration(
+    &[(BASES, "- ▸mpm: {basis: linear, frame: total_lagrangian")],
+    &["`volume: averaged`", "the frame `total_lagrangian`"]
+)]
+fn volume_ratios(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(SHEARS, edits, words);
+}
+
+/// The stated motion is no solution with these laws, and the method is refused before that is found.
+#[rstest]
+#[case::linear_elastic("linear_elastic: {young: E, poisson: nu, density: rho}")]
+#[case::jaumann("jaumann: {young: E, poisson: nu, density: rho}")]
+#[case::green_naghdi("green_naghdi: {young: E, poisson: nu, density: rho}")]
+fn a_law_in_rate_form(#[case] law: &str) {
+    let edits: Edits<'_> = &[("neo_hookean", law.split(':').next().unwrap_or_default())];
+    let text = PANEL.replacen(edits[0].0, edits[0].1, 1);
+    let refused = load(&text).expect_err("a law in rate form").to_string();
+    let name = edits[0].1;
+    assert!(refused.contains(&format!("`volume: averaged` does not go with the law `{name}`")));
+    assert!(refused.contains("a law in rate form does not compute its stress from F or J"));
+    assert!(SHEARS.contains(LAW));
+}
+
+#[test]
+fn in_one_dimension() {
+    let edits: Edits<'_> = &[(
+        "- mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}",
+        "- ▸mpm: {basis: linear, transfer: flip, scheme: musl, volume: averaged}",
+    )];
+    refused(BAR, edits, &["`volume: averaged`", "in 1-D", "nothing locks"]);
+}
+
+#[test]
+fn a_linear_fluid_in_one_dimension() {
+    assert!(COLUMN.contains("linear_fluid") && COLUMN.contains("dimension: 1"));
+    let text = COLUMN.replacen("scheme:", "volume: averaged, scheme:", 1);
+    let refused = load(&text).expect_err("a column").to_string();
+    assert!(refused.contains("`volume: averaged` would average the whole strain in 1-D"));
+}
+
+#[test]
+fn in_plane_stress() {
+    let edits: Edits<'_> =
+        &[("- mpm: {basis: linear,", "- ▸mpm: {volume: averaged, basis: linear,")];
+    refused(WAVE, edits, &["`volume: averaged`", "`plane: stress`", "nothing locks"]);
+}
+
+#[test]
+fn around_an_axis() {
+    let text = PANEL.replacen("dimension: 2", "dimension: 2\n  plane: axisymmetric", 1);
+    let refused = load(&text).expect_err("a body of revolution").to_string();
+    assert!(refused.contains("`volume: averaged`") || refused.contains("axisymmetric"));
+}
+
+#[test]
+fn a_rigid_body() {
+    let heat = include_str!("../../../verification/heat/heat-step.yaml");
+    let Some(at) = heat.find("  - heat:") else { panic!("the suite has a heat method") };
+    let method = "  - mpm: {basis: linear, transfer: flip, scheme: musl, volume: averaged}\n";
+    let text = format!("{}{method}{}", &heat[..at], &heat[at..]);
+    assert!(load(&text).is_err());
+}
+
+#[rstest]
+#[case::drift("drift: {energy: 1e-3}")]
+#[case::energy_rate("energy_rate: [0.9, 1.1]")]
+fn an_energy_to_be_bounded(#[case] bound: &str) {
+    let text = SHEARS.replacen("    order: ", &format!("    {bound}\n    order: "), 1);
+    let refused = load(&text).expect_err("an energy").to_string();
+    let reason = "the force of `volume: averaged` does not derive from a stored energy";
+    assert!(refused.contains(reason), "{refused}");
+}
+
+#[test]
+fn an_energy_to_be_judged() {
+    let text = SHEARS.replacen("methods:", "judge: {of: strain_energy}\n\nmethods:", 1);
+    let refused = load(&text).expect_err("an energy").to_string();
+    let reason = "the force of `volume: averaged` does not derive from a stored energy";
+    assert!(refused.contains(reason), "{refused}");
+}
