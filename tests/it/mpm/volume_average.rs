@@ -6,9 +6,9 @@ use crate::common::interrupted::goes_on;
 use crate::common::{DT, H, body, free_body};
 use allocation_counter::measure;
 use mpm_verify::mpm::{
-    Advance, BasisName, Boundary, Block, Hencky, LinearFluid, LoopSettings, Material, Matrix, NeoHookean, Particles,
-    SchemeName, Setup, Solver, StressUpdate, TransferName, Vector, VolumeName, det,
-    kernel_with,
+    Advance, BasisName, Block, Boundary, Hencky, LinearFluid, LoopSettings, Material, Matrix,
+    NeoHookean, Particles, SchemeName, Setup, Solver, StressUpdate, TransferName, Vector,
+    VolumeName, det, kernel_with,
 };
 use mpm_verify::subject::{Column, Failure, Start, Subject};
 use rayon::ThreadPoolBuilder;
