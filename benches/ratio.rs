@@ -17,7 +17,7 @@ mod yardstick;
 use mpm_verify::mpm::{
     Affine, BasisName, FrameName, G2pRequest, Grid, Kernel, LinearElastic, MassName, Matrix,
     NeoHookean, P2gRequest, ParticleField, Particles, SchemeName, Setup, Solver, TransferName,
-    Vector, kernel, mass_matrix, transfer,
+    Vector, VolumeName, kernel, mass_matrix, transfer,
 };
 use mpm_verify::subject::{Start, Subject};
 use mpm_verify::verify::Timing;
@@ -216,6 +216,7 @@ fn solver<const D: usize>(
         transfer: transfer(name),
         mass: mass_matrix(MassName::Lumped),
         frame: FrameName::Updated,
+        volume: VolumeName::Particle,
         material: Box::new(NeoHookean::new(1.0, 0.3)),
         effects: Vec::new(),
         boundary: Vec::new(),

@@ -12,7 +12,7 @@ mod kernels;
 use by_hand::ByHand;
 use mpm_verify::mpm::{
     BasisName, Block, FrameName, LinearElastic, MassName, Particles, SchemeName, Setup, Solver,
-    TransferName, Vector, kernel, mass_matrix, transfer,
+    TransferName, Vector, VolumeName, kernel, mass_matrix, transfer,
 };
 use mpm_verify::subject::{Start, Subject};
 use std::process::ExitCode;
@@ -42,6 +42,7 @@ fn minimal() -> Solver<1> {
         transfer: transfer(TransferName::Flip),
         mass: mass_matrix(MassName::Lumped),
         frame: FrameName::Updated,
+        volume: VolumeName::Particle,
         material: Box::new(LinearElastic::new(YOUNG, 0.0)),
         effects: Vec::new(),
         boundary: Vec::new(),

@@ -3,7 +3,7 @@
 use crate::scene::{H, Method, PER_AXIS};
 use mpm_verify::mpm::{
     FrameName, Grid, MassName, MaterialPlan, Matrix, Particles, SchemeName, Setup, Solver, Vector,
-    mass_matrix,
+    VolumeName, mass_matrix,
 };
 use mpm_verify::subject::{Start, Subject};
 
@@ -88,6 +88,7 @@ pub(crate) fn checked_solver<const D: usize>(
         transfer,
         mass,
         frame,
+        volume: VolumeName::Particle,
         material,
         effects,
         boundary,

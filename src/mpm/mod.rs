@@ -62,11 +62,14 @@ pub use multibody::Bodies;
 pub use scheme::{SchemeName, Stage};
 pub use seeding::Fragment;
 pub use seeding::quadrilateral::Quadrilateral;
-pub use step::combination::{CombinationError, combine, combine_across, combine_bodies};
+pub use step::combination::{
+    CombinationError, combine, combine_across, combine_bodies, combine_volume,
+};
 pub use step::heat_solver::HeatSolver;
 pub use step::initial::complete_start;
 pub use step::setup::Setup;
 pub use step::solver::Solver;
+pub use step::volume_average::VolumeName;
 pub use transfer::{
     Apic, Blend, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferChoice, TransferKind,
     TransferName, TransferParameter, WithParameter, Xpic, g2p, transfer,

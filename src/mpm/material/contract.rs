@@ -35,6 +35,15 @@ pub trait MaterialProperties {
         self.depends_on_deformation_alone()
     }
 
+    /// Whether the stress may be computed at the averaged volume ratio of F-bar: the law reads F,
+    /// or keeps J alone.
+    ///
+    /// # Errors
+    /// Why it may not.
+    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
+        self.depends_on_deformation_alone()
+    }
+
     /// Whether the law is elastic: only then is its thermal expansion defined.
     fn is_elastic(&self) -> bool {
         false

@@ -100,6 +100,10 @@ impl MaterialProperties for LinearElastic {
         true
     }
 
+    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
+        Err("a law in rate form does not compute its stress from F or J")
+    }
+
     fn has_energy(&self, dimension: usize) -> Result<(), &'static str> {
         match dimension {
             1 => Ok(()),

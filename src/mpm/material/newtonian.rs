@@ -43,6 +43,10 @@ impl MaterialProperties for Newtonian {
         Err("viscous stress depends on the rate of deformation")
     }
 
+    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+
     fn starts_stressed(&self) -> Result<(), &'static str> {
         Err("a fluid at rest has the pressure of its volume: state an `initial_displacement`")
     }

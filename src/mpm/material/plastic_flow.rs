@@ -178,6 +178,11 @@ impl<S: YieldSurface> MaterialProperties for ElastoPlastic<S> {
         Err("plastic flow depends on the whole history of the motion")
     }
 
+    /// F-bar of elastoplasticity: trial strains of Fbar (de Souza Neto et al. 1996, IJSS 33).
+    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+
     fn starts_stressed(&self) -> Result<(), &'static str> {
         Err("the yield stress bounds the whole stress, of which the law knows its own part only")
     }

@@ -115,7 +115,9 @@ impl<const D: usize> Subject for Solver<D> {
 
     fn totals(&self) -> Option<Totals> {
         let Setup { particles, transfer, material, .. } = &self.setup;
-        let strain_energy = material.energy(particles);
+        // The force of averaged volume ratios does not derive from the energy of F.
+        let is_averaged = self.volume_average.is_some();
+        let strain_energy = if is_averaged { None } else { material.energy(particles) };
         Some(Totals { strain_energy, ..particles.totals(|p| transfer.moment(p)) })
     }
 
@@ -208,6 +210,7 @@ impl<const D: usize> Memory for Setup<D> {
             // Assembled in each step.
             mass: _,
             frame: _,
+            volume: _,
             material,
             effects,
             boundary,
@@ -239,6 +242,8 @@ impl<const D: usize> Memory for Solver<D> {
             min_j,
             cell_tracker,
             advected: _,
+            // Written in each update before it is read.
+            volume_average: _,
         } = self;
         checkpoint.visit(setup);
         for number in [time, velocity_time, min_j] {

@@ -47,7 +47,8 @@ fn position_spacing(plan: &ConvergencePlan, case: &Case) -> Option<f64> {
 /// The conserved sums of a case without bounds on drifts.
 fn sums(plan: &ConvergencePlan, case: &Case) -> Vec<Conserved> {
     let dimension = plan.scene.dimension();
-    let has_energy = plan.scene.material.properties().has_energy(dimension).is_ok();
+    let of_law = plan.scene.material.properties().has_energy(dimension).is_ok();
+    let has_energy = of_law && !case.method.averages_volume();
     let has = |sum: &Conserved| match sum {
         Conserved::AngularMomentum => dimension > 1,
         Conserved::Energy => has_energy,

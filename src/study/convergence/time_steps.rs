@@ -179,9 +179,11 @@ impl StableSteps {
 
 /// The simplest method with the stable time step of `method`.
 fn simplest(method: Method) -> Method {
-    let Method::Mpm { basis, transfer, scheme, mass, frame, .. } = method else { return method };
+    let Method::Mpm { basis, transfer, scheme, mass, frame, volume, .. } = method else {
+        return method;
+    };
     let (scheme, transfer) = simplest_with_same_response(scheme, transfer);
-    Method::Mpm { basis, transfer, scheme, start: Start::AtZero, mass, frame }
+    Method::Mpm { basis, transfer, scheme, start: Start::AtZero, mass, frame, volume }
 }
 
 /// The actual step (s).

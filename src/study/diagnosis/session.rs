@@ -154,7 +154,9 @@ pub(super) fn accepts_grid(source: &Source, from: &[f64], to: &[f64]) -> bool {
 
 /// The method as a suite states it; `None` of a method that is never changed.
 fn method_spec(method: Method) -> Option<MethodSpec> {
-    let Method::Mpm { basis, transfer, scheme, start, mass, frame } = method else { return None };
+    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume } = method else {
+        return None;
+    };
     Some(MethodSpec::Mpm {
         basis: basis.into(),
         transfer: transfer.into(),
@@ -162,6 +164,7 @@ fn method_spec(method: Method) -> Option<MethodSpec> {
         start: Some(start.into()),
         mass: Some(mass.into()),
         frame: Some(frame.into()),
+        volume: Some(volume.into()),
     })
 }
 

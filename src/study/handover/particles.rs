@@ -4,7 +4,8 @@ use crate::dimension::with_dimension;
 use crate::exact::Truth;
 use crate::external::ProblemParticles;
 use crate::mpm::{
-    BasisName, FrameName, MassName, SchemeName, Solver, TransferName, Vector, det_of_rows,
+    BasisName, FrameName, MassName, SchemeName, Solver, TransferName, Vector, VolumeName,
+    det_of_rows,
 };
 use crate::study::setup::body::{Body, setup};
 use crate::subject::{Perturbable, Start};
@@ -55,6 +56,7 @@ fn started<const D: usize>(
         start: Start::AtZero,
         mass: MassName::Lumped,
         frame: FrameName::Updated,
+        volume: VolumeName::Particle,
     };
     let is_stressed = bodies.iter().any(|body| !body.own.initial_stress.is_none());
     let mut all = ProblemParticles::default();

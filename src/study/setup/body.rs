@@ -58,7 +58,7 @@ pub(crate) fn setup<const D: usize>(
     method: Method,
     level: LevelPlan,
 ) -> Result<Setup<D>, String> {
-    let Method::Mpm { basis, transfer, scheme, start, mass, frame } = method else {
+    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume } = method else {
         return Err("not an MPM method".to_owned());
     };
     let scene = body.scene;
@@ -85,6 +85,7 @@ pub(crate) fn setup<const D: usize>(
         transfer: transfer.build(),
         mass: crate::mpm::mass_matrix(mass),
         frame,
+        volume,
         material: body.initial.stressed(law, &mut particles),
         effects,
         boundary: boundary(scene, &grid, basis),

@@ -3,7 +3,8 @@
 use super::EquationName;
 use crate::fem::{Element, Mass, Sampling};
 use crate::mpm::{
-    BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, WithParameter,
+    BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, VolumeName,
+    WithParameter,
 };
 use crate::subject::{Precision, Start};
 use crate::suite::yaml::{InPlaceOfNumber, NumberOr, NumberText, OneOrMany, refuse};
@@ -31,6 +32,8 @@ pub(crate) enum MethodSpec {
         mass: Option<OneOrMany<MassName>>,
         /// Frame; `updated_lagrangian` unless stated.
         frame: Option<OneOrMany<FrameName>>,
+        /// Volume ratio at which the law computes its stress; `particle` unless stated.
+        volume: Option<OneOrMany<VolumeName>>,
     },
     /// Finite elements in one dimension.
     Fem {

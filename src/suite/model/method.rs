@@ -2,7 +2,7 @@
 //! external solvers.
 
 use crate::fem::{Element, Mass, Sampling};
-use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice};
+use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice, VolumeName};
 use crate::subject::{Precision, Start};
 use crate::suite::grammar::EquationName;
 
@@ -23,6 +23,8 @@ pub enum Method {
         mass: MassName,
         /// Configuration in which the basis lives.
         frame: FrameName,
+        /// Volume ratio at which the law computes its stress.
+        volume: VolumeName,
     },
     /// The reference MPM of a body at rest: heat, and no stage of mechanics.
     Heat {
@@ -66,6 +68,11 @@ impl Method {
         matches!(self, Self::External { precision: Precision::Single, .. })
     }
 
+    /// Whether the law computes its stress at an averaged volume ratio.
+    pub(crate) fn averages_volume(&self) -> bool {
+        matches!(self, Self::Mpm { volume: VolumeName::Averaged, .. })
+    }
+
     /// The theoretical order of the displacement error of the method on a smooth solution: p + 1
     /// for a basis of degree p, but at most 2 with the lumped mass matrix of MPM; 2p for the nodal
     /// values of elements that superconverge (Strang & Fix 1973, section 1.6).
@@ -85,7 +92,7 @@ impl Method {
             rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
         };
         match self {
-            Self::Mpm { basis, transfer, scheme, start, mass, frame } => {
+            Self::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
                 let mass = match mass {
                     MassName::Lumped => "lumped (row sum)",
                     MassName::Consistent => "consistent",
@@ -102,6 +109,9 @@ impl Method {
                 // The usual frame is not listed.
                 if *frame == FrameName::Total {
                     rows.push(("frame", frame.name()));
+                }
+                if *volume == VolumeName::Averaged {
+                    rows.push(("volume ratio", volume.name()));
                 }
                 owned(rows)
             }

@@ -9,7 +9,7 @@ pub(crate) mod vtk;
 
 use mpm_verify::mpm::{
     BasisName, Block, FrameName, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup,
-    TransferName, Vector, combine, kernel, mass_matrix, transfer,
+    TransferName, Vector, VolumeName, combine, kernel, mass_matrix, transfer,
 };
 use mpm_verify::subject::Start;
 
@@ -84,6 +84,7 @@ pub(crate) fn body<const D: usize>(
         transfer: transfer(name),
         mass: mass_matrix(MassName::Lumped),
         frame: FrameName::Updated,
+        volume: VolumeName::Particle,
         material: Box::new(LinearElastic::new(1.0, 0.3)),
         effects: Vec::new(),
         boundary: Vec::new(),

@@ -3,8 +3,8 @@
 
 use mpm_verify::mpm::{
     BasisName, Block, Damping, Fixed, FrameName, Gravity, MassName, MaterialPlan, Particles,
-    Roller, SchemeName, Setup, Side, Solver, TransferName, Vector, combine, kernel, mass_matrix,
-    transfer,
+    Roller, SchemeName, Setup, Side, Solver, TransferName, Vector, VolumeName, combine, kernel,
+    mass_matrix, transfer,
 };
 use mpm_verify::subject::{Failure, Samples, Site, Start, Subject};
 
@@ -90,6 +90,7 @@ impl Scene {
             transfer: transfer(name),
             mass: mass_matrix(mass),
             frame,
+            volume: VolumeName::Particle,
             material: self.material.build(),
             effects: vec![
                 Box::new(Gravity(Box::new(|_| Vector::from_element(-0.1)))),

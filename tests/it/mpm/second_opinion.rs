@@ -1,7 +1,9 @@
 //! Comparison of the solver with an independent implementation, `tests/second_opinion`: errors and
 //! fields on some levels of the suites, to 1e-9.
 
-use mpm_verify::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName};
+use mpm_verify::mpm::{
+    BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, VolumeName,
+};
 use mpm_verify::study;
 use mpm_verify::subject::{Failure, Samples, Start, Subject};
 use mpm_verify::suite::{ConvergencePlan, Method, Suite, embedded};
@@ -49,6 +51,7 @@ fn method(words: &[&str]) -> Method {
         start: named(&starts, Start::name, start),
         mass: MassName::Lumped,
         frame: FrameName::Updated,
+        volume: VolumeName::Particle,
     }
 }
 

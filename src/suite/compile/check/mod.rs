@@ -13,7 +13,7 @@ use crate::suite::model::method::Method;
 use crate::suite::model::{ConvergencePlan, Scene};
 use crate::suite::scene::load::{LoadEntry, StudyFacts};
 use crate::suite::yaml::{Diagnostic, Path};
-use crate::verify::Limits;
+use crate::verify::{Conserved, Limits};
 
 /// Refuses conditions that the FEM bar does not support, if the suite uses one.
 pub(crate) fn refuse_conditions_unknown_to_fem(
@@ -160,6 +160,13 @@ pub(crate) fn check_drift(
 ) -> Result<(), Diagnostic> {
     let key = if limits.energy_rate.is_some() { "energy_rate" } else { "drift" };
     let asks = !limits.drift.is_empty() || limits.energy_rate.is_some();
+    let asks_of_energy =
+        limits.energy_rate.is_some() || limits.drifts().contains(&Conserved::Energy);
+    if asks_of_energy && method.averages_volume() {
+        let message = "the force of `volume: averaged` does not derive from a stored energy";
+        let diagnostic = evaluator.diagnostic_at_key(&path.then(key), message);
+        return Err(diagnostic.with_help("bound the drift of `momentum` or `mass`"));
+    }
     if !asks || matches!(method, Method::Mpm { .. } | Method::External { .. }) {
         return Ok(());
     }

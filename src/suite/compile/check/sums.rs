@@ -1,7 +1,7 @@
 //! Checks that a judged sum over the body is defined for every subject and for the exact solution.
 
 use crate::exact::Problem;
-use crate::mpm::MassName;
+use crate::mpm::{MassName, VolumeName};
 use crate::subject::PlaneState;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
@@ -50,6 +50,7 @@ pub(crate) fn judged(
         SumNeed::Nothing => Vec::new(),
         SumNeed::StoredEnergy => {
             stored_energy(evaluator, &path, problem, plan)?;
+            averaged_volume(evaluator, spec)?;
             Vec::new()
         }
         SumNeed::Rotation => {
@@ -92,6 +93,20 @@ fn stored_energy(
         return Err(diagnostic.with_help("judge the `kinetic_energy`"));
     }
     Ok(())
+}
+
+/// Refuses an energy from which the force of a method does not derive.
+fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
+    let is_averaged = |method: &MethodSpec| match method {
+        MethodSpec::Mpm { volume: Some(volume), .. } => {
+            volume.as_slice().contains(&VolumeName::Averaged)
+        }
+        _ => false,
+    };
+    let Some(i) = spec.methods.iter().position(is_averaged) else { return Ok(()) };
+    let message = "the force of `volume: averaged` does not derive from a stored energy";
+    let path = Path::top("methods").then(i).then("mpm").then("volume");
+    Err(evaluator.diagnostic(&path, message).with_help("take `particle` to judge an energy"))
 }
 
 /// Refuses an angular momentum on a line, and of a body that has no one place.

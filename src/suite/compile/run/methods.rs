@@ -1,7 +1,7 @@
 //! The entries of `methods` become methods: the products of their lists, with names.
 
 use crate::fem::Sampling;
-use crate::mpm::{FrameName, MassName};
+use crate::mpm::{FrameName, MassName, VolumeName};
 use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, Start, is_solver_name};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{EquationName, MethodSpec};
@@ -41,9 +41,9 @@ impl MethodDraft {
 /// First word of the names of a method, and its settings in the order of names.
 fn settings(method: &Method) -> (&'static str, Vec<String>) {
     match *method {
-        Method::Mpm { basis, transfer, scheme, start, mass, frame } => {
+        Method::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
             let transfer = transfer.name();
-            let rest = [scheme.name(), start.name(), mass.name(), frame.name()];
+            let rest = [scheme.name(), start.name(), mass.name(), frame.name(), volume.name()];
             let mut settings = vec![basis.name().to_owned(), transfer];
             settings.extend(rest.map(ToOwned::to_owned));
             ("mpm", settings)
@@ -69,9 +69,10 @@ pub(crate) fn methods(
     let mut drafts = Vec::new();
     let mut push = |method, said| drafts.push(MethodDraft { entry, method, solver: None, said });
     match spec {
-        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame } => {
+        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
+            let (of_frame, of_volume) = (many(frame.as_ref()), many(volume.as_ref()));
             let said =
-                [true, true, true, many(start.as_ref()), many(mass.as_ref()), many(frame.as_ref())];
+                [true, true, true, many(start.as_ref()), many(mass.as_ref()), of_frame, of_volume];
             let settings = product(
                 &product(&product(basis.as_slice(), transfer.as_slice()), scheme.as_slice()),
                 &product(
@@ -79,11 +80,14 @@ pub(crate) fn methods(
                         &choices(start.as_ref(), Start::AtZero),
                         &choices(mass.as_ref(), MassName::Lumped),
                     ),
-                    &choices(frame.as_ref(), FrameName::Updated),
+                    &product(
+                        &choices(frame.as_ref(), FrameName::Updated),
+                        &choices(volume.as_ref(), VolumeName::Particle),
+                    ),
                 ),
             );
-            for (((basis, transfer), scheme), ((start, mass), frame)) in settings {
-                let method = Method::Mpm { basis, transfer, scheme, start, mass, frame };
+            for (((basis, transfer), scheme), ((start, mass), (frame, volume))) in settings {
+                let method = Method::Mpm { basis, transfer, scheme, start, mass, frame, volume };
                 push(method, said.to_vec());
             }
         }
@@ -127,13 +131,14 @@ pub(crate) fn methods(
 /// Number of methods that an entry unfolds into.
 pub(crate) fn count(spec: &MethodSpec) -> usize {
     let lengths = match spec {
-        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame } => vec![
+        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume } => vec![
             basis.as_slice().len(),
             transfer.as_slice().len(),
             scheme.as_slice().len(),
             length(start.as_ref()),
             length(mass.as_ref()),
             length(frame.as_ref()),
+            length(volume.as_ref()),
         ],
         MethodSpec::Heat { basis } => vec![basis.as_slice().len()],
         MethodSpec::External { .. } => Vec::new(),

@@ -5,7 +5,7 @@ pub(crate) mod places;
 pub(crate) mod reference;
 pub(crate) mod refine;
 
-use crate::mpm::{FrameName, MassName, combine, combine_across, combine_bodies};
+use crate::mpm::{FrameName, MassName, combine, combine_across, combine_bodies, combine_volume};
 use crate::suite::compile::expect::expectations;
 use crate::suite::compile::truth::{conservation_only, law_of_bar};
 use crate::suite::evaluator::{Evaluator, shown};
@@ -136,12 +136,19 @@ fn combined(
     method: Method,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
-    let Method::Mpm { basis, transfer, mass, frame, start, .. } = method else { return Ok(()) };
+    let Method::Mpm { basis, transfer, mass, frame, start, volume, .. } = method else {
+        return Ok(());
+    };
     let mut known = combine(basis, transfer, mass, frame)
         .and_then(|()| combine_across(plan.scene.plane, basis, transfer));
     if plan.scene.bodies.len() > 1 {
         let contact = plan.scene.contact.is_some();
         known = known.and_then(|()| combine_bodies(transfer, mass, frame, start, contact));
+    }
+    let (dimension, plane) = (plan.scene.dimension(), plan.scene.plane);
+    for body in plan.scene.each() {
+        let material = &body.material;
+        known = known.and_then(|()| combine_volume(volume, frame, material, dimension, plane));
     }
     known.map_err(|reason| {
         let help = "give what goes together an entry of `methods` of its own";
