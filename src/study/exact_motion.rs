@@ -12,12 +12,16 @@ use crate::suite::model::{ConvergencePlan, Suite};
 /// and the run.
 pub(crate) fn amplitude(problem: &Problem) -> String {
     const PER_AXIS: usize = 20;
+    const GOLDEN: usize = 8;
     let places = raster(problem, PER_AXIS);
     let mut motion = problem.motion.at_places(places.iter().map(Vec::as_slice));
     let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);
     let mut now = Derivatives::default();
-    for step in 0..=PER_AXIS {
-        motion.set_time(problem.until * (step as f64 / PER_AXIS as f64));
+    let even = (0..=PER_AXIS).map(|step| step as f64 / PER_AXIS as f64);
+    // Even times miss a motion with a whole number of periods in each interval.
+    let golden = (1..=GOLDEN).map(|step| (step as f64 * 0.618_034).fract());
+    for share in even.chain(golden) {
+        motion.set_time(problem.until * share);
         for place in 0..places.len() {
             motion.derivatives(place, &mut now);
             displacement = now.u.iter().fold(displacement, |a, b| a.max(b.abs()));

@@ -95,7 +95,7 @@ pub(crate) fn largest_error<'a>() -> [LevelColumn<'a>; 2] {
             let shown = row.error(row.linf()).text;
             (shown != row.error(row.level.error).text).then_some(shown)
         }),
-        LevelColumn::text("its order", about, |row| {
+        LevelColumn::text("linf order", about, |row| {
             let index = row.index.checked_sub(1)?;
             let coarser = LevelRow { study: row.study, index, level: row.study.levels.get(index)? };
             let level = |row: &LevelRow<'_>| Level::new(row.level.spacing, row.linf());
@@ -138,12 +138,16 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
         LevelColumn::new("crossings", "crossings", "changes of cell (MPM)", |row| {
             Cell::plain(row.level.run.counters.crossings)
         }),
-        LevelColumn::text("from", "coarsest level on which particles change cells", |row| {
-            let crosses = |level: &&LevelOutcome| level.run.counters.crossings.unwrap_or(0) > 0;
-            let (index, level) =
-                row.study.levels.iter().enumerate().find(|(_, level)| crosses(level))?;
-            Some(name(row.study.axis).cell(&LevelRow { study: row.study, index, level }).text)
-        }),
+        LevelColumn::text(
+            "crossings from",
+            "coarsest level on which particles change cells",
+            |row| {
+                let crosses = |level: &&LevelOutcome| level.run.counters.crossings.unwrap_or(0) > 0;
+                let (index, level) =
+                    row.study.levels.iter().enumerate().find(|(_, level)| crosses(level))?;
+                Some(name(row.study.axis).cell(&LevelRow { study: row.study, index, level }).text)
+            },
+        ),
         LevelColumn::new(
             "outside",
             "left_domain",
@@ -208,8 +212,8 @@ pub(crate) fn energy_rate<'a>() -> [LevelColumn<'a>; 3] {
     };
     [
         column("rate", "rate of the energy, d ln E/dt (1/s)", |rate| rate.value),
-        column("from", "lower end of its 95 % interval (1/s)", |rate| rate.low),
-        column("to (95 %)", "upper end of its 95 % interval (1/s)", |rate| rate.high),
+        column("low", "lower end of its 95 % interval (1/s)", |rate| rate.low),
+        column("high (95 %)", "upper end of its 95 % interval (1/s)", |rate| rate.high),
     ]
 }
 

@@ -23,7 +23,7 @@ const WIDTHS: [(&str, usize); 16] = [
     ("finest error", 12),
     ("floor", 9),
     ("for 1e-3", 8),
-    ("found", 66),
+    ("observed", 66),
 ];
 
 /// Width of the orders and verdicts of a basis.
@@ -90,8 +90,8 @@ fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
     let hits = all.iter().filter(|covered| **covered).count();
     (!all.is_empty()).then(|| {
         format!(
-            "a grid convergence index (meant for 95 of 100) covers the true error at the observed \
-             place in {hits} of {} triples of levels; reports show both",
+            "grid convergence index at the observed place: nominal coverage of the true error 95 %, \
+             here {hits} of {} triples of levels",
             all.len()
         )
     })

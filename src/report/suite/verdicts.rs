@@ -41,18 +41,22 @@ pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
         (count("pass"), cases.iter().filter(|case| case.passed() && case.fails()).count());
     let cases =
         |count: usize| if count == 1 { "1 case".to_owned() } else { format!("{count} cases") };
+    let failures = |count: usize| match count {
+        1 => "1 expected failure".to_owned(),
+        count => format!("{count} expected failures"),
+    };
     let mut parts = Vec::new();
     match (expected, failing) {
         (0, _) => {}
         (_, 0) => parts.push(format!("{} as expected", cases(expected))),
         (_, _) if failing == expected => {
-            parts.push(format!("{} as expected, which is to fail", cases(expected)));
+            parts.push(failures(expected));
         }
-        _ => parts.push(format!("{} as expected, of which {failing} to fail", cases(expected))),
+        _ => parts.push(format!("{} as expected ({})", cases(expected), failures(failing))),
     }
     let others = [
         ("FAIL", "NOT AS EXPECTED"),
-        ("explored", "of which nothing is expected"),
+        ("explored", "without an expectation"),
         ("n/a", "not applicable"),
         ("not gated", "not gated"),
         ("excepted", "excepted"),
@@ -98,11 +102,11 @@ fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColu
         CaseColumn::text("for 1e-3", "work over that of the cheapest", |case| {
             cost(case, rankings).map(|times| format!("{times:.2} x"))
         }),
-        CaseColumn::text("found", "figures of other studies", |case| {
+        CaseColumn::text("observed", "figures of other studies", |case| {
             case.convergence().is_none().then(|| case.reason.clone())
         })
         .flush_left(),
-        CaseColumn::text("", "expectation", |case| {
+        CaseColumn::text("note", "letter of the expectation in the list below", |case| {
             expectations.iter().position(|known| *known == case.expectation()).map(letter)
         })
         .flush_left(),

@@ -119,7 +119,10 @@ fn by_level<'a>(
         let cells = columns.iter().flat_map(of_column);
         std::iter::once((*name).to_owned()).chain(cells).collect()
     };
-    let rows = studies.iter().map(cells).collect();
+    let rows: Vec<Vec<String>> = studies.iter().map(cells).collect();
+    if rows.iter().all(|row| row[1..].iter().all(String::is_empty)) {
+        return;
+    }
     lines.extend([String::new(), format!("  {heading}")]);
     lines.extend(Table::of_cells(headings, rows).without_empty_columns().merged().lines());
 }

@@ -146,10 +146,12 @@ pub(crate) fn shared<'a>(
     let found = grouped(values.map(|(name, value)| (value, name)));
     let most = found.iter().map(|(_, names)| names.len()).max().unwrap_or(0);
     let single = found.len() == 1;
+    // Several groups of the same size would all be the others.
+    let is_largest_alone = found.iter().filter(|(_, names)| names.len() == most).count() == 1;
     found.into_iter().map(move |(value, names)| {
         let of = match names.len() {
             _ if single => String::new(),
-            count if count == most && count > 2 => " (all others)".to_owned(),
+            count if count == most && count > 2 && is_largest_alone => " (all others)".to_owned(),
             _ => format!(" ({})", together(&names)),
         };
         (value, of)

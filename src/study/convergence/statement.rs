@@ -117,7 +117,7 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
         let share = shown(share);
         format!("{share} of the stable time step, case by case and level by level")
     });
-    push(rows, "dt", &format!("{dt}, to a whole number of steps"));
+    push(rows, "dt", &format!("{dt}, adjusted to a whole number of steps"));
     push(rows, "instants", &format!("{instants}"));
     if plan.has_particles() {
         let placed = placed(&study.scatter);

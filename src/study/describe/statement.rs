@@ -3,6 +3,7 @@
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialParameter, MaterialPlan};
 use crate::subject::PlaneState;
+use crate::suite::evaluator::shown;
 use crate::suite::model::{Scene, Suite};
 use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::sources;
@@ -12,7 +13,9 @@ use crate::verify::rounded;
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let parameter = |(name, text, value): &(String, String, Option<f64>)| match value {
-        Some(value) if text.parse() != Ok(*value) => format!("{name} = {text} = {value:.6}"),
+        Some(value) if text.parse() != Ok(*value) => {
+            format!("{name} = {text} = {}", shown(rounded(*value, 7)))
+        }
         _ => format!("{name} = {text}"),
     };
     let parameters: Vec<String> = suite.parameters.iter().map(parameter).collect();
@@ -34,12 +37,12 @@ pub(crate) fn push(rows: &mut Rows, key: &str, value: &str) {
 }
 
 fn corner(c: &[f64]) -> String {
-    c.iter().map(|x| stated(*x).to_string()).collect::<Vec<_>>().join(", ")
+    c.iter().map(|x| stated(*x)).collect::<Vec<_>>().join(", ")
 }
 
 /// A number with the digits of the statement of a problem.
-pub(crate) fn stated(x: f64) -> f64 {
-    rounded(x, 6)
+pub(crate) fn stated(x: f64) -> String {
+    shown(rounded(x, 6))
 }
 
 fn body(scene: &Scene) -> String {

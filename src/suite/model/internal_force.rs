@@ -67,7 +67,7 @@ impl ForceExpectation {
         match self {
             Self::AgreesWithin(share) => format!("agrees with the prediction within {share:e}"),
             Self::StepsBelow(share) => {
-                format!("no step above {share} of the largest predicted force")
+                format!("no jump above {share} of the largest predicted force")
             }
         }
     }

@@ -117,7 +117,7 @@ impl Method {
             }
             Self::Heat { basis } => owned(vec![
                 ("basis", basis.name()),
-                ("temperature", "increments, shown with its slope"),
+                ("temperature", "increments and gradients are mapped"),
                 ("capacity matrix", "lumped (row sum)"),
                 ("in time", "forward Euler"),
             ]),

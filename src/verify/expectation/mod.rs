@@ -139,7 +139,10 @@ impl Expectation {
             format!("{} crossings on the finest level", if some { "some" } else { "no" })
         }));
         parts.extend(self.limits.summary());
-        parts.extend(self.floor.map(|cause| format!("floor of {}", cause.name())));
+        parts.extend(self.floor.map(|cause| match cause {
+            FloorCause::Nothing => "floor that no axis lowers".to_owned(),
+            _ => format!("floor caused by {}", cause.name()),
+        }));
         parts.join(", ")
     }
 }
@@ -233,7 +236,8 @@ mod tests {
             Expectation { verdict: None, order: None, finest_pair: None, ..expectation() };
         assert!(bounded.unmet(&CaseFindings { verdict: Verdict::TooFewLevels, ..SEEN }).is_empty());
         assert_eq!(bounded.unmet(&CaseFindings { verdict: Verdict::Failed, ..SEEN }).len(), 1);
-        let summary = "no crossings on the finest level, largest error at most 1e-2, floor of time";
+        let summary =
+            "no crossings on the finest level, largest error at most 1e-2, floor caused by time";
         assert_eq!(bounded.summary(), summary);
     }
 }

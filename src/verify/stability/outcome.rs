@@ -106,6 +106,10 @@ impl StabilityStudy {
             let (least, most) = (format_number(least), format_number(most));
             format!("from {least} to {most} over {count} {rows}")
         };
-        if runs == 0 { found } else { format!("{found}; {runs} runs beside the predictions") }
+        if runs == 0 {
+            found
+        } else {
+            format!("{found}; {runs} runs at fractions of the predictions")
+        }
     }
 }

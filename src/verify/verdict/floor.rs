@@ -80,19 +80,19 @@ impl Floor {
             Some(FloorCause::Time) => of(Axis::Time),
             Some(FloorCause::Space) => of(Axis::Space),
             Some(FloorCause::Particles) => of(Axis::Particles),
-            Some(FloorCause::Nothing) => "no other axis lowers the error by a quarter".to_owned(),
-            None => "it cannot be told whose the error is".to_owned(),
+            Some(FloorCause::Nothing) => "no finer axis lowers the error by a quarter".to_owned(),
+            None => "the cause of the error is not known".to_owned(),
         };
         let probe = |(k, probe): (usize, &Probe)| {
             let halved = format!("half the {}", probe.axis.noun());
-            let from =
-                if k == 0 { format!("from {} ", format_number(self.error)) } else { String::new() };
             match &probe.error {
-                Ok(error) if k == 0 => {
-                    format!("{halved} takes it {from}to {}", format_number(*error))
-                }
-                Ok(error) => format!("{halved} to {}", format_number(*error)),
-                Err(reason) => format!("{halved} fails ({reason})"),
+                Ok(error) if k == 0 => format!(
+                    "with {halved} the error changes from {} to {}",
+                    format_number(self.error),
+                    format_number(*error)
+                ),
+                Ok(error) => format!("with {halved} to {}", format_number(*error)),
+                Err(reason) => format!("with {halved} the run fails ({reason})"),
             }
         };
         // Failed probes come last, so that the figures are together.
@@ -140,12 +140,13 @@ mod tests {
     fn sentences() {
         assert_eq!(
             floor(1.0, &[(Time, Ok(0.5)), (Particles, Ok(1.0))]).sentence(),
-            "on the finest level the error is that of the time step: half the time step takes it \
-             from 1 to 0.5, half the particle spacing to 1"
+            "on the finest level the error is that of the time step: with half the time step the \
+             error changes from 1 to 0.5, with half the particle spacing to 1"
         );
         assert_eq!(
             floor(1.0, &[(Space, Err("J"))]).sentence(),
-            "on the finest level it cannot be told whose the error is: half the cell size fails (J)"
+            "on the finest level the cause of the error is not known: with half the cell size the run \
+             fails (J)"
         );
     }
 }

@@ -142,7 +142,7 @@ fn corners(view: &View) -> SvgElement {
     let low = view.place((view.from[0], view.from[1]));
     let high = view.place((view.to[0], view.to[1]));
     let mut add = |at: Pt, anchor: &str, value: f64| {
-        group.add(&SvgElement::text(at, anchor, &format!("{}", stated(value))));
+        group.add(&SvgElement::text(at, anchor, &stated(value)));
     };
     let below = low.1 + 30.0;
     add((low.0, below), "middle", view.from[0]);

@@ -77,7 +77,7 @@ impl SceneLoad for SetForceLoad {
     }
 
     fn rows(&self) -> Vec<(String, String)> {
-        vec![self.set.row(&format!("force {} N in all", sources(&self.value)))]
+        vec![self.set.row(&format!("total force {} N", sources(&self.value)))]
     }
 }
 
