@@ -20,6 +20,8 @@ pub struct Capabilities {
     pub loads: Vec<String>,
     /// Columns of its state besides displacement and velocity.
     pub columns: Vec<String>,
+    /// Parameters with respect to which functionals of the final state are differentiated.
+    pub gradients: Vec<String>,
     /// Whether it takes a body force that is known by its values only.
     pub manufactured: bool,
     /// Whether particles may start displaced, with F and stress.
@@ -55,6 +57,8 @@ pub struct ProblemNeeds {
     pub loads: Vec<&'static str>,
     /// The column that is judged, if it is none that every solver gives.
     pub column: Option<&'static str>,
+    /// Parameters with respect to which the study needs gradients.
+    pub gradients: Vec<&'static str>,
     /// Whether the body force is manufactured.
     pub manufactured: bool,
     /// Whether the body starts deformed.
@@ -100,6 +104,7 @@ impl Capabilities {
             ("conditions", &self.conditions, &needs.conditions),
             ("loads", &self.loads, &needs.loads),
             ("columns", &self.columns, &column),
+            ("gradients", &self.gradients, &needs.gradients),
         ] {
             let missing = wanted.iter().filter(|name| !has.iter().any(|known| known == *name));
             lacking.extend(missing.map(|name| match misspelt(capability, name, has) {
@@ -149,6 +154,7 @@ impl Capabilities {
             ("conditions", &self.conditions),
             ("loads", &self.loads),
             ("columns", &self.columns),
+            ("gradients", &self.gradients),
         ] {
             let known = known(capability);
             for name in stated.iter().filter(|name| !known.contains(&name.as_str())) {
@@ -227,6 +233,10 @@ const CONDITIONS: &[&str] = &["free", "fixed", "roller", "periodic", "friction",
 /// Names of the optional columns of a state.
 const COLUMNS: &[&str] = &["stress", "deformation_gradient", "temperature"];
 
+/// Parameters with respect to which there are gradients.
+const GRADIENTS: &[&str] =
+    &["young", "poisson", "density", "yield", "hardening", "friction", "initial_velocity"];
+
 /// Keys of the capabilities.
 #[cfg(feature = "external-programs")]
 const KEYS: &[&str] = &[
@@ -235,6 +245,7 @@ const KEYS: &[&str] = &[
     "conditions",
     "loads",
     "columns",
+    "gradients",
     "manufactured",
     "initial_deformation",
     "several_bodies",
@@ -252,6 +263,7 @@ fn known(capability: &str) -> &'static [&'static str] {
         "laws" => LAWS,
         "conditions" => CONDITIONS,
         "loads" => LOADS,
+        "gradients" => GRADIENTS,
         _ => COLUMNS,
     }
 }
@@ -284,6 +296,7 @@ mod tests {
             conditions: vec!["free", "roller"],
             loads: vec!["gravity"],
             column: Some("stress"),
+            gradients: vec!["young"],
             manufactured: true,
             initial_deformation: true,
             several_bodies: true,
@@ -301,6 +314,7 @@ mod tests {
             "conditions: roller",
             "loads: gravity",
             "columns: stress",
+            "gradients: young",
             "manufactured",
             "initial_deformation",
             "several_bodies",
@@ -315,6 +329,7 @@ mod tests {
         let conditions = ["free", "fixed", "roller"];
         let able = Capabilities {
             columns: vec!["stress".to_owned()],
+            gradients: vec!["young".to_owned()],
             manufactured: true,
             initial_deformation: true,
             several_bodies: true,
@@ -325,7 +340,13 @@ mod tests {
             displacement_force: true,
             ..Capabilities::of(&[1, 2], &["neo_hookean"], &conditions, &["gravity"])
         };
-        assert_eq!(able.lacking(&needs), all[14..]);
+        assert_eq!(able.lacking(&needs), all[15..]);
+    }
+
+    #[test]
+    fn known_gradients_are_the_parameters() {
+        let names = super::super::GradientParameter::ALL.iter().map(|parameter| parameter.name());
+        assert!(names.eq(GRADIENTS.iter().copied()));
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use serde_json::json;
 
 /// Maximum number of requests for values between two instants, for each step.
-const QUESTIONS_PER_STEP: u64 = 1000;
+pub(super) const QUESTIONS_PER_STEP: u64 = 1000;
 
 /// Longest answer (bytes) that a solver of `problem` can have to give: every column of three times
 /// as many points as particles, in decimals.

@@ -1,0 +1,268 @@
+//! Gradients of functionals of the final state with respect to parameters of a problem.
+
+use super::fields::{FieldError, FieldName, FieldPlaces, FieldSource, HandedNumber, ProblemFields};
+use super::problem::LevelProblem;
+use crate::named::named;
+use crate::subject::Samples;
+use serde::Serialize;
+use std::sync::Arc;
+use thiserror::Error;
+
+named! {
+    /// Parameters of a problem that a functional can be differentiated with respect to.
+    pub enum GradientParameter {
+        /// Young's modulus (Pa).
+        Young = "young",
+        /// Poisson's ratio.
+        Poisson = "poisson",
+        /// Reference density (kg/m3). All masses are proportional to it.
+        Density = "density",
+        /// Yield stress (Pa).
+        Yield = "yield",
+        /// Linear hardening modulus (Pa).
+        Hardening = "hardening",
+        /// Coefficient of friction of the faces.
+        Friction = "friction",
+        /// Factor on the whole initial velocity field; its nominal value is 1.
+        InitialVelocity = "initial_velocity",
+    }
+}
+
+/// A functional of the final state. Sums run over the particles, with masses m, displacements u
+/// and velocities v.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(tag = "functional", rename_all = "snake_case")]
+pub enum Functional {
+    /// `sum m u_axis / sum m` (m).
+    MeanDisplacement {
+        /// Axis of the displacement.
+        axis: usize,
+    },
+    /// `sum m |u|^2 / sum m` (m2).
+    MeanSquareDisplacement,
+    /// `sum m |v|^2 / 2` (J), without the affine part of APIC.
+    KineticEnergy,
+    /// Position of one particle (m).
+    PositionOf {
+        /// Index of the particle.
+        particle: usize,
+        /// Axis of the position.
+        axis: usize,
+    },
+}
+
+impl Functional {
+    /// Names of the functionals, as suites and messages spell them.
+    pub const NAMES: [&'static str; 4] =
+        ["mean_displacement", "mean_square_displacement", "kinetic_energy", "position_of"];
+
+    /// The name as suites and messages spell it.
+    pub fn name(self) -> &'static str {
+        let index = match self {
+            Self::MeanDisplacement { .. } => 0,
+            Self::MeanSquareDisplacement => 1,
+            Self::KineticEnergy => 2,
+            Self::PositionOf { .. } => 3,
+        };
+        Self::NAMES[index]
+    }
+
+    /// The value for `samples` of particles with masses `mass` (kg), and the largest magnitude of
+    /// the terms, whose rounding is that of the value. NaN if the particle does not exist.
+    pub fn value(self, mass: &[f64], samples: &Samples) -> FunctionalValue {
+        let d = samples.dimension.max(1);
+        let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
+        let total: f64 = mass.iter().sum();
+        let mean = |terms: Vec<f64>| {
+            let weighted = mass.iter().zip(&terms).map(|(m, term)| m * term).sum::<f64>();
+            FunctionalValue { value: weighted / total, scale: largest(&terms) }
+        };
+        match self {
+            Self::MeanDisplacement { axis } => {
+                let at = |u: &[f64]| u.get(axis).copied().unwrap_or(f64::NAN);
+                mean(samples.displacement.chunks_exact(d).map(at).collect())
+            }
+            Self::MeanSquareDisplacement => {
+                mean(samples.displacement.chunks_exact(d).map(square).collect())
+            }
+            Self::KineticEnergy => {
+                let terms = mass.iter().zip(samples.velocity.chunks_exact(d));
+                let value = terms.map(|(m, v)| 0.5 * m * square(v)).sum::<f64>();
+                FunctionalValue { value, scale: value.abs() }
+            }
+            Self::PositionOf { particle, axis } => {
+                let index = particle * d + axis;
+                let of = |column: &[f64]| column.get(index).copied().unwrap_or(f64::NAN);
+                let value = of(&samples.label) + of(&samples.displacement);
+                FunctionalValue { value, scale: value.abs() }
+            }
+        }
+    }
+}
+
+/// Largest magnitude; NaN if a number is.
+fn largest(numbers: &[f64]) -> f64 {
+    let larger = |a: f64, b: &f64| if b.abs() <= a { a } else { b.abs() };
+    let all = numbers.iter().fold(0.0, larger);
+    if numbers.iter().any(|number| number.is_nan()) { f64::NAN } else { all }
+}
+
+/// Value of a functional.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FunctionalValue {
+    /// The value.
+    pub value: f64,
+    /// Largest magnitude of its terms.
+    pub scale: f64,
+}
+
+/// A request for a value and its gradient after all steps of a problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GradientRequest {
+    /// The functional.
+    pub of: Functional,
+    /// The parameters, in the order of the entries of the gradient.
+    pub with_respect_to: Vec<GradientParameter>,
+}
+
+/// Answer of a solver to a [`GradientRequest`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gradient {
+    /// Value of the functional.
+    pub value: f64,
+    /// Derivatives, one for each parameter of the request, in units of the functional per unit of
+    /// the parameter.
+    pub gradient: Vec<f64>,
+}
+
+/// Reason for which a solver gives no gradient.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum GradientError {
+    /// The solver does not support this gradient: one line.
+    #[error("{0}")]
+    Cannot(String),
+    /// The solver broke: one line.
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl LevelProblem {
+    /// The nominal value of a parameter; `None` if the problem does not have it, or has several.
+    pub fn parameter(&self, parameter: GradientParameter) -> Option<f64> {
+        let [material] = self.materials.as_slice() else { return None };
+        match parameter {
+            GradientParameter::Density => Some(material.density),
+            GradientParameter::InitialVelocity => Some(1.0),
+            GradientParameter::Friction => self.faces.iter().find_map(|face| {
+                let coefficient = face.numbers.values.iter().find(|(key, _)| *key == "coefficient");
+                match coefficient {
+                    Some((_, HandedNumber::Scalar(value))) => Some(*value),
+                    _ => None,
+                }
+            }),
+            other => Some(material.parameter(other.name())).filter(|value| value.is_finite()),
+        }
+    }
+
+    /// The problem with another value of a parameter. Everything else keeps its value: initial
+    /// velocities, steps, loads and the other parameters. A density changes all masses.
+    #[must_use]
+    pub fn with_parameter(mut self, parameter: GradientParameter, value: f64) -> Self {
+        match parameter {
+            GradientParameter::Density => {
+                for material in &mut self.materials {
+                    material.density = value;
+                }
+                let volumes = &self.particles.reference_volume;
+                self.particles.mass = volumes.iter().map(|volume| value * volume).collect();
+            }
+            GradientParameter::InitialVelocity => {
+                self.particles.velocity.iter_mut().for_each(|v| *v *= value);
+                let scaled = |source| ProblemFields(Arc::new(ScaledVelocity { source, by: value }));
+                self.fields = self.fields.map(|ProblemFields(source)| scaled(source));
+            }
+            GradientParameter::Friction => {
+                let numbers = self.faces.iter_mut().flat_map(|face| &mut face.numbers.values);
+                for (_, number) in numbers.filter(|(key, _)| *key == "coefficient") {
+                    *number = HandedNumber::Scalar(value);
+                }
+            }
+            other => {
+                for (key, known) in self.materials.iter_mut().flat_map(|m| &mut m.parameters) {
+                    if *key == other.name() {
+                        *known = value;
+                    }
+                }
+            }
+        }
+        self
+    }
+}
+
+/// Fields of a problem whose initial velocity is multiplied by a factor.
+struct ScaledVelocity {
+    source: Arc<dyn FieldSource>,
+    by: f64,
+}
+
+impl FieldSource for ScaledVelocity {
+    fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
+        self.source.bodies(labels)
+    }
+
+    fn nearest_body(&self, label: &[f64]) -> usize {
+        self.source.nearest_body(label)
+    }
+
+    fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError> {
+        self.source.check_places(places)
+    }
+
+    fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
+        let mut values = self.source.values(of, t, at)?;
+        if of == FieldName::Velocity {
+            values.iter_mut().for_each(|value| *value *= self.by);
+        }
+        Ok(values)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn samples() -> Samples {
+        Samples {
+            dimension: 2,
+            label: vec![0.0, 0.0, 1.0, 2.0],
+            displacement: vec![0.5, 1.0, -0.25, 3.0],
+            velocity: vec![1.0, 2.0, 3.0, 4.0],
+            ..Samples::default()
+        }
+    }
+
+    #[test]
+    fn functionals_are_sums_over_particles() {
+        let value = |of: Functional| of.value(&[1.0, 3.0], &samples()).value;
+        assert_eq!(value(Functional::MeanDisplacement { axis: 0 }), (0.5 - 0.75) / 4.0);
+        assert_eq!(value(Functional::MeanDisplacement { axis: 1 }), 10.0 / 4.0);
+        assert_eq!(value(Functional::MeanSquareDisplacement), (1.25 + 3.0 * 9.0625) / 4.0);
+        assert_eq!(value(Functional::KineticEnergy), 0.5 * (5.0 + 75.0));
+        assert_eq!(value(Functional::PositionOf { particle: 1, axis: 1 }), 5.0);
+    }
+
+    #[test]
+    fn a_particle_or_axis_that_does_not_exist_has_no_value() {
+        let value = |of: Functional| of.value(&[1.0, 3.0], &samples());
+        assert!(value(Functional::PositionOf { particle: 2, axis: 0 }).value.is_nan());
+        let beyond = value(Functional::MeanDisplacement { axis: 2 });
+        assert!(beyond.value.is_nan() && beyond.scale.is_nan());
+    }
+
+    #[test]
+    fn functionals_are_written_as_the_protocol_states() {
+        let written = serde_json::to_value(Functional::PositionOf { particle: 63, axis: 0 });
+        let expected = serde_json::json!({"functional": "position_of", "particle": 63, "axis": 0});
+        assert_eq!(written.ok(), Some(expected));
+    }
+}
