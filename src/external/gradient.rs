@@ -67,44 +67,44 @@ impl Functional {
         Self::NAMES[index]
     }
 
-    /// The value for `samples` of particles with masses `mass` (kg), and the largest magnitude of
-    /// the terms, whose rounding is that of the value. NaN if the particle does not exist.
+    /// The value for `samples` of particles with masses `mass` (kg), and the size of its rounding:
+    /// displacements are differences of positions. NaN if the particle or axis does not exist.
     pub fn value(self, mass: &[f64], samples: &Samples) -> FunctionalValue {
         let d = samples.dimension.max(1);
         let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
         let total: f64 = mass.iter().sum();
-        let mean = |terms: Vec<f64>| {
-            let weighted = mass.iter().zip(&terms).map(|(m, term)| m * term).sum::<f64>();
-            FunctionalValue { value: weighted / total, scale: largest(&terms) }
+        let mean = |term: &dyn Fn(&[f64]) -> f64| {
+            let terms = samples.displacement.chunks_exact(d).zip(mass);
+            terms.map(|(u, m)| m * term(u)).sum::<f64>() / total
         };
-        match self {
+        let positions = samples.label.iter().zip(&samples.displacement).map(|(x, u)| x + u);
+        let far = largest(positions);
+        let (value, scale) = match self {
             Self::MeanDisplacement { axis } => {
-                let at = |u: &[f64]| u.get(axis).copied().unwrap_or(f64::NAN);
-                mean(samples.displacement.chunks_exact(d).map(at).collect())
+                (mean(&|u| u.get(axis).copied().unwrap_or(f64::NAN)), far)
             }
             Self::MeanSquareDisplacement => {
-                mean(samples.displacement.chunks_exact(d).map(square).collect())
+                (mean(&square), 2.0 * far * largest(samples.displacement.iter().copied()))
             }
             Self::KineticEnergy => {
                 let terms = mass.iter().zip(samples.velocity.chunks_exact(d));
                 let value = terms.map(|(m, v)| 0.5 * m * square(v)).sum::<f64>();
-                FunctionalValue { value, scale: value.abs() }
+                (value, value)
             }
             Self::PositionOf { particle, axis } => {
-                let index = particle * d + axis;
+                let index = if axis < d { particle * d + axis } else { usize::MAX };
                 let of = |column: &[f64]| column.get(index).copied().unwrap_or(f64::NAN);
-                let value = of(&samples.label) + of(&samples.displacement);
-                FunctionalValue { value, scale: value.abs() }
+                (of(&samples.label) + of(&samples.displacement), far)
             }
-        }
+        };
+        FunctionalValue { value, scale }
     }
 }
 
 /// Largest magnitude; NaN if a number is.
-fn largest(numbers: &[f64]) -> f64 {
-    let larger = |a: f64, b: &f64| if b.abs() <= a { a } else { b.abs() };
-    let all = numbers.iter().fold(0.0, larger);
-    if numbers.iter().any(|number| number.is_nan()) { f64::NAN } else { all }
+fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
+    let larger = |a: f64, b: f64| if b <= a || a.is_nan() { a } else { b };
+    numbers.map(f64::abs).fold(0.0, larger)
 }
 
 /// Value of a functional.
@@ -112,7 +112,7 @@ fn largest(numbers: &[f64]) -> f64 {
 pub struct FunctionalValue {
     /// The value.
     pub value: f64,
-    /// Largest magnitude of its terms.
+    /// Size of its rounding, in units of the rounding of a number.
     pub scale: f64,
 }
 
@@ -256,7 +256,7 @@ mod tests {
         let value = |of: Functional| of.value(&[1.0, 3.0], &samples());
         assert!(value(Functional::PositionOf { particle: 2, axis: 0 }).value.is_nan());
         let beyond = value(Functional::MeanDisplacement { axis: 2 });
-        assert!(beyond.value.is_nan() && beyond.scale.is_nan());
+        assert!(beyond.value.is_nan());
     }
 
     #[test]

@@ -10,7 +10,8 @@
 //! [`rerun`](Reruns) | what it depends on, and levels that run again | | [`floor`](Floor) | whose
 //! error a floor is | | [`richardson`](Richardson) | order and limit from three values | |
 //! [`cost`](Ranking) | cost of accuracy, in transfers or seconds | | [`stability`](StabilityStudy)
-//! | growth in runs, the step as a matrix, limits by bisection | | [`expectation`](Expectation),
+//! | growth in runs, the step as a matrix, limits by bisection | | [`gradient`](GradientStudy)
+//! | derivatives that a solver reports | | [`expectation`](Expectation),
 //! [`limits`](Limits) | expectations of suites | | [`figure`](CaseFigure) | registry of the figures
 //! that suites bound |
 //!
@@ -27,6 +28,7 @@ pub(crate) mod error;
 mod exclusion;
 mod expectation;
 mod figure;
+mod gradient;
 mod judge_plan;
 pub(crate) mod order;
 mod outcome;
@@ -62,6 +64,10 @@ pub use expectation::proposal::{Ground, Proposal, ProposedKey, propose};
 pub use expectation::{Bounds, CaseFindings, Expectation};
 pub(crate) use figure::each_case_figure;
 pub use figure::{BoundKind, CaseFigure, FigureNeed, RunFigure};
+pub use gradient::{
+    FIRST_LEVEL, GradientLevel, GradientState, GradientStudy, GradientTerms, LAST_LEVEL,
+    Perturbed, Sweep, SweepPoint, Taylor, ValueCheck,
+};
 pub use judge_plan::{JudgePlan, LevelSizes};
 pub use order::fit::Interval;
 pub(crate) use order::format_number::{format_number, rounded};

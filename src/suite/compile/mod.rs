@@ -1,7 +1,9 @@
 //! From the grammar to the model: every number computed, every name resolved, the truth checked.
 
 pub(crate) mod check;
+pub(crate) mod convergence;
 pub(crate) mod expect;
+pub(crate) mod gradient;
 pub(crate) mod internal_force;
 pub(crate) mod run;
 pub(crate) mod scene;

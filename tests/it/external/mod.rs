@@ -3,6 +3,7 @@
 mod doctor;
 #[cfg(unix)]
 mod gate;
+mod gradient;
 mod library;
 #[cfg(unix)]
 mod misbehaving;
