@@ -96,12 +96,7 @@ mod tests {
     fn motion(text: &str) -> ParametricMotion {
         let expr = Expr::parse(text).expect("a formula");
         let formula = Formula::bind(&expr, &Scope::new(), &["X", "t", "q"]).expect("a formula");
-        ParametricMotion {
-            from: vec![0.0],
-            to: vec![1.0],
-            displacement: vec![formula],
-            value: 2.0,
-        }
+        ParametricMotion { from: vec![0.0], to: vec![1.0], displacement: vec![formula], value: 2.0 }
     }
 
     #[test]

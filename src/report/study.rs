@@ -8,8 +8,8 @@ use crate::report::figure::{study, sweep};
 use crate::report::text::table::Table;
 use crate::report::text::{levels, stability};
 use crate::verify::{
-    Axis, CaseOutcome, Convergence, Floor, FloorCause, GradientStudy, InternalForce, LevelOutcome, Probe,
-    StabilityStudy, StudyResults, SuiteOutcome,
+    Axis, CaseOutcome, Convergence, Floor, FloorCause, GradientStudy, InternalForce, LevelOutcome,
+    Probe, StabilityStudy, StudyResults, SuiteOutcome,
 };
 use serde_json::{Map, Value, json};
 

@@ -737,8 +737,8 @@ GRID = [
           "Neglects weights below 0.03 to save time.",
           "weights do not sum to one",
           [f"{CUBIC} {MUSL}", f"{QUADRATIC} {USL}"],
-          {"self.nodes, self.n = np.array(nodes).T.copy(), np.array(values).T.copy()":
-           "self.nodes, self.n = np.array(nodes).T.copy(), np.array(values).T.copy(); self.n[self.n < 0.03] = 0"}),
+          {"self.nodes, self.n = np.array(nodes).T.copy(), np.stack(values).transpose(1, 0).copy()":
+           "self.nodes, self.n = np.array(nodes).T.copy(), np.stack(values).transpose(1, 0).copy(); self.n[self.n < 0.03] = 0"}),
     Fault("weights-of-rounded-cell",
           "Finds cells by rounding to the nearest integer, which is right for quadratic splines at nodes only.",
           "particles use the functions of a neighbouring cell",

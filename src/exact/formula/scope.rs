@@ -240,7 +240,9 @@ mod tests {
         // t E sqrt(E/2): the derivative with respect to E is 3/2 t sqrt(E/2).
         assert!((value.value() - 48.0).abs() < 1e-12);
         assert!((value.d(1) - 9.0).abs() < 1e-12 && (value.dd(0, 1) - 3.0).abs() < 1e-12);
-        assert!(scope.constant("w", 1.0).is_err() && scope.definition("s", Expr::parse("1")?).is_err());
+        assert!(
+            scope.constant("w", 1.0).is_err() && scope.definition("s", Expr::parse("1")?).is_err()
+        );
         assert!(Formula::bind(&Expr::parse("w")?, &scope, &["t"]).is_err(), "no value for E");
         Ok(())
     }

@@ -10,11 +10,7 @@ type Dual = (f64, f64);
 /// Exact derivative, at the end of the run, of the functional with respect to a parameter of the
 /// problem. It is total: where the suite's initial velocity follows the parameter, so does that of
 /// the exact motion.
-pub(super) fn derivative(
-    plan: &GradientPlan,
-    one: &Differentiated,
-    problem: &LevelProblem,
-) -> f64 {
+pub(super) fn derivative(plan: &GradientPlan, one: &Differentiated, problem: &LevelProblem) -> f64 {
     let slope = slope(plan.of, one, problem);
     match one.parameter {
         // The parameter of the problem is a factor on the parameter of the suite.
@@ -37,7 +33,8 @@ fn slope(of: Functional, one: &Differentiated, problem: &LevelProblem) -> f64 {
             let density = problem.materials.first().map_or(f64::NAN, |one| one.density);
             let (integral, slope) =
                 integral(motion, t, &|state| square(&state.velocity, &state.velocity_slope));
-            let mass = if one.parameter == GradientParameter::Density { 0.5 * integral } else { 0.0 };
+            let mass =
+                if one.parameter == GradientParameter::Density { 0.5 * integral } else { 0.0 };
             0.5 * density * slope + mass
         }
         Functional::PositionOf { particle, axis } => {

@@ -129,8 +129,7 @@ impl CaseRun<'_> {
     }
 
     fn gradient(&self, problem: LevelProblem) -> Result<Gradient, GradientError> {
-        let request =
-            GradientRequest { of: self.plan.of, with_respect_to: self.request.clone() };
+        let request = GradientRequest { of: self.plan.of, with_respect_to: self.request.clone() };
         let gradient = self.solver.gradient(problem, &request)?;
         if gradient.gradient.len() == self.request.len() {
             return Ok(gradient);

@@ -39,10 +39,7 @@ pub(crate) fn plan(
 }
 
 /// The external solvers of the suite; one without a name if it states none.
-fn methods(
-    evaluator: &Evaluator<'_>,
-    spec: &GradientSpec,
-) -> Result<Vec<MethodSpec>, Diagnostic> {
+fn methods(evaluator: &Evaluator<'_>, spec: &GradientSpec) -> Result<Vec<MethodSpec>, Diagnostic> {
     let is_other = |method: &MethodSpec| !matches!(method, MethodSpec::External { .. });
     if let Some(i) = spec.methods.iter().position(is_other) {
         let message = "gradients are those of external solvers; this crate has none";
@@ -248,9 +245,10 @@ fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) ->
     match parameter {
         GradientParameter::InitialVelocity => (growth - 1.0).abs() <= 1e-12,
         GradientParameter::Density => scene.density == value,
-        GradientParameter::Friction => scene.faces.iter().any(|face| {
-            face.hold.numbers().constants.contains(&("coefficient", value))
-        }),
+        GradientParameter::Friction => scene
+            .faces
+            .iter()
+            .any(|face| face.hold.numbers().constants.contains(&("coefficient", value))),
         _ => of_material() == Some(value),
     }
 }
@@ -264,11 +262,8 @@ fn changed(
     let number = ParameterSpec::Number(NumberText::Number(value));
     let parameters = spec.parameters.clone().with(name, number);
     let (evaluator, _) = Evaluator::new(source, &parameters, &spec.functions)?;
-    let solver = MethodSpec::External {
-        name: "solver".to_owned(),
-        formal_order: None,
-        precision: None,
-    };
+    let solver =
+        MethodSpec::External { name: "solver".to_owned(), formal_order: None, precision: None };
     convergence_plan(&evaluator, &spec.convergence(vec![solver]))
 }
 

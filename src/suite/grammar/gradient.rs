@@ -1,7 +1,9 @@
 //! Keys of a gradient study.
 
 use super::convergence::RunSpec;
-use super::{ConvergenceSpec, ExactSpec, MethodSpec, ParameterSpec, RefineSpec, SceneSpec, StudyName};
+use super::{
+    ConvergenceSpec, ExactSpec, MethodSpec, ParameterSpec, RefineSpec, SceneSpec, StudyName,
+};
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
 use crate::verify::GradientState;
 use serde::Deserialize;

@@ -89,14 +89,8 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("critical.from", "0.1"),
     ("critical.to", "2"),
     // A gradient study.
-    (
-        "gradient",
-        "{of: {mean_displacement: {axis: 0}}, with_respect_to: {young: E}}",
-    ),
-    (
-        "exact",
-        "{equation: corotated, displacement: [\"...\"]}",
-    ),
+    ("gradient", "{of: {mean_displacement: {axis: 0}}, with_respect_to: {young: E}}"),
+    ("exact", "{equation: corotated, displacement: [\"...\"]}"),
     ("of", "{mean_displacement: {axis: 0}}"),
     ("with_respect_to", "{young: E}"),
     ("axis", "0"),
@@ -132,7 +126,9 @@ impl SuiteSpec {
                 read(&checked, "internal_force").map(Box::new).map(Self::InternalForce)
             }
             StudyName::Stability => read(&checked, "stability").map(Box::new).map(Self::Stability),
-            StudyName::Gradient => read(&checked, "gradient_study").map(Box::new).map(Self::Gradient),
+            StudyName::Gradient => {
+                read(&checked, "gradient_study").map(Box::new).map(Self::Gradient)
+            }
         }
     }
 }

@@ -217,7 +217,8 @@ mod tests {
 
     #[test]
     fn each_check_is_named_when_it_fails() {
-        let terms = GradientTerms { state: Some(GradientState::Smooth), ..GradientTerms::of_gate(2.0) };
+        let terms =
+            GradientTerms { state: Some(GradientState::Smooth), ..GradientTerms::of_gate(2.0) };
         let first = |study: &GradientStudy| terms.unmet(study).remove(0);
         assert!(first(&study(2.0, |h| h * h)).starts_with("state: expected smooth, is wrong"));
         assert!(first(&study(1.0, |h| h)).starts_with("order: expected 1.85 to 2.15, is 1.00"));

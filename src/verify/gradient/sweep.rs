@@ -42,9 +42,7 @@ impl Sweep {
         let trapezium = |pair: &[SweepPoint]| {
             0.5 * (pair[0].gradient + pair[1].gradient) * (pair[1].at - pair[0].at)
         };
-        let jump = |pair: &[SweepPoint]| {
-            (pair[1].value - pair[0].value - trapezium(pair)) / change
-        };
+        let jump = |pair: &[SweepPoint]| (pair[1].value - pair[0].value - trapezium(pair)) / change;
         let share = points.windows(2).map(trapezium).sum::<f64>() / change;
         let jumps = points.windows(2).map(jump).filter(|jump| !(jump.abs() <= JUMP)).collect();
         Some(Self { change, share, jumps })

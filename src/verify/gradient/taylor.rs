@@ -88,7 +88,10 @@ impl Taylor {
         }
         let agrees = differences.iter().all(|d| (d - self.gradient).abs() <= SPREAD * d.abs());
         if above == 0 && agrees {
-            return (GradientState::Linear, "the Taylor remainder is at rounding on all levels".to_owned());
+            return (
+                GradientState::Linear,
+                "the Taylor remainder is at rounding on all levels".to_owned(),
+            );
         }
         if above < LEVELS {
             let reason = format!("the Taylor remainder is above rounding on {above} levels only");

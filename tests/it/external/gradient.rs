@@ -28,8 +28,7 @@ struct Bar {
 impl Bar {
     fn of(problem: &LevelProblem, t: f64) -> Self {
         let material = &problem.materials[0];
-        let (x, v) =
-            (problem.particles.reference_position[0], problem.particles.velocity[0]);
+        let (x, v) = (problem.particles.reference_position[0], problem.particles.velocity[0]);
         let factor = v / libm::sin(std::f64::consts::FRAC_PI_2 * x);
         let (young, density) = (material.parameter("young"), material.density);
         Self { young, density, factor, h: problem.grid.h, t }
@@ -190,10 +189,7 @@ fn states(cases: &[CaseOutcome]) -> Vec<GradientState> {
 fn a_sound_solver_meets_the_gate_with_its_order() {
     let cases = cases(&Differentiable::sound());
     let names: Vec<&str> = cases.iter().map(|case| case.case.as_str()).collect();
-    assert_eq!(
-        names,
-        ["closed-form-young", "closed-form-density", "closed-form-initial-velocity"]
-    );
+    assert_eq!(names, ["closed-form-young", "closed-form-density", "closed-form-initial-velocity"]);
     for case in &cases {
         assert_eq!(case.unmet, [""; 0], "{}", case.case);
         assert_eq!(case.result(), "pass");
@@ -264,7 +260,8 @@ fn a_jump_of_the_function_is_named(#[case] at: f64) {
 fn single_precision_is_at_rounding_and_not_wrong() {
     let single = Differentiable { precision: Precision::Single, ..Differentiable::sound() };
     let suite = loaded(SUITE);
-    for (case, state) in run(&suite, &single, false).iter().zip(states(&run(&suite, &single, false)))
+    for (case, state) in
+        run(&suite, &single, false).iter().zip(states(&run(&suite, &single, false)))
     {
         assert_eq!(state, GradientState::AtRounding, "{}: {}", case.case, case.reason);
     }
@@ -283,7 +280,10 @@ fn a_parameter_without_a_gradient_is_not_applicable() {
 fn a_refusal_is_not_applicable_and_a_failure_fails() {
     let with = |error| cases(&Differentiable { error: Some(error), ..Differentiable::sound() });
     let refused = &with(GradientError::Cannot("no adjoint".to_owned()))[0];
-    assert_eq!((refused.result(), refused.lacks.as_slice()), ("n/a", &["no adjoint".to_owned()][..]));
+    assert_eq!(
+        (refused.result(), refused.lacks.as_slice()),
+        ("n/a", &["no adjoint".to_owned()][..])
+    );
     let failed = &with(GradientError::Failed("says: NaN at step 17".to_owned()))[0];
     assert_eq!((failed.result(), failed.verdict.as_str()), ("FAIL", "failed"));
     assert!(failed.reason.contains("NaN at step 17"), "{}", failed.reason);

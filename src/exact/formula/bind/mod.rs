@@ -268,7 +268,8 @@ impl<'a> ProgramBuilder<'a> {
         at: usize,
     ) -> Result<Operand, FormulaError> {
         self.uses.insert(name.to_owned());
-        let mut inner = Frame { expr, function: Some(name), locals: Vec::new(), indices: Vec::new() };
+        let mut inner =
+            Frame { expr, function: Some(name), locals: Vec::new(), indices: Vec::new() };
         let result = self.compile(&mut inner, expr.root(), at);
         result.map_err(|error| error.within(name))
     }
