@@ -177,7 +177,9 @@ impl LevelProblem {
                 self.particles.mass = volumes.iter().map(|volume| value * volume).collect();
             }
             GradientParameter::InitialVelocity => {
-                self.particles.velocity.iter_mut().for_each(|v| *v *= value);
+                for velocity in &mut self.particles.velocity {
+                    *velocity *= value;
+                }
                 let scaled = |source| ProblemFields(Arc::new(ScaledVelocity { source, by: value }));
                 self.fields = self.fields.map(|ProblemFields(source)| scaled(source));
             }
@@ -221,7 +223,9 @@ impl FieldSource for ScaledVelocity {
     fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
         let mut values = self.source.values(of, t, at)?;
         if of == FieldName::Velocity {
-            values.iter_mut().for_each(|value| *value *= self.by);
+            for value in &mut values {
+                *value *= self.by;
+            }
         }
         Ok(values)
     }

@@ -145,6 +145,14 @@ pub enum ProgramError {
         /// Names of the parameters that were requested.
         names: String,
     },
+    /// A gradient has a number that JSON does not have.
+    #[error("answered `differentiate` with {word}, which is no number; requested: {names}")]
+    GradientNoNumber {
+        /// The number.
+        word: &'static str,
+        /// Names of the parameters that were requested.
+        names: String,
+    },
     /// An entry of a gradient, or the value of the functional, is not finite.
     #[error("gave {value} as the {of}")]
     GradientNotFinite {

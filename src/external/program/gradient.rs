@@ -30,7 +30,13 @@ impl SolverProgram {
         });
         connection.send(Outgoing::new("differentiate", content, false));
         inquiry.allow(problem.steps.saturating_mul(QUESTIONS_PER_STEP));
-        let answer = conclude(&mut connection, &mut inquiry)?.0;
+        let names = || names(request).join(", ");
+        let answer = conclude(&mut connection, &mut inquiry).map_err(|error| match error {
+            // JSON has no such number, so the entry is unknown.
+            ProgramError::NoNumber(word) => ProgramError::GradientNoNumber { word, names: names() },
+            error => error,
+        });
+        let answer = answer?.0;
         let gradient = match answer {
             Answer::Gradient { value, gradient } => checked(request, value, gradient)?,
             Answer::Cannot { reason } => return Err(ProgramError::Refused(printable(&reason))),
@@ -51,7 +57,7 @@ fn checked(
     value: f64,
     gradient: Vec<f64>,
 ) -> Result<Gradient, ProgramError> {
-    let names: Vec<&str> = request.with_respect_to.iter().map(|one| one.name()).collect();
+    let names = names(request);
     if gradient.len() != names.len() {
         let (found, expected, names) = (gradient.len(), names.len(), names.join(", "));
         return Err(ProgramError::GradientLength { found, expected, names });
@@ -64,4 +70,9 @@ fn checked(
         Some((of, value)) => Err(ProgramError::GradientNotFinite { value, of }),
         None => Ok(Gradient { value, gradient }),
     }
+}
+
+/// Names of the parameters of a request.
+fn names(request: &GradientRequest) -> Vec<&'static str> {
+    request.with_respect_to.iter().map(|one| one.name()).collect()
 }

@@ -116,9 +116,10 @@ impl StudyPlan for GradientPlan {
                 continue;
             }
             let order = terms.order.or(terms.formal_order).unwrap_or(formal_order);
-            let because = match terms.because.is_empty() {
-                true => "the derivative of an accurate state has the order of the state".to_owned(),
-                false => terms.because.clone(),
+            let because = if terms.because.is_empty() {
+                "the derivative of an accurate state has the order of the state".to_owned()
+            } else {
+                terms.because.clone()
             };
             case.expected = Some((GradientTerms::of_gate(order), because));
         }

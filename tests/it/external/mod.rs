@@ -1,5 +1,7 @@
 //! Solvers of other programs, as shell scripts: sound ones, and every way to misbehave.
 
+#[cfg(unix)]
+mod differentiate;
 mod doctor;
 #[cfg(unix)]
 mod gate;
