@@ -81,6 +81,16 @@ fn refuse_unfit_problem(
             "a gradient study has one end of the run",
         ),
         (
+            spec.run.instants.is_some(),
+            Path::top("run").then("instants"),
+            "a gradient study uses the state at the end of the run only",
+        ),
+        (
+            spec.exact.displacement.is_none() || spec.exact.temperature.is_some(),
+            Path::top("exact"),
+            "the exact solution of a gradient study is a displacement",
+        ),
+        (
             problem.refine.axis != Axis::Space,
             Path::top("refine"),
             "a gradient study refines `cells`",
