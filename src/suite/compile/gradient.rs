@@ -2,6 +2,7 @@
 
 use super::convergence::convergence_plan;
 use super::expect::assign;
+use super::scene;
 use crate::exact::ParametricMotion;
 use crate::external::{Functional, GradientParameter};
 use crate::subject::{PlaneState, Precision};
@@ -225,13 +226,14 @@ fn differentiated(
         let message = "the body of a gradient study starts undeformed";
         return Err(evaluator.diagnostic_at_key(&Path::top("exact").then("displacement"), message));
     }
-    let changed = changed(source, spec, (name, value * (1.0 + CHANGE))).map_err(|error| {
-        let message = format!("the suite does not hold for another value of `{name}`: {error}");
-        evaluator.diagnostic(path, &message)
-    })?;
-    if !sets(parameter, &problem.scene, value, factor * value)
-        || !sets(parameter, &changed.scene, value * (1.0 + CHANGE), factor * value)
-    {
+    let growth = factor * value;
+    let other = value * (1.0 + CHANGE);
+    let is_set = sets(parameter, &problem.scene, value, growth)
+        && with_value(source, spec, (name, other), |evaluator| {
+            let scene = scene::scene(evaluator, &spec.scene)?;
+            Ok(sets(parameter, &scene, other, growth))
+        })?;
+    if !is_set {
         let key = parameter.name();
         let message = format!("`{name}` does not set the parameter `{key}` of the problem");
         let help = match parameter {
@@ -242,6 +244,16 @@ fn differentiated(
         };
         return Err(evaluator.diagnostic(path, &message).with_help(&help));
     }
+    let solver =
+        MethodSpec::External { name: "solver".to_owned(), formal_order: None, precision: None };
+    let check = |evaluator: &Evaluator<'_>| {
+        convergence_plan(evaluator, &spec.convergence(vec![solver])).map(|_| ())
+    };
+    with_value(source, spec, (name, other), check).map_err(|error| {
+        let reason = error.message();
+        let message = format!("the suite does not hold for {name} = {}: {reason}", shown(other));
+        evaluator.diagnostic(path, &message)
+    })?;
     Ok(Differentiated { parameter, name: name.clone(), motion, velocity_factor: factor })
 }
 
@@ -263,18 +275,17 @@ fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) ->
     }
 }
 
-/// The problem with another value of a parameter of the suite.
-fn changed(
+/// The result of `check` with another value of a parameter of the suite.
+fn with_value<T>(
     source: &Source,
     spec: &GradientSpec,
     (name, value): (&str, f64),
-) -> Result<ConvergencePlan, Diagnostic> {
+    check: impl FnOnce(&Evaluator<'_>) -> Result<T, Diagnostic>,
+) -> Result<T, Diagnostic> {
     let number = ParameterSpec::Number(NumberText::Number(value));
     let parameters = spec.parameters.clone().with(name, number);
     let (evaluator, _) = Evaluator::new(source, &parameters, &spec.functions)?;
-    let solver =
-        MethodSpec::External { name: "solver".to_owned(), formal_order: None, precision: None };
-    convergence_plan(&evaluator, &spec.convergence(vec![solver]))
+    check(&evaluator)
 }
 
 /// The exact motion as a function of the parameter `name`.

@@ -87,7 +87,7 @@ impl Taylor {
             return (GradientState::Wrong, "a Taylor remainder is not finite".to_owned());
         }
         let agrees = differences.iter().all(|d| (d - self.gradient).abs() <= SPREAD * d.abs());
-        if above == 0 && agrees {
+        if above == 0 && agrees && differences.len() >= LEVELS {
             return (
                 GradientState::Linear,
                 "the Taylor remainder is at rounding on all levels".to_owned(),
@@ -202,7 +202,8 @@ mod tests {
     fn a_derivative_of_a_linear_function_is_linear() {
         assert_eq!(state(|q| 3.0 * q - 1.0, 3.0), GradientState::Linear);
         assert_eq!(state(|q| 3.0 * q - 1.0, 6.0), GradientState::Wrong);
-        assert_eq!(state(|_| 0.0, 0.0), GradientState::Linear);
+        // Rounding may hide any derivative.
+        assert_eq!(state(|_| 0.0, 0.0), GradientState::AtRounding);
     }
 
     #[test]

@@ -21,8 +21,7 @@ fn run(script: &str) -> (i32, String, String) {
     let folder = Folder::new();
     folder.write("bar.yaml", SUITE);
     folder.write("solver.sh", script);
-    let arguments =
-        ["run", "bar.yaml", "--solver", "sh solver.sh", "--solver-timeout", "2s", "--brief"];
+    let arguments = ["run", "bar.yaml", "--solver", "sh solver.sh", "--solver-timeout", "2s"];
     let found = folder.call(&arguments);
     let requests = std::fs::read_to_string(folder.path().join("requests")).unwrap_or_default();
     let said = found.out + &found.errors;
@@ -130,14 +129,17 @@ fn a_misspelt_parameter_among_the_capabilities_is_reported() {
     "position_of: {particle: 16, axis: 0}",
     "the index of the particle is 16"
 )]
-#[case::an_unknown_parameter("young: E, ", "yuong: E, ", "did you mean `young`?")]
-#[case::a_parameter_of_no_suite("young: E, ", "young: F, ", "`F` is not a parameter of this suite")]
+#[case::an_unknown_parameter("{young: E, ", "{yuong: E, ", "did you mean `young`?")]
+#[case::a_parameter_of_no_suite(
+    "{young: E, ",
+    "{young: F, ",
+    "`F` is not a parameter of this suite"
+)]
 #[case::a_parameter_that_sets_another(
-    "young: E, ",
-    "young: rho, ",
+    "{young: E, ",
+    "{young: rho, ",
     "does not set the parameter `young`"
 )]
-#[case::zero("v0: 1e-5 ", "v0: 0 ", "a perturbation is a share of it")]
 #[case::no_parameter(
     "{young: E, density: rho, initial_velocity: v0}",
     "{}",
@@ -164,10 +166,38 @@ fn a_misspelt_parameter_among_the_capabilities_is_reported() {
 )]
 fn a_suite_of_gradients_is_refused(#[case] old: &str, #[case] new: &str, #[case] words: &str) {
     assert!(SUITE.contains(old), "{old}");
+    let said = refusal(&SUITE.replace(old, new));
+    assert!(said.contains(words), "no `{words}` in\n{said}");
+}
+
+#[rstest]
+#[case::an_end_for_each_case("until: 1.3", "until: [1.3, 2]", "one end of the run")]
+#[case::instants("until: 1.3", "until: 1.3, instants: 10", "the end of the run only")]
+#[case::refined_steps("dt: \"0.4*h\"", "dt: {courant: 0.4}", "does not depend on the method")]
+fn a_problem_without_sensitivities_is_refused(
+    #[case] old: &str,
+    #[case] new: &str,
+    #[case] words: &str,
+) {
+    let said = refusal(&SUITE.replace(old, new));
+    assert!(said.contains(words), "no `{words}` in\n{said}");
+}
+
+#[test]
+fn a_parameter_that_is_zero_is_refused() {
+    let suite = SUITE.replace("  L: 1 ", "  nu: 0\n  L: 1 ").replace("poisson: 0", "poisson: nu");
+    let suite = suite.replace("{young: E, density: rho, initial_velocity: v0}", "{poisson: nu}");
+    let said = refusal(&suite);
+    assert!(said.contains("`nu` is 0, and a perturbation is a share of it"), "{said}");
+}
+
+/// The error that `check` reports about a suite.
+fn refusal(suite: &str) -> String {
     let folder = Folder::new();
-    folder.write("bar.yaml", SUITE.replace(old, new));
+    folder.write("bar.yaml", suite);
     let found = folder.call(&["check", "bar.yaml"]);
     let said = found.out + &found.errors;
     assert_eq!(found.code, BAD_INPUT, "{said}");
-    assert!(said.contains(words) && said.contains("bar.yaml:"), "no `{words}` in\n{said}");
+    assert!(said.contains("bar.yaml:"), "{said}");
+    said
 }

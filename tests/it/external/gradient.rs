@@ -11,7 +11,6 @@ use mpm_verify::suite::{ExternalMethod, GateTerms, Suite};
 use mpm_verify::verify::{CaseOutcome, GradientState, GradientStudy};
 use rstest::rstest;
 
-/// A bar with a larger amplitude than that of the suite: the remainder is far above rounding.
 const SUITE: &str = include_str!("../../../verification/gradients/gradient-bar.yaml");
 
 /// The exact motion of the bar with a relative error of h^2, as a function of E, rho and a factor
@@ -124,7 +123,7 @@ impl Differentiable {
 }
 
 impl SolverFactory for Differentiable {
-    fn name(&self) -> &str {
+    fn name(&self) -> &'static str {
         "closed-form"
     }
 
@@ -196,8 +195,8 @@ fn a_sound_solver_meets_the_gate_with_its_order() {
         let study: &GradientStudy = case.results().expect("results");
         assert!((study.order() - 2.0).abs() < 0.02, "{}", study.order());
     }
-    use GradientState::{Linear, Smooth};
-    assert_eq!(states(&cases), [Smooth, Smooth, Linear]);
+    let (smooth, linear) = (GradientState::Smooth, GradientState::Linear);
+    assert_eq!(states(&cases), [smooth, smooth, linear]);
     let young: &GradientStudy = cases[0].results().expect("results");
     let sweep = young.sweep.as_ref().expect("a sweep");
     assert!((sweep.share - 1.0).abs() < 1e-6 && sweep.jumps.is_empty(), "{sweep:?}");
@@ -207,9 +206,9 @@ fn a_sound_solver_meets_the_gate_with_its_order() {
 #[test]
 fn exact_sensitivities_are_those_of_the_closed_form() {
     for (until, displacement, by_young) in [
-        (1.3, 3.6111134266e-6, -3.6841823492e-6),
-        (0.5, 2.8657958413e-6, -3.0750252543e-7),
-        (2.0, 0.0, -6.3661977237e-6),
+        (1.3, 3.611_113_426_6e-6, -3.684_182_349_2e-6),
+        (0.5, 2.865_795_841_3e-6, -3.075_025_254_3e-7),
+        (2.0, 0.0, -6.366_197_723_7e-6),
     ] {
         let suite = loaded(&SUITE.replace("until: 1.3", &format!("until: {until}")));
         let cases = run(&suite, &Differentiable::sound(), false);
