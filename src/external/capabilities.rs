@@ -345,7 +345,7 @@ mod tests {
 
     #[test]
     fn known_gradients_are_the_parameters() {
-        let names = super::super::GradientParameter::ALL.iter().map(|parameter| parameter.name());
+        let names = crate::subject::GradientParameter::ALL.iter().map(|parameter| parameter.name());
         assert!(names.eq(GRADIENTS.iter().copied()));
     }
 

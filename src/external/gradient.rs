@@ -1,120 +1,10 @@
-//! Gradients of functionals of the final state with respect to parameters of a problem.
+//! Values and gradients of functionals, and problems with another value of a parameter.
 
 use super::fields::{FieldError, FieldName, FieldPlaces, FieldSource, HandedNumber, ProblemFields};
 use super::problem::LevelProblem;
-use crate::named::named;
-use crate::subject::Samples;
-use serde::Serialize;
+use crate::subject::{Functional, FunctionalValue, GradientParameter, Samples};
 use std::sync::Arc;
 use thiserror::Error;
-
-named! {
-    /// Parameters of a problem that a functional can be differentiated with respect to.
-    pub enum GradientParameter {
-        /// Young's modulus (Pa).
-        Young = "young",
-        /// Poisson's ratio.
-        Poisson = "poisson",
-        /// Reference density (kg/m3). All masses are proportional to it.
-        Density = "density",
-        /// Yield stress (Pa).
-        Yield = "yield",
-        /// Linear hardening modulus (Pa).
-        Hardening = "hardening",
-        /// Coefficient of friction of the faces.
-        Friction = "friction",
-        /// Factor on the whole initial velocity field; its nominal value is 1.
-        InitialVelocity = "initial_velocity",
-    }
-}
-
-/// A functional of the final state. Sums run over the particles, with masses m, displacements u
-/// and velocities v.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(tag = "functional", rename_all = "snake_case")]
-pub enum Functional {
-    /// `sum m u_axis / sum m` (m).
-    MeanDisplacement {
-        /// Axis of the displacement.
-        axis: usize,
-    },
-    /// `sum m |u|^2 / sum m` (m2).
-    MeanSquareDisplacement,
-    /// `sum m |v|^2 / 2` (J), without the affine part of APIC.
-    KineticEnergy,
-    /// Position of one particle (m).
-    PositionOf {
-        /// Index of the particle.
-        particle: usize,
-        /// Axis of the position.
-        axis: usize,
-    },
-}
-
-impl Functional {
-    /// Names of the functionals, as suites and messages spell them.
-    pub const NAMES: [&'static str; 4] =
-        ["mean_displacement", "mean_square_displacement", "kinetic_energy", "position_of"];
-
-    /// The name as suites and messages spell it.
-    pub fn name(self) -> &'static str {
-        let index = match self {
-            Self::MeanDisplacement { .. } => 0,
-            Self::MeanSquareDisplacement => 1,
-            Self::KineticEnergy => 2,
-            Self::PositionOf { .. } => 3,
-        };
-        Self::NAMES[index]
-    }
-
-    /// The value for `samples` of particles with masses `mass` (kg), and the size of its rounding:
-    /// displacements are differences of positions. NaN if the particle or axis does not exist.
-    pub fn value(self, mass: &[f64], samples: &Samples) -> FunctionalValue {
-        let d = samples.dimension.max(1);
-        let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
-        let total: f64 = mass.iter().sum();
-        let mean = |term: &dyn Fn(&[f64]) -> f64| {
-            let terms = samples.displacement.chunks_exact(d).zip(mass);
-            terms.map(|(u, m)| m * term(u)).sum::<f64>() / total
-        };
-        let positions = samples.label.iter().zip(&samples.displacement).map(|(x, u)| x + u);
-        let far = largest(positions);
-        let (value, scale) = match self {
-            Self::MeanDisplacement { axis } => {
-                (mean(&|u| u.get(axis).copied().unwrap_or(f64::NAN)), far)
-            }
-            Self::MeanSquareDisplacement => {
-                (mean(&square), 2.0 * far * largest(samples.displacement.iter().copied()))
-            }
-            Self::KineticEnergy => {
-                let terms = mass.iter().zip(samples.velocity.chunks_exact(d));
-                let value = terms.map(|(m, v)| 0.5 * m * square(v)).sum::<f64>();
-                (value, value)
-            }
-            Self::PositionOf { particle, axis } => {
-                let index = if axis < d { particle * d + axis } else { usize::MAX };
-                let of = |column: &[f64]| column.get(index).copied().unwrap_or(f64::NAN);
-                (of(&samples.label) + of(&samples.displacement), far)
-            }
-        };
-        FunctionalValue { value, scale }
-    }
-}
-
-/// Largest magnitude; NaN if a number is.
-fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
-    let larger = |a: f64, b: f64| if b <= a || a.is_nan() { a } else { b };
-    numbers.map(f64::abs).fold(0.0, larger)
-}
-
-/// Value of a functional.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FunctionalValue {
-    /// The value.
-    pub value: f64,
-    /// Size of its rounding, in units of the rounding of a number.
-    pub scale: f64,
-}
 
 /// A request for a value and its gradient after all steps of a problem.
 #[derive(Debug, Clone, PartialEq)]
@@ -201,6 +91,47 @@ impl LevelProblem {
     }
 }
 
+impl Functional {
+    /// The value for `samples` of particles with masses `mass` (kg), and the size of its rounding:
+    /// displacements are differences of positions. NaN if the particle or axis does not exist.
+    pub fn value(self, mass: &[f64], samples: &Samples) -> FunctionalValue {
+        let d = samples.dimension.max(1);
+        let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
+        let total: f64 = mass.iter().sum();
+        let mean = |term: &dyn Fn(&[f64]) -> f64| {
+            let terms = samples.displacement.chunks_exact(d).zip(mass);
+            terms.map(|(u, m)| m * term(u)).sum::<f64>() / total
+        };
+        let positions = samples.label.iter().zip(&samples.displacement).map(|(x, u)| x + u);
+        let far = largest(positions);
+        let (value, scale) = match self {
+            Self::MeanDisplacement { axis } => {
+                (mean(&|u| u.get(axis).copied().unwrap_or(f64::NAN)), far)
+            }
+            Self::MeanSquareDisplacement => {
+                (mean(&square), 2.0 * far * largest(samples.displacement.iter().copied()))
+            }
+            Self::KineticEnergy => {
+                let terms = mass.iter().zip(samples.velocity.chunks_exact(d));
+                let value = terms.map(|(m, v)| 0.5 * m * square(v)).sum::<f64>();
+                (value, value)
+            }
+            Self::PositionOf { particle, axis } => {
+                let index = if axis < d { particle * d + axis } else { usize::MAX };
+                let of = |column: &[f64]| column.get(index).copied().unwrap_or(f64::NAN);
+                (of(&samples.label) + of(&samples.displacement), far)
+            }
+        };
+        FunctionalValue { value, scale }
+    }
+}
+
+/// Largest magnitude; NaN if a number is.
+fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
+    let larger = |a: f64, b: f64| if b <= a || a.is_nan() { a } else { b };
+    numbers.map(f64::abs).fold(0.0, larger)
+}
+
 /// Fields of a problem whose initial velocity is multiplied by a factor.
 struct ScaledVelocity {
     source: Arc<dyn FieldSource>,
@@ -261,12 +192,5 @@ mod tests {
         assert!(value(Functional::PositionOf { particle: 2, axis: 0 }).value.is_nan());
         let beyond = value(Functional::MeanDisplacement { axis: 2 });
         assert!(beyond.value.is_nan());
-    }
-
-    #[test]
-    fn functionals_are_written_as_the_protocol_states() {
-        let written = serde_json::to_value(Functional::PositionOf { particle: 63, axis: 0 });
-        let expected = serde_json::json!({"functional": "position_of", "particle": 63, "axis": 0});
-        assert_eq!(written.ok(), Some(expected));
     }
 }

@@ -202,7 +202,7 @@ impl StudyReport for GradientReport {
 /// All checks of one derivative in JSON.
 fn gradient_json(study: &GradientStudy) -> Value {
     let (levels, taylor, points) = (gradient::levels(), gradient::taylor(), gradient::points());
-    let level = |row: &gradient::LevelRow| json_object(&levels, row);
+    let level = |row: &gradient::GradientLevelRow| json_object(&levels, row);
     let perturbed = |row: &gradient::TaylorRow| json_object(&taylor, row);
     json!({
         "functional": study.functional,

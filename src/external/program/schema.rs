@@ -2,8 +2,8 @@
 
 use super::answer::{Answer, ColumnText};
 use super::solver::{PROTOCOL, VERSIONS};
-use crate::external::gradient::GradientParameter;
 use crate::external::problem::{LevelProblem, ProblemParticles};
+use crate::subject::GradientParameter;
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};

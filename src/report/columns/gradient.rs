@@ -6,7 +6,7 @@ use crate::verify::{GradientLevel, GradientStudy, Perturbed, SweepPoint};
 use serde_json::{Value, json};
 
 /// One level of refinement, with the order from the level before.
-pub(crate) type LevelRow = (GradientLevel, Option<f64>);
+pub(crate) type GradientLevelRow = (GradientLevel, Option<f64>);
 
 /// One perturbation: the remainder, the order from the one before, and the central difference.
 pub(crate) struct TaylorRow {
@@ -17,7 +17,7 @@ pub(crate) struct TaylorRow {
 }
 
 /// The levels of a study, from coarse to fine.
-pub(crate) fn level_rows(study: &GradientStudy) -> Vec<LevelRow> {
+pub(crate) fn level_rows(study: &GradientStudy) -> Vec<GradientLevelRow> {
     let orders = std::iter::once(None).chain(study.pairwise_orders().into_iter().map(Some));
     study.levels.iter().copied().zip(orders).collect()
 }
@@ -35,20 +35,22 @@ pub(crate) fn taylor_rows(study: &GradientStudy) -> Vec<TaylorRow> {
 }
 
 /// One row for each level.
-pub(crate) fn levels<'a>() -> Vec<TableColumn<'a, LevelRow>> {
-    type Column<'a> = TableColumn<'a, LevelRow>;
+pub(crate) fn levels<'a>() -> Vec<TableColumn<'a, GradientLevelRow>> {
+    type GradientLevelColumn<'a> = TableColumn<'a, GradientLevelRow>;
     let of = |key, about, value: fn(&GradientLevel) -> f64| {
-        Column::new(key, key, about, move |(level, _)| Cell::number(value(level), scientific))
+        GradientLevelColumn::new(key, key, about, move |(level, _)| {
+            Cell::number(value(level), scientific)
+        })
     };
     vec![
-        Column::new("cells", "cells", "cells along the first axis", |(level, _)| {
+        GradientLevelColumn::new("cells", "cells", "cells along the first axis", |(level, _)| {
             Cell::plain(level.cells)
         }),
         of("dt", "time step (s)", |level| level.dt),
         of("gradient", "derivative that the solver reports", |level| level.gradient),
         of("exact", "exact derivative", |level| level.exact),
         of("error", "magnitude of the error of the derivative", GradientLevel::error),
-        Column::new("order", "order", "order from the level before", |(_, order)| {
+        GradientLevelColumn::new("order", "order", "order from the level before", |(_, order)| {
             Cell::number(*order, decimals(2))
         }),
     ]
@@ -56,18 +58,18 @@ pub(crate) fn levels<'a>() -> Vec<TableColumn<'a, LevelRow>> {
 
 /// One row for each perturbation.
 pub(crate) fn taylor<'a>() -> Vec<TableColumn<'a, TaylorRow>> {
-    type Column<'a> = TableColumn<'a, TaylorRow>;
+    type TaylorColumn<'a> = TableColumn<'a, TaylorRow>;
     vec![
-        Column::new("k", "level", "the perturbation is the parameter times 2^-k", |row| {
+        TaylorColumn::new("k", "level", "the perturbation is the parameter times 2^-k", |row| {
             Cell::plain(u64::from(row.perturbed.level))
         }),
-        Column::new("remainder", "remainder", "|J(q + e) - J(q) - e g|", |row| {
+        TaylorColumn::new("remainder", "remainder", "|J(q + e) - J(q) - e g|", |row| {
             Cell::number(row.remainder, scientific)
         }),
-        Column::new("order", "order", "order of the remainder in e", |row| {
+        TaylorColumn::new("order", "order", "order of the remainder in e", |row| {
             Cell::number(row.order, decimals(2))
         }),
-        Column::new("difference", "difference", "(J(q + e) - J(q - e))/(2 e)", |row| {
+        TaylorColumn::new("difference", "difference", "(J(q + e) - J(q - e))/(2 e)", |row| {
             Cell::number(row.difference, scientific)
         }),
     ]
@@ -75,11 +77,11 @@ pub(crate) fn taylor<'a>() -> Vec<TableColumn<'a, TaylorRow>> {
 
 /// One row for each point of a sweep, in JSON only.
 pub(crate) fn points<'a>() -> Vec<TableColumn<'a, SweepPoint>> {
-    type Column<'a> = TableColumn<'a, SweepPoint>;
+    type SweepColumn<'a> = TableColumn<'a, SweepPoint>;
     vec![
-        Column::json("parameter", "value of the parameter", |point| number(point.at)),
-        Column::json("value", "value of the functional", |point| number(point.value)),
-        Column::json("gradient", "derivative that the solver reports", |point| {
+        SweepColumn::json("parameter", "value of the parameter", |point| number(point.at)),
+        SweepColumn::json("value", "value of the functional", |point| number(point.value)),
+        SweepColumn::json("gradient", "derivative that the solver reports", |point| {
             number(point.gradient)
         }),
     ]

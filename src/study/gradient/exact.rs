@@ -1,7 +1,8 @@
 //! Exact values of the functionals and of their derivatives.
 
 use crate::exact::{ParametricMotion, ParametricState};
-use crate::external::{Functional, GradientParameter, LevelProblem};
+use crate::external::LevelProblem;
+use crate::subject::{Functional, GradientParameter};
 use crate::suite::model::gradient::{Differentiated, GradientPlan};
 
 /// A value and its derivative.

@@ -1,13 +1,10 @@
 //! The runs of one case: gradients and perturbed values.
 
 use super::exact;
-use crate::external::{
-    FunctionalValue, Gradient, GradientError, GradientParameter, GradientRequest, LevelProblem,
-    SolverFactory,
-};
+use crate::external::{Gradient, GradientError, GradientRequest, LevelProblem, SolverFactory};
 use crate::study::handover::level_problem;
 use crate::study::kind::Progress;
-use crate::subject::{Precision, Samples};
+use crate::subject::{FunctionalValue, GradientParameter, Precision, Samples};
 use crate::suite::model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan};
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::verify::{
@@ -20,7 +17,7 @@ use rayon::prelude::*;
 const ROUNDING: f64 = 4.0;
 
 /// One case on its way.
-pub(super) struct CaseRun<'a> {
+pub(super) struct GradientRun<'a> {
     pub(super) suite: &'a str,
     pub(super) plan: &'a GradientPlan,
     pub(super) case: &'a GradientCase,
@@ -30,7 +27,7 @@ pub(super) struct CaseRun<'a> {
     pub(super) extent: Extent,
 }
 
-impl CaseRun<'_> {
+impl GradientRun<'_> {
     /// Runs all checks.
     ///
     /// # Errors

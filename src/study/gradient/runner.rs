@@ -1,11 +1,12 @@
 //! The runner of a gradient study, and the rows that state the study.
 
-use super::run::CaseRun;
-use crate::external::{GradientError, GradientParameter, ProblemNeeds, SolverFactory};
+use super::run::GradientRun;
+use crate::external::{GradientError, ProblemNeeds, SolverFactory};
 use crate::study::convergence::statement;
 use crate::study::describe::statement::{Rows, push};
 use crate::study::handover::needs;
 use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
+use crate::subject::GradientParameter;
 use crate::suite::evaluator::shown;
 use crate::suite::model::gradient::{GradientCase, GradientPlan};
 use crate::verify::{CaseOutcome, FIRST_LEVEL, Gating, GradientStudy, LAST_LEVEL};
@@ -63,7 +64,7 @@ impl CaseRunner for GradientRunner<'_> {
         let all = plan.parameters.iter().map(|one| one.parameter);
         let request = all.filter(|one| has_gradient(solver, *one)).collect();
         let RunContext { suite, extent, .. } = self.context;
-        let run = CaseRun { suite, plan, case, solver, request, extent };
+        let run = GradientRun { suite, plan, case, solver, request, extent };
         match run.study(progress) {
             Ok(study) => judged(described, case, study),
             // A solver's statement that it cannot do something is not a fault.

@@ -4,8 +4,7 @@ use super::convergence::convergence_plan;
 use super::expect::assign;
 use super::scene;
 use crate::exact::ParametricMotion;
-use crate::external::{Functional, GradientParameter};
-use crate::subject::{PlaneState, Precision};
+use crate::subject::{Functional, GradientParameter, PlaneState, Precision};
 use crate::suite::evaluator::{Evaluator, coordinates_and_time, shown, suggestion};
 use crate::suite::grammar::{
     FunctionalSpec, GradientExpectSpec, GradientSpec, MethodSpec, ParameterSpec,

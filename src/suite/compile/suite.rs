@@ -1,5 +1,5 @@
-//! From the specification to a suite: the kind of study, the head of the file, and changed copies of
-//! a convergence study.
+//! From the specification to a suite: the kind of study, the head of the file, and changed copies
+//! of a convergence study.
 
 use super::convergence::convergence_plan;
 use super::{gradient, internal_force, scene, stability};

@@ -4,7 +4,7 @@ use super::method::{ExternalMethod, GateTerms, Method};
 use super::study_plan::{StudyPlan, kept};
 use super::{Case, ConvergencePlan};
 use crate::exact::ParametricMotion;
-use crate::external::{Functional, GradientParameter};
+use crate::subject::{Functional, GradientParameter};
 use crate::verify::{Gating, GradientTerms};
 use std::sync::Arc;
 

@@ -121,7 +121,7 @@ impl GradientStudy {
     }
 }
 
-/// What is required of a derivative.
+/// Requirements of a derivative.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct GradientTerms {
     /// The state.

@@ -129,15 +129,19 @@ fn a_misspelt_parameter_among_the_capabilities_is_reported() {
     "position_of: {particle: 16, axis: 0}",
     "the index of the particle is 16"
 )]
-#[case::an_unknown_parameter("{young: E, ", "{yuong: E, ", "did you mean `young`?")]
+#[case::an_unknown_parameter(
+    "with_respect_to: {young: E",
+    "with_respect_to: {yuong: E",
+    "did you mean `young`?"
+)]
 #[case::a_parameter_of_no_suite(
-    "{young: E, ",
-    "{young: F, ",
+    "with_respect_to: {young: E",
+    "with_respect_to: {young: F",
     "`F` is not a parameter of this suite"
 )]
 #[case::a_parameter_that_sets_another(
-    "{young: E, ",
-    "{young: rho, ",
+    "with_respect_to: {young: E",
+    "with_respect_to: {young: rho",
     "does not set the parameter `young`"
 )]
 #[case::no_parameter(

@@ -2,11 +2,13 @@
 
 use super::library::loaded;
 use mpm_verify::external::{
-    Capabilities, Functional, Gradient, GradientError, GradientParameter, GradientRequest,
-    LevelProblem, ProblemNeeds, SolverFactory,
+    Capabilities, Gradient, GradientError, GradientRequest, LevelProblem, ProblemNeeds,
+    SolverFactory,
 };
 use mpm_verify::study::Runner;
-use mpm_verify::subject::{Failure, Precision, RunCounters, Samples, Subject};
+use mpm_verify::subject::{
+    Failure, Functional, GradientParameter, Precision, RunCounters, Samples, Subject,
+};
 use mpm_verify::suite::{ExternalMethod, GateTerms, Suite};
 use mpm_verify::verify::{CaseOutcome, GradientState, GradientStudy};
 use rstest::rstest;
