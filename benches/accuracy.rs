@@ -1,9 +1,9 @@
 //! Time to reach an error: for each suite and target the methods that reach it soonest, each at the
 //! coarsest level that does.
 //!
-//! An identifier reads `accuracy/vibrating-bar/1e-3/mpm-linear-flip-musl`, and any part of it
-//! selects: `cargo bench --bench accuracy -- 1e-3`. Only steps are timed, without setting up.
-//! Nothing is timed before the level has run and its error has been found to be what it must be.
+//! An identifier has the form `accuracy/vibrating-bar/1e-3/mpm-linear-flip-musl`, and any part of
+//! it selects benchmarks: `cargo bench --bench accuracy -- 1e-3`. Only steps are timed, without
+//! set-up. Each level first runs once to check its error.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use mpm_verify::study::cost::{Goal, goals};
@@ -18,7 +18,7 @@ const SUITES: [(&str, &[f64]); 4] = [
     ("column-hencky", &[1e-2, 1e-3]),
 ];
 
-/// Most methods of each.
+/// Maximum number of methods per suite.
 const METHODS: usize = 3;
 
 fn suite(name: &str) -> Suite {

@@ -1,10 +1,10 @@
 //! Growth: time of a whole step for each particle, on one thread and on two, from 1e3 particles on,
 //! and the memory of a particle.
 //!
-//! `cargo bench --bench growth` goes to 1e6, `MPM_BENCH=full` to 1e7 (some 5 GB), and a number as
-//! far as it says (`-- 3e7`); words select methods (`-- 3d`), and `-- FILE.svg` writes a figure.
-//! One thread and two take turns, and the shortest time of each counts. Nothing is timed before a
-//! step has kept momentum.
+//! `cargo bench --bench growth` goes to 1e6, `MPM_BENCH=full` to 1e7 (some 5 GB), and a number sets
+//! the maximum (`-- 3e7`); other arguments select methods (`-- 3d`), and `-- FILE.svg` writes a
+//! figure. One thread and two run in turn, and the minimum time of each is used. Each method first
+//! makes one step to check conservation of momentum.
 
 #[path = "transfer/check.rs"]
 #[allow(dead_code, reason = "those of passes are for the bench of transfers")]
@@ -25,10 +25,10 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use scene::{Method, Order, total};
 use std::time::Instant;
 
-/// Length of a step (s): no particle leaves its cell, however many steps are made.
+/// Length of a step (s), so short that no particle leaves its cell in any number of steps.
 const DT: f64 = 1e-12;
 
-/// The shortest time (s) of steps, of which at least three are made, for half a second.
+/// Minimum time (s) of a step, over at least three steps and 0.5 s.
 fn shortest<const D: usize>(solver: &mut Solver<D>, pool: &ThreadPool) -> f64 {
     let (begin, mut steps, mut shortest) = (Instant::now(), 0, f64::INFINITY);
     while steps < 3 || begin.elapsed().as_secs_f64() < 0.5 {
@@ -40,7 +40,7 @@ fn shortest<const D: usize>(solver: &mut Solver<D>, pool: &ThreadPool) -> f64 {
     shortest
 }
 
-/// Lines of a method, the first of which has this look, for one thread and for two.
+/// Lines of a method for one thread and for two; `first_look` is the look of the first line.
 fn lines<const D: usize>(
     first_look: usize,
     (basis, name): (BasisName, TransferName),

@@ -1,10 +1,10 @@
-//! The loops against the yardstick: a textbook loop that is generic over nothing.
+//! Time of the loops of this crate over that of textbook loops without generic parameters.
 //!
-//! `cargo bench --bench ratio` compares both in one run, repeat by repeat, and tells the median of
-//! the ratios with its quartiles: on a machine whose speed varies, ratios of neighbours in time are
-//! what can be compared. `best` is the ratio of the shortest times of each, which others disturb
-//! least. `cargo bench --bench ratio -- 1e6 step` takes as many particles, and only what has the word in
-//! its name. Both are first checked to give the same numbers.
+//! `cargo bench --bench ratio` runs both in turn and prints the median of the ratios with its
+//! quartiles: on a machine whose speed varies, only ratios of consecutive times are comparable.
+//! `best` is the ratio of the minimum times, which other processes disturb least.
+//! `cargo bench --bench ratio -- 1e6 step` sets the number of particles, and selects measurements
+//! with `step` in their name. The program first checks that both loops give the same numbers.
 
 #[path = "common/one_thread.rs"]
 mod one_thread;
@@ -17,7 +17,7 @@ mod yardstick;
 use mpm_verify::mpm::{
     Affine, BasisName, FrameName, G2pRequest, Grid, Kernel, LinearElastic, MassName, Matrix,
     NeoHookean, P2gRequest, ParticleField, Particles, SchemeName, Setup, Solver, TransferName,
-    Vector, kernel, mass_matrix, transfer,
+    Vector, VolumeName, kernel, mass_matrix, transfer,
 };
 use mpm_verify::subject::{Start, Subject};
 use mpm_verify::verify::Timing;
@@ -30,7 +30,7 @@ use yardstick::{
 };
 
 const H: f64 = 0.5;
-/// Cells between the body and the walls: cubic B-splines are uniform there.
+/// Cells between the body and the walls, so that cubic B-splines are uniform.
 const MARGIN: usize = 3;
 
 /// Input of both loops.
@@ -97,7 +97,7 @@ fn quartiles(of: impl Iterator<Item = f64>) -> Timing {
     Timing::of(&of.collect::<Vec<_>>()).expect("times are numbers")
 }
 
-/// Runs both in turn and prints what they take for a particle.
+/// Runs both in turn and prints the time per particle.
 fn compare(id: &str, particles: usize, plain: &mut dyn FnMut(), ours: &mut dyn FnMut()) {
     if !words::selects(id) {
         return;
@@ -195,7 +195,8 @@ fn flip(count: f64) {
     same("1d/linear/flip/g2p", ours_advected.iter().flatten(), advected.iter());
 }
 
-/// Length of a step (s): a body of modulus 1 Pa moves by less than a tenth of a cell in all repeats.
+/// Length of a step (s): a body of modulus 1 Pa moves by less than a tenth of a cell in all
+/// repeats.
 const DT: f64 = 1e-4;
 
 /// Solver of a scene whose velocities are a thousandth, with its Lame constants (Pa).
@@ -215,6 +216,7 @@ fn solver<const D: usize>(
         transfer: transfer(name),
         mass: mass_matrix(MassName::Lumped),
         frame: FrameName::Updated,
+        volume: VolumeName::Particle,
         material: Box::new(NeoHookean::new(1.0, 0.3)),
         effects: Vec::new(),
         boundary: Vec::new(),

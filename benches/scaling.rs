@@ -1,10 +1,9 @@
 //! Cost against work: time per particle of P2G and G2P, from 1e3 particles on.
 //!
-//! `cargo bench --bench scaling` goes to 1e6 and `MPM_BENCH=full` to 1e7 (some 4 GB); with `--
-//! FILE.svg` a figure is written besides. Of each size the shortest time counts: others on the
-//! machine make passes longer, never shorter. What is left of the caches' sizes shows as steps.
-//! Last come particles in any order: what they cost as they are, and what a sort before ten steps
-//! adds.
+//! `cargo bench --bench scaling` goes to 1e6 and `MPM_BENCH=full` to 1e7 (some 4 GB); `-- FILE.svg`
+//! also writes a figure. For each size the minimum time is used: other processes only make passes
+//! slower. Cache sizes are visible as steps. At the end it measures particles in random order, and
+//! the cost of sorting them before ten steps.
 
 #[path = "common/clock.rs"]
 mod clock;
@@ -73,7 +72,7 @@ fn both_passes<const D: usize>(
     p2g + shortest(|| method.g2p(black_box(grid), 1e-12, particles))
 }
 
-/// Particles in any order, beside sorted ones.
+/// Compares particles in random order with sorted particles.
 fn unsorted<const D: usize>(name: (BasisName, TransferName), count: usize) {
     let make = |order: Order| Method::<D>::new(name, order, count);
     let sorted = both_passes(&mut make(Order::Sorted));

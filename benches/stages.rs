@@ -1,8 +1,9 @@
-//! Where the time of a step goes, pass by pass, and what a second thread brings to each.
+//! Time of a step, pass by pass, and the speedup of each pass by a second thread.
 //!
-//! `cargo bench --bench stages` times steps of 1e4 particles of six methods; a number takes as many
-//! particles (`-- 1e6`), and words select methods (`-- 1e6 3d mls`). One thread and two take turns,
-//! and the shortest time of each pass counts. Nothing is timed before a step has kept momentum.
+//! `cargo bench --bench stages` times steps of 1e4 particles of six methods; a number sets the
+//! number of particles (`-- 1e6`), and other arguments select methods (`-- 1e6 3d mls`). One thread
+//! and two run in turn, and the minimum time of each pass is used. Each method first makes one step
+//! to check conservation of momentum.
 
 #[path = "transfer/check.rs"]
 #[allow(dead_code, reason = "those of passes are for the bench of transfers")]
@@ -21,16 +22,16 @@ use rayon::ThreadPoolBuilder;
 use scene::{Method, Order, total};
 use std::time::Instant;
 
-/// Length of a step (s): no particle leaves its cell, however many steps are made.
+/// Length of a step (s), so short that no particle leaves its cell in any number of steps.
 const DT: f64 = 1e-12;
 
-/// Shortest times of a pass (s), on one thread and on two.
+/// Minimum times of a pass (s), on one thread and on two.
 struct PassTime {
     name: String,
     shortest: [f64; 2],
 }
 
-/// Steps on `threads` threads until at least five, and half a second of them, are made.
+/// Runs at least five steps, for at least 0.5 s, on `threads` threads.
 fn step<const D: usize>(solver: &mut Solver<D>, threads: usize, passes: &mut Vec<PassTime>) {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
     let (begin, mut steps) = (Instant::now(), 0);

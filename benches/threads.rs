@@ -1,10 +1,10 @@
-//! Speedup of P2G and G2P on a second thread, beside that of loops that share nothing.
+//! Speedup of P2G and G2P by a second thread, compared with that of independent loops.
 //!
-//! `cargo bench --bench threads` runs each pass with 1e6 particles on one thread and on two in
-//! turn, and in the same turns two probes: products and sums in registers, and two columns of
-//! memory read and one written. On a machine that others use, a second thread may bring little to
-//! any of them; what counts is the pass beside the probe. `-- 1e5` takes as many particles. The
-//! bits are first checked to be the same.
+//! `cargo bench --bench threads` runs in turn each pass with 1e6 particles and two probes, on one
+//! thread and on two. The probes are multiply-adds in registers, and a loop that reads two columns
+//! of memory and writes one. On a machine with other load, the speedup of all may be small; compare
+//! that of a pass with that of the probes. `-- 1e5` sets the number of particles. The program first
+//! checks that results are bit-identical.
 
 #[path = "common/random.rs"]
 mod random;
@@ -27,7 +27,7 @@ const TURNS: usize = 25;
 struct Loop<'a> {
     name: String,
     run: Box<dyn FnMut() + Send + 'a>,
-    /// Seconds on one thread and on two, by turn.
+    /// Seconds on one thread and on two, for each repeat.
     times: Vec<[f64; 2]>,
 }
 
@@ -53,7 +53,7 @@ impl<'a> Loop<'a> {
     }
 }
 
-/// Sums and products that wait for nothing but themselves, shared by as many threads as there are.
+/// Independent chains of sums and products, distributed over all threads.
 fn compute() {
     let chains = || {
         let mut sums: [f64; 32] = std::array::from_fn(|k| k as f64);
@@ -122,7 +122,7 @@ fn passes<const D: usize>(
     turns(&mut g2p, pools, probes);
 }
 
-/// Takes turns and prints a line.
+/// Runs pass and probes in turn and prints a line.
 fn turns(pass: &mut Loop<'_>, pools: &[ThreadPool; 2], probes: &mut [Loop<'_>]) {
     pass.take_turn(pools);
     pass.times.clear();

@@ -33,13 +33,13 @@ macro_rules! in_every_dimension {
         impl<T: $contract<1> + $contract<2> + $contract<3> + ?Sized> $every for T {}
 
         impl dyn $every {
-            /// The same object in D dimensions, which are 1, 2 or 3.
+            /// This object as an implementation in D dimensions (1, 2 or 3).
             pub(crate) fn in_dimension<const D: usize>(
                 self: std::sync::Arc<Self>,
             ) -> Option<std::sync::Arc<dyn $contract<D>>> {
                 $crate::dimension::with_dimension!(D, N => {
                     let object: std::sync::Arc<dyn $contract<N>> = self;
-                    // N is D, which the compiler does not know.
+                    // N equals D, but the compiler cannot infer this.
                     let object: &dyn std::any::Any = &object;
                     object.downcast_ref().cloned()
                 })

@@ -1,13 +1,13 @@
 //! Verification of Material Point Method solvers: does a solver converge to the right answer, how
 //! fast, and did a change break it?
 //!
-//! A solver runs on problems whose exact solution is known, on a series of ever finer grids. From
-//! the errors follow the order of accuracy with a confidence interval, and a verdict. The README
-//! is the first page for users of the program; `bash ci/book` makes a book of all pages.
+//! A solver runs on problems with a known exact solution, on a series of refined grids. The errors
+//! give the observed order of accuracy with a confidence interval, and a verdict. Users of the
+//! program start with the README; `bash ci/book` builds a book of all pages.
 //!
 //! # From a suite to a report
 //!
-//! A suite is a YAML file: a problem with its solution, methods, and what is expected of them.
+//! A suite is a YAML file: a problem with its solution, methods, and expectations.
 //!
 //! ```
 //! use mpm_verify::prelude::*;
@@ -34,28 +34,28 @@
 //! # Ok::<(), Diagnostic>(())
 //! ```
 //!
-//! The modules, in the order in which a file becomes a report:
+//! The modules, in the order of the data flow:
 //!
 //! ```text
-//! suite    the file, checked: every complaint has its line; the stated solution is put into the
+//! suite    checks the file; every error has its line; inserts the stated solution into the
 //!          equation of motion
-//! study    one case for each member of the product of its lists; names become solvers, which run
-//! verify   errors on every level; observed against formal order: a verdict, with its figures
-//! report   the text that is kept as a snapshot; JSON; figures; one HTML page; two runs compared
+//! study    makes one case per combination of listed values; sets up and runs the solvers
+//! verify   computes errors on every level, compares observed and formal order, gives a verdict
+//! report   writes text (the snapshot), JSON, figures and an HTML page; compares two runs
 //! ```
 //!
-//! The walls: [`mpm`] and [`fem`] are solvers and know nothing but [`subject`], the contract; so
-//! does [`external`], which hands problems to solvers of others. [`exact`] is the truth and knows
-//! no solver; [`verify`] is the judge and knows no particular solver; [`suite`] says what is to be
-//! run and [`study`] runs it; [`report`] knows results only.
+//! Dependencies: the solvers [`mpm`] and [`fem`] import only [`subject`], the interface of solvers.
+//! So does [`external`], which passes problems to external solvers. [`exact`] has the exact
+//! solutions and imports no solver. [`verify`] judges results of any solver. [`suite`] describes
+//! what [`study`] runs, and [`report`] uses results only.
 //!
 //! # Judging a solver of your own
 //!
-//! A program in any language takes part by the protocol of `docs/protocol.md`. A solver in Rust
-//! is put under every suite by a [`external::SolverFactory`], which gets each level ready to be
-//! stepped. Without suites: implement [`subject::Subject`], put it on a series of grids, and ask
-//! the judge. Here the subject is an oscillator `u_tt = -w^2 u` stepped by leapfrog, and time is
-//! what is refined:
+//! A program in any language is connected through the protocol of `docs/protocol.md`. A solver in
+//! Rust runs on every suite through a [`external::SolverFactory`], which initialises each level. To
+//! judge a solver without suites, implement [`subject::Subject`], run it at several levels, and
+//! call [`verify::judge`]. In this example the subject is an oscillator `u_tt = -w^2 u` with
+//! leapfrog steps, and the time step is refined:
 //!
 //! ```
 //! use mpm_verify::exact::Truth;

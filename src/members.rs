@@ -1,5 +1,6 @@
-//! Members of the families that have files on both sides of a wall, one line each. Every room reads
-//! its own part of the lines: it declares the modules of its files by them, and names no other's.
+//! Members of the families that have files in two modules, one line each. Each of the two modules
+//! uses its own part of the lines to declare its files, and does not name files of the other
+//! module.
 
 /// Calls the macro `declare` with every material. A line
 ///
@@ -55,8 +56,8 @@ pub(crate) use each_material;
 /// `effect thermal_expansion::ThermalExpansion, needs [Heat];`
 ///
 /// gives its member of `EffectName` and its name in suites; the file and the type of its keys in
-/// `suite/scene/load`; the file and the type of the effect in `mpm/effect`, where it has one of
-/// its own; and the members without which it means nothing, where there are any.
+/// `suite/scene/load`; the file and the type of the effect in `mpm/effect`, if it has its own; and
+/// the members that it requires, if any.
 macro_rules! each_effect {
     ($declare:ident) => {
         $declare! {

@@ -21,7 +21,7 @@ macro_rules! named {
             /// Every member, in the order of declaration.
             pub const ALL: &[Self] = &[$(Self::$member),+];
 
-            /// The name as suites and reports spell it.
+            /// The name in suites and reports.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$member => $text,)+

@@ -1,11 +1,12 @@
-//! The known name that a misspelt one was most likely meant to be.
+//! The nearest known name to a misspelt one.
 
 use strsim::damerau_levenshtein;
 
-/// Longer names are no slip of the finger, and the distance costs the product of the lengths.
+/// Maximum length of names: longer names are not typing errors, and the cost of the distance is the
+/// product of the lengths.
 const LONGEST: usize = 64;
 
-/// A name is near if one letter in so many is wrong.
+/// Letters per allowed typing error.
 const LETTERS: usize = 3;
 
 /// The nearest of the `known` names, if one is near; the first of several as near.
@@ -30,7 +31,7 @@ fn is_near(name: &str, known: &str) -> bool {
     name.len() <= LONGEST && distance(name, known) <= letters / LETTERS
 }
 
-/// Slips of the finger between two names; capitals and the kind of hyphen are none.
+/// Number of typing errors between two names; capitals and the kind of hyphen do not count.
 fn distance(name: &str, known: &str) -> usize {
     let plain = |name: &str| name.to_lowercase().replace(['-', ' '], "_");
     damerau_levenshtein(&plain(name), &plain(known))

@@ -1,7 +1,7 @@
 //! Files of VTK in its XML format, for ParaView: points and grids with data, and time series of
-//! them (VTK File Formats, "XML File Formats"). Numbers are appended as raw bytes, since readers of
-//! text stop at the first NaN. The format is written here because the crate for it rests on parsers
-//! that coming versions of Rust refuse.
+//! them (VTK File Formats, "XML File Formats"). Numbers are appended as raw bytes, because readers
+//! of text stop at the first NaN. The format is implemented here because the existing crate depends
+//! on parsers that future versions of Rust will refuse.
 
 use crate::subject::StateField;
 use std::fmt::Write;
@@ -9,7 +9,8 @@ use std::fmt::Write;
 /// VTK's number of a cell that is a point.
 const VERTEX: u8 = 1;
 
-/// TensorRank of an entry of a field, which one dimension does not tell from its numbers.
+/// Tensor rank of an entry of a field, which the number of components does not determine in one
+/// dimension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TensorRank {
     Scalar,
@@ -18,7 +19,7 @@ pub(crate) enum TensorRank {
 }
 
 impl TensorRank {
-    /// TensorRank of a field in `d` dimensions; of one number a scalar.
+    /// Tensor rank of a field in `d` dimensions; a single number is a scalar.
     fn of(field: &StateField, d: usize) -> Self {
         match field.components {
             1 => Self::Scalar,
@@ -103,7 +104,8 @@ impl VtkFile {
         self.xml += "</PointData>\n</Piece>\n";
     }
 
-    /// Vectors get three components and tensors nine; what lies beyond the dimension is zero.
+    /// Vectors are extended to three components and tensors to nine; components beyond the
+    /// dimension are zero.
     fn numbers(&mut self, name: &str, (rank, d): (TensorRank, usize), numbers: &[f64]) {
         let (rows, deep, wide) = match rank {
             TensorRank::Scalar => (1, 1, 1),

@@ -1,8 +1,8 @@
-//! Time on a machine that others use.
+//! Time measurement on a machine with other load.
 
 use std::time::Instant;
 
-/// Shortest time of one call (s), of at least five and a third of a second.
+/// Minimum time of one call (s), over at least five calls and 0.3 s.
 pub(crate) fn shortest(mut run: impl FnMut()) -> f64 {
     let (mut least, mut calls, begin) = (f64::INFINITY, 0, Instant::now());
     while calls < 5 || begin.elapsed().as_secs_f64() < 0.3 {

@@ -1,4 +1,4 @@
-//! Numbers that look random and are the same every time.
+//! Pseudo-random numbers, equal in every run.
 
 /// `SplitMix64` (Steele, Lea & Flood 2014).
 pub(crate) struct Random(pub(crate) u64);

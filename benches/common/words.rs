@@ -1,6 +1,6 @@
-//! Words of the command line: a number of particles, and parts of the names of what is timed.
+//! Arguments of the command line: a number of particles, and parts of the names of measurements.
 
-/// Words but for options that `cargo bench` adds.
+/// Arguments without the options that `cargo bench` adds.
 fn words() -> impl Iterator<Item = String> {
     std::env::args().skip(1).filter(|word| !word.starts_with('-'))
 }
@@ -16,7 +16,7 @@ pub(crate) fn file(suffix: &str) -> Option<String> {
     words().find(|word| word.ends_with(suffix))
 }
 
-/// Whether `id` has all words that are neither numbers nor files.
+/// Whether `id` contains all arguments that are neither numbers nor files.
 pub(crate) fn selects(id: &str) -> bool {
     let is_part = |word: &String| word.parse::<f64>().is_err() && !word.contains('.');
     words().filter(is_part).all(|word| id.contains(&word))

@@ -1,9 +1,9 @@
-//! The original MPM by hand: linear functions, FLIP, MUSL, linear elasticity, one dimension, and
-//! nothing else. What a general solver costs is measured against it.
+//! The original MPM, written by hand: linear functions, FLIP, MUSL, linear elasticity, 1-D. It is
+//! the reference for the overhead of the general solver.
 //!
 //! The five steps of Wobbes & Tielen (2015), a loop over particles or nodes for each map, with the
-//! checks that a solver owes its user: that no particle leaves the grid, turns inside out or stops
-//! being a number, and how often one changes its cell.
+//! checks of a usable solver: no particle leaves the grid, is inverted or becomes NaN. It also
+//! counts changes of cells.
 
 /// A bar and its grid.
 pub(crate) struct ByHand {
@@ -33,7 +33,7 @@ impl ByHand {
         (cell, 1.0 - right, right)
     }
 
-    /// One step of `dt` (s), or what broke.
+    /// One step of `dt` (s), or the failure.
     pub(crate) fn step(&mut self, dt: f64) -> Result<(), String> {
         self.map_mass_and_force();
         for i in 0..self.node_mass.len() {

@@ -1,5 +1,5 @@
-//! Passes of P2G and G2P to be counted: the loops of the particle-grid transfer, by the names that
-//! suites use.
+//! Passes of P2G and G2P for counting: the loops of the particle-grid transfer, with the names of
+//! suites.
 
 use mpm_verify::mpm::{
     BasisName, Block, Grid, Kernel, Particles, Stage, Transfer, TransferName, Vector, g2p, kernel,
@@ -9,7 +9,7 @@ use mpm_verify::mpm::{
 /// Particles in a cell, along each axis.
 const PER_AXIS: usize = 2;
 
-/// Kernels whose instructions are held, by the names `DIMENSION/BASIS/TRANSFER/PASS`.
+/// Kernels with stored instruction counts, by the names `DIMENSION/BASIS/TRANSFER/PASS`.
 pub(crate) const NAMES: [&str; 16] = [
     "1d/linear/flip/p2g",
     "1d/linear/flip/g2p",
@@ -70,7 +70,7 @@ impl<const D: usize> Scene<D> {
     }
 }
 
-/// Runs a kernel so many times; returns the number of particles, or None for an unknown name.
+/// Runs a kernel `times` times; returns the number of particles, or `None` for an unknown name.
 pub(crate) fn run(name: &str, times: u32) -> Option<usize> {
     let parts: Vec<&str> = name.split('/').collect();
     let &[dimension, basis, transfer, pass] = parts.as_slice() else { return None };

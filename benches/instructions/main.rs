@@ -1,10 +1,10 @@
-//! Steps to be counted, not timed: `instructions SCENE STEPS` makes so many steps of a scene, and
-//! `ci/instructions` counts the instructions of a step from two such runs.
+//! Program for counting instructions: `instructions SCENE STEPS` runs a scene for a number of
+//! steps, and `ci/instructions` computes the instructions of a step from two such runs.
 //!
-//! `minimal` is the general solver on a bar without any effect; `by_hand` the same bar in a loop
-//! that can do nothing else. Both are checked to give the same motion before anything is counted.
-//! Other scenes are kernels, whose passes are repeated so many times; `kernels` lists them with
-//! their particles, and `processor` tells for which registers the loops are compiled.
+//! `minimal` is the general solver on a bar without effects; `by_hand` is a loop written for this
+//! bar only. The program first checks that both give the same motion. Other scenes are kernels,
+//! whose passes are repeated STEPS times; `kernels` lists them with their particles. `processor`
+//! prints for which registers the loops are compiled.
 
 mod by_hand;
 mod kernels;
@@ -12,7 +12,7 @@ mod kernels;
 use by_hand::ByHand;
 use mpm_verify::mpm::{
     BasisName, Block, FrameName, LinearElastic, MassName, Particles, SchemeName, Setup, Solver,
-    TransferName, Vector, kernel, mass_matrix, transfer,
+    TransferName, Vector, VolumeName, kernel, mass_matrix, transfer,
 };
 use mpm_verify::subject::{Start, Subject};
 use std::process::ExitCode;
@@ -23,7 +23,7 @@ const H: f64 = 0.1;
 const DT: f64 = 1e-3;
 const YOUNG: f64 = 100.0;
 
-/// A free bar with a cell of room at both ends, thrown in one of its modes.
+/// A free bar with one empty cell at each end, whose initial velocity is one of its modes.
 fn bar() -> Particles<1> {
     let (from, to) = (Vector::<1>::new(H), Vector::<1>::new(H * (1 + CELLS) as f64));
     let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, H, PER_CELL);
@@ -42,6 +42,7 @@ fn minimal() -> Solver<1> {
         transfer: transfer(TransferName::Flip),
         mass: mass_matrix(MassName::Lumped),
         frame: FrameName::Updated,
+        volume: VolumeName::Particle,
         material: Box::new(LinearElastic::new(YOUNG, 0.0)),
         effects: Vec::new(),
         boundary: Vec::new(),
@@ -74,7 +75,7 @@ fn by_hand() -> ByHand {
     }
 }
 
-/// Whether both bars have moved alike.
+/// Whether both bars have the same motion.
 fn agree() -> bool {
     let (mut general, mut own) = (minimal(), by_hand());
     for _ in 0..100 {
@@ -85,7 +86,7 @@ fn agree() -> bool {
     moved.into_iter().all(|(a, b)| (a[0] - b).abs() <= 1e-12 * b.abs())
 }
 
-/// The widest registers that the loops know and this processor has.
+/// The widest registers that the loops support on this processor.
 fn registers() -> &'static str {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     if std::arch::is_x86_feature_detected!("avx2") {
@@ -116,7 +117,7 @@ fn main() -> ExitCode {
         Some(name) if kernels::NAMES.contains(name) => {
             kernels::run(name, steps);
         }
-        // `cargo bench` runs every bench: nothing is counted then.
+        // `cargo bench` runs every bench: it counts nothing.
         _ if agree() => println!("the general solver and the loop by hand agree"),
         _ => {
             println!("the general solver and the loop by hand do NOT agree");

@@ -5,7 +5,7 @@
 pub(crate) struct Demand {
     /// Sums and products.
     pub(crate) flops: f64,
-    /// Bytes of the particle that come from memory or go there.
+    /// Bytes of the particle that are read from or written to memory.
     pub(crate) bytes: f64,
     /// Nodes of four numbers that are read, added to and written back.
     pub(crate) updates: f64,

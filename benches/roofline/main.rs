@@ -1,4 +1,4 @@
-//! Limits of this machine for the particle-node loops, and what they reach: the table of
+//! Limits of this machine for the particle-node loops, and the measured fractions: the table of
 //! `benches/ROOFLINE.md`.
 //!
 //! `cargo bench --bench roofline` measures the limits of one core (sums and products, memory,

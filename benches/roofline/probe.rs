@@ -7,17 +7,17 @@ use std::hint::black_box;
 /// Limits of one core.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
-    /// Products and sums a second, each product fused with a sum, four numbers at a time.
+    /// Floating-point operations per second, in fused multiply-adds of four numbers.
     pub(crate) flops: f64,
-    /// Bytes a second between memory and a loop that reads two columns and writes one.
+    /// Bytes per second between memory and a loop that reads two columns and writes one.
     pub(crate) memory: f64,
-    /// The same where the columns fit the second cache.
+    /// Bytes per second of this loop if the columns fit the second-level cache.
     pub(crate) cache: f64,
-    /// Fours a second that can be read, added to and written back in the first cache.
+    /// Updates per second (read, add, write) of four numbers in the first-level cache.
     pub(crate) updates: f64,
 }
 
-/// Chains that do not wait for one another: more than the latency of a product and a sum takes.
+/// Number of independent chains: enough to hide the latency of a fused multiply-add.
 const CHAINS: usize = 10;
 
 #[inline(always)]

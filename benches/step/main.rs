@@ -1,9 +1,9 @@
-//! Time of whole steps: what a user of a suite waits for.
+//! Time of whole steps, as users experience it.
 //!
-//! An identifier reads `step/3d/quadratic_bspline/mls/usl/neo_hookean/1e4`, and any part of it
-//! selects: `cargo bench --bench step -- 3d/quadratic_bspline`. A million particles and more are
-//! for `cargo bench --bench scaling`, a comparison with plain loops for `cargo bench --bench
-//! ratio`. Nothing is timed before a step has kept momentum.
+//! An identifier has the form `step/3d/quadratic_bspline/mls/usl/neo_hookean/1e4`, and any part of
+//! it selects benchmarks: `cargo bench --bench step -- 3d/quadratic_bspline`. `cargo bench --bench
+//! scaling` uses a million particles and more, and `cargo bench --bench ratio` compares with plain
+//! loops. Each method first makes one step to check conservation of momentum.
 //!
 //! The short profile varies the transfer and the scheme, and then the law of one method;
 //! `MPM_BENCH=full` takes every basis, transfer, scheme and law, and 1e2 and 1e5 particles too.
@@ -30,8 +30,8 @@ use scene::{Method, Order, total};
 use std::hint::black_box;
 use std::time::Duration;
 
-/// Length of a step (s): no particle of a body of modulus 1 Pa, density 1 and cells of 1 m leaves
-/// its cell, however often a step is repeated.
+/// Length of a step (s), so short that no particle of a body of modulus 1 Pa, density 1 and cells
+/// of 1 m leaves its cell in any number of steps.
 const DT: f64 = 1e-12;
 
 /// Number of particles in the short profile.

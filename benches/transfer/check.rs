@@ -3,7 +3,7 @@
 use crate::scene::{H, Method, PER_AXIS};
 use mpm_verify::mpm::{
     FrameName, Grid, MassName, MaterialPlan, Matrix, Particles, SchemeName, Setup, Solver, Vector,
-    mass_matrix,
+    VolumeName, mass_matrix,
 };
 use mpm_verify::subject::{Start, Subject};
 
@@ -12,9 +12,9 @@ fn vanishes(x: f64, scale: f64) -> bool {
     x.abs() <= 1e-12 * scale
 }
 
-/// Refuses to time a wrong P2G: mass and momentum are kept, and a uniform stress pushes no node
-/// whose function lies inside the body as a whole: the body starts one cell from the wall, and the
-/// function with index 4 at one cell or more, cubic B-splines included.
+/// Panics for a wrong P2G: mass and momentum must be conserved, and a uniform stress must give zero
+/// force on nodes whose function is inside the body. The body starts one cell from the wall, and
+/// the function with index 4 at one cell or more, including cubic B-splines.
 pub(crate) fn check_p2g<const D: usize>(
     id: &str,
     method: &mut Method<D>,
@@ -68,7 +68,7 @@ pub(crate) fn check_g2p<const D: usize>(
     }
 }
 
-/// A solver that has made one step and kept its momentum.
+/// A solver that has made one step with conserved momentum.
 pub(crate) fn checked_solver<const D: usize>(
     id: &str,
     dt: f64,
@@ -88,6 +88,7 @@ pub(crate) fn checked_solver<const D: usize>(
         transfer,
         mass,
         frame,
+        volume: VolumeName::Particle,
         material,
         effects,
         boundary,

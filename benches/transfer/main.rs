@@ -1,9 +1,9 @@
 //! Time of the particle-node loops: P2G, G2P and the whole step.
 //!
-//! An identifier reads `transfer/3d/quadratic/apic/sorted/1e5/p2g`, and any part of it selects:
-//! `cargo bench --bench transfer -- 3d/quadratic`. `p2g` is mass, momentum and internal force;
-//! `g2p` is velocity, gradient and position; `step` is one step of MUSL; with `-2-threads` behind
-//! it, the same by two. Nothing is timed before its result has been checked.
+//! An identifier has the form `transfer/3d/quadratic/apic/sorted/1e5/p2g`, and any part of it
+//! selects benchmarks: `cargo bench --bench transfer -- 3d/quadratic`. `p2g` is mass, momentum and
+//! internal force; `g2p` is velocity, gradient and position; `step` is one step of MUSL; with the
+//! suffix `-2-threads`, on two threads. Every result is checked before it is timed.
 //!
 //! The short profile is two bases in the order of cells, one thread; `MPM_BENCH=full` adds every
 //! basis, shuffled particles, 1e6 of them and two threads.

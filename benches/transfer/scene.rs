@@ -65,7 +65,7 @@ pub(crate) fn scene<const D: usize>(
     (grid, particles)
 }
 
-/// Subject of a bench: loops, and a transfer that knows the particles.
+/// Subject of a bench: loops, and a transfer that is initialised with the particles.
 pub(crate) struct Method<const D: usize> {
     pub(crate) kernel: Box<dyn Kernel<D>>,
     pub(crate) transfer: Box<dyn Transfer<D>>,
@@ -74,7 +74,7 @@ pub(crate) struct Method<const D: usize> {
 }
 
 impl<const D: usize> Method<D> {
-    /// The method of these names, and a scene for it.
+    /// The method with these names, and a scene for it.
     pub(crate) fn new(
         (basis, name): (BasisName, TransferName),
         order: Order,

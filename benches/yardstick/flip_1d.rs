@@ -58,7 +58,7 @@ pub(crate) fn step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64, f64
     }
 }
 
-/// The same with a second map of momentum (MUSL).
+/// A step of MUSL: FLIP with a second map of momentum to the grid.
 #[inline(never)]
 pub(crate) fn musl_step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64, f64)) {
     body.nodes.fill([0.0; 3]);

@@ -1,9 +1,9 @@
-//! The yardstick: P2G, G2P and whole steps as any textbook has them, a straight nested loop over nodes, generic
-//! over nothing.
+//! Reference loops: P2G, G2P and whole steps as in a textbook, with plain nested loops over nodes
+//! and no generic parameters.
 //!
 //! The body stays away from walls, so B-splines are uniform and the inertia tensor of APIC is the
-//! constant `h^2/4` (quadratic) or `h^2/3` (cubic). Nothing is unrolled, packed or ordered by hand:
-//! what a loop gains over this one is what its care is worth.
+//! constant `h^2/4` (quadratic) or `h^2/3` (cubic). Nothing is unrolled, packed or ordered by hand,
+//! so that the comparison shows the gain of these optimisations.
 
 /// Quadratic B-splines in 3-D, APIC.
 pub(crate) mod quadratic_3d;

@@ -10,7 +10,7 @@ use thiserror::Error;
 pub(super) struct Targets {
     /// Suites: a file, a folder of files, a name, a group (a folder of verification/, such as
     /// `heat`), a pattern (`mms-*`), or `-` for standard input; default: all of verification/, or
-    /// the built-in suites where there is no such folder
+    /// the built-in suites if there is no such folder
     #[arg(value_name = "SUITE")]
     pub(super) targets: Vec<PathBuf>,
 }
@@ -28,10 +28,10 @@ pub(super) struct SolverArgs {
 /// Limits of each process of a solver.
 #[derive(Debug, Args)]
 pub(super) struct SolverLimitArgs {
-    /// Longest time without an answer of the solver
+    /// Response timeout of the solver
     #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "60s")]
     pub(super) solver_timeout: f64,
-    /// Most memory (address space) of each process of the solver, in MB [default: no limit]
+    /// Maximum memory (address space) of each process of the solver, in MB [default: no limit]
     #[arg(long, value_name = "MB", requires = "solver", value_parser = megabytes, allow_negative_numbers = true)]
     pub(super) solver_memory: Option<u64>,
 }
@@ -109,7 +109,7 @@ pub(super) fn share(text: &str) -> Result<f64, Expected> {
 
 #[derive(Debug, Args)]
 pub(super) struct ColorArgs {
-    /// Colour of verdicts and complaints; `auto` is that of a terminal, unless NO_COLOR is set
+    /// Colour of verdicts and errors; `auto`: only on a terminal, unless NO_COLOR is set
     #[arg(long, value_enum, value_name = "WHEN", global = true, default_value_t = Color::Auto)]
     color: Color,
 }
@@ -122,7 +122,7 @@ enum Color {
 }
 
 impl ColorArgs {
-    /// Tells both streams.
+    /// Sets the choice of colours for both output streams.
     pub(super) fn write_global(&self) {
         match self.color {
             Color::Auto => ColorChoice::Auto,

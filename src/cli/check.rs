@@ -33,13 +33,13 @@ pub(super) struct CheckPrintArgs {
     /// Print nothing about sound suites, and no notes
     #[arg(long, short)]
     quiet: bool,
-    /// Print all notes. Without this: the notes about suites that are named, and a count of others
+    /// Print all notes [default: only notes about named suites, and the number of other notes]
     #[arg(long, conflicts_with = "quiet")]
     notes: bool,
 }
 
-/// Prints for each suite that it is sound, or its errors, and warns of runs that cannot support
-/// what is expected.
+/// Prints for each suite that it is sound, or its errors. Warns of runs that cannot meet their
+/// expectation.
 pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
     let found = select::with_sources(&args.targets.targets);
     let mut counts = Counts::default();
@@ -100,22 +100,22 @@ fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
     diagnostic.with_severity(Severity::Warning).with_help("names tell reports and tests apart")
 }
 
-/// The findings so far: text is printed at once, JSON in the end.
+/// The findings so far: text is printed immediately, JSON at the end.
 pub(super) struct CheckFindings {
     is_json: bool,
     is_quiet: bool,
     /// Whether notes are printed in full.
     has_notes: bool,
     suites: Vec<Value>,
-    /// With an external solver: what it can take.
+    /// With an external solver: the suites that it can run.
     applicable: Option<ApplicableSuites>,
 }
 
-/// Suites that an external solver can take, and what it lacks for others.
+/// Suites that an external solver can run, and its missing capabilities for other suites.
 #[derive(Default)]
 struct ApplicableSuites {
     names: Vec<String>,
-    /// Number of suites by what they need.
+    /// Number of suites by missing capability.
     lacking: BTreeMap<String, usize>,
     /// Number of suites that are not applicable.
     others: usize,
@@ -140,7 +140,7 @@ impl ApplicableSuites {
     }
 }
 
-/// Number of lacking capabilities in the summary.
+/// Maximum number of missing capabilities in the summary.
 const MOST_LACKING: usize = 8;
 
 impl CheckFindings {
@@ -157,12 +157,13 @@ impl CheckFindings {
         }
     }
 
-    /// Whether the end is a summary of what a solver can take, instead of warnings and notes.
+    /// Whether the output ends with a summary of the suites that a solver can run, instead of
+    /// warnings and notes.
     pub(super) fn has_summary(&self) -> bool {
         self.applicable.is_some()
     }
 
-    /// A file that cannot be used.
+    /// Adds a file that cannot be used.
     pub(super) fn refused(&mut self, diagnostic: &Diagnostic) {
         if !self.is_json {
             return output::diagnose(diagnostic);
@@ -171,7 +172,7 @@ impl CheckFindings {
         self.suites.push(json!({"file": file, "diagnostics": [of_diagnostic(diagnostic)]}));
     }
 
-    /// A suite for which the solver lacks something.
+    /// Adds a suite for which the solver lacks a capability.
     pub(super) fn lacking(&mut self, suite: &Suite, source: &Source, lacks: &[String]) {
         let name = &suite.name;
         if let Some(applicable) = &mut self.applicable {
@@ -191,7 +192,7 @@ impl CheckFindings {
         self.suites.push(json!({"file": file, "suite": name, "lacks": lacks, "diagnostics": []}));
     }
 
-    /// A suite that can run. An external solver has an expectation, that of `run --gate`.
+    /// Adds a suite that can run. With an external solver the expectation is that of `run --gate`.
     pub(super) fn sound(
         &mut self,
         suite: &Suite,
@@ -227,7 +228,7 @@ impl CheckFindings {
         }));
     }
 
-    /// Says how many complaints there are.
+    /// Prints the number of findings.
     pub(super) fn end(self, counts: Counts) {
         if !self.is_json {
             if let Some(applicable) = self.applicable {
@@ -278,7 +279,7 @@ impl Counts {
         } += 1;
     }
 
-    /// One line on standard error, if there is anything to count.
+    /// Prints one line on standard error, if any count is not zero.
     fn print(self, has_notes: bool) {
         let counted = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")];
         let said = |(count, noun): (usize, &str)| match count {

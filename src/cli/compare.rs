@@ -26,7 +26,7 @@ pub(super) struct CompareArgs {
     /// Format of the output
     #[arg(long, value_enum, default_value_t = Page::Text)]
     format: Page,
-    /// Largest relative change of a figure that counts as none
+    /// Largest relative change of a figure that counts as no change
     #[arg(long, value_name = "SHARE", default_value_t = compare::TOLERANCE, value_parser = share, allow_negative_numbers = true)]
     tolerance: f64,
 }
@@ -49,13 +49,13 @@ const REPORT: &str = "report.json";
 
 /// Results of one side.
 enum ComparedResults {
-    /// Of a run, with all levels.
+    /// Document of a run, with all levels.
     Run(ReportDocument),
-    /// Of snapshots, with the finest level.
+    /// Document of snapshots, with the finest level.
     Snapshots(ReportDocument),
 }
 
-/// Prints what moved between two runs. Both sides are read first, so that mistakes in both are
+/// Prints the changes between two runs. Both sides are read first, so that errors in both are
 /// reported.
 pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
     let tolerance = args.tolerance;
@@ -83,7 +83,7 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
     Ok(print(&compare::compare(&old, &new, tolerance), args.format))
 }
 
-/// Prints a comparison, and gives the exit status that it stands for.
+/// Prints a comparison, and returns its exit status.
 fn print(found: &ReportComparison, format: Page) -> Status {
     output::print(&match format {
         Page::Text => compare::text(found),

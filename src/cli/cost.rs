@@ -1,4 +1,4 @@
-//! `mpm-verify cost`: what accuracy costs, measured on this machine.
+//! `mpm-verify cost`: measures the cost of accuracy on this machine.
 
 use super::arguments::{FormatArgs, SolverArgs, Targets, seconds};
 use super::status::{CommandError, Status};
@@ -17,8 +17,8 @@ use std::{fs, io};
 pub(super) struct CostArgs {
     #[command(flatten)]
     targets: Targets,
-    /// Choose and run the most accurate setting that is predicted to take no longer: `10s`,
-    /// `500ms`, `2min`
+    /// Choose and run the most accurate setting with at most this predicted time: `10s`, `500ms`,
+    /// `2min`
     #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, conflicts_with_all = ["figures", "solver"])]
     budget: Option<f64>,
     #[command(flatten)]
@@ -33,7 +33,7 @@ pub(super) struct CostArgs {
     program: SolverArgs,
 }
 
-/// Prices suites one after the other; nothing else of the harness runs while one is timed.
+/// Measures suites one after the other; nothing else runs during a measurement.
 pub(super) fn cost(args: &CostArgs) -> Result<Status, CommandError> {
     if let Some(folder) = &args.figures {
         fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
@@ -79,7 +79,7 @@ fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> Status {
     code
 }
 
-/// Errors and seconds of every level of each convergence suite; others have no error to pay for.
+/// Errors and seconds of every level of each convergence suite; other suites have no error.
 fn prices(suites: &[Suite], solver: Option<&SolverProgram>, args: &CostArgs) -> Status {
     let mut all: Vec<TimedSuite> = Vec::new();
     let mut code = Status::Passed;

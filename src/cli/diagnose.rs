@@ -1,4 +1,4 @@
-//! `mpm-verify diagnose`: why cases do not have the order of theory.
+//! `mpm-verify diagnose`: the cause if a case does not have the theoretical order.
 
 use super::arguments::{FormatArgs, SolverArgs, Targets, seconds};
 use super::status::{CommandError, Status};
@@ -17,7 +17,7 @@ pub(super) struct DiagnoseArgs {
     /// Cases whose name contains this
     #[arg(long, value_name = "TEXT", default_value = "")]
     case: String,
-    /// Predicted time for the runs of each case: `30s`, `2min`
+    /// Budget for the runs of each case, in predicted time: `30s`, `2min`
     #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "60s")]
     budget: f64,
     #[command(flatten)]
@@ -51,7 +51,7 @@ pub(super) fn diagnose(args: &DiagnoseArgs) -> Result<Status, CommandError> {
     Ok(all.code)
 }
 
-/// Diagnoses of all cases, as far as they are made.
+/// Diagnoses of the cases that were examined so far.
 struct Diagnoses<'a> {
     args: &'a DiagnoseArgs,
     solver: Option<&'a dyn SolverFactory>,

@@ -1,4 +1,4 @@
-//! `mpm-verify doctor`: what is wrong with a solver of another program.
+//! `mpm-verify doctor`: finds defects of an external solver.
 
 use super::arguments::{FormatArgs, SolverArgs};
 use super::status::{CommandError, Status};
@@ -28,6 +28,6 @@ pub(super) fn doctor(args: &DoctorArgs) -> Result<Status, CommandError> {
 }
 
 fn json(report: &DoctorReport) -> String {
-    // Names and numbers only: there is nothing that JSON has no word for.
+    // Names and finite numbers only, so that the conversion to JSON cannot fail.
     serde_json::to_string_pretty(report).unwrap_or_default() + "\n"
 }

@@ -1,4 +1,4 @@
-//! `mpm-verify explain`: the problem, what a step of each case takes, and what is expected.
+//! `mpm-verify explain`: the problem, the cost of a step of each case, and the expectations.
 
 use super::arguments::{FormatArgs, Targets};
 use super::status::{CommandError, Status};
@@ -17,10 +17,10 @@ use std::path::{Path, PathBuf};
 pub(super) struct ExplainArgs {
     #[command(flatten)]
     targets: Targets,
-    /// Say what a step would no longer take without this effect of the scene
+    /// Show what a step would save without this effect of the scene
     #[arg(long, value_name = "EFFECT")]
     without: Option<String>,
-    /// Draw the scene of one suite into this file (SVG), and print nothing
+    /// Draw the scene of one suite into this file (SVG), without other output
     #[arg(long, value_name = "FILE")]
     sketch: Option<PathBuf>,
     #[command(flatten)]
@@ -68,7 +68,8 @@ fn named(name: &str) -> Result<Dispensable, CommandError> {
     Err(CommandError::option("--without", name, reason))
 }
 
-/// How solvers integrate linear elasticity, which the equation of small strain leaves open.
+/// Integration of linear elasticity in the solver, which the equation of small strain does not
+/// determine.
 const PLAIN_RATE: &str = "in the solver sigma' = C : D, the plain rate, without the spin terms of an \
                           objective rate";
 
@@ -104,7 +105,7 @@ fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     page + "\n"
 }
 
-/// The levels, once for all cases that have the same.
+/// The levels, once for all cases with the same levels.
 fn levels(suite: &Suite) -> String {
     let mut page = String::new();
     let planned = planned_levels(suite);

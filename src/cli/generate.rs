@@ -11,7 +11,7 @@ use mpm_verify::suite::suite_schema;
 
 #[derive(Debug, Args)]
 pub(super) struct SchemaArgs {
-    /// The texts that it describes
+    /// Documents that the schema describes
     #[arg(value_enum)]
     of: SchemaName,
 }
@@ -22,7 +22,7 @@ pub(super) enum SchemaName {
     Suite,
     /// The document of `run --format json`
     Json,
-    /// Messages between the harness and a solver of another program
+    /// Messages between the harness and an external solver
     Protocol,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct ManArgs {
     command: Option<String>,
 }
 
-/// Prints what a shell completes.
+/// Prints the completion script of a shell.
 pub(super) fn completions(args: &CompletionsArgs, mut cli: Command) -> Status {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut cli, "mpm-verify", &mut script);

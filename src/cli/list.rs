@@ -58,7 +58,7 @@ pub(super) struct StepsArgs {
     format: FormatArgs,
 }
 
-/// Prints the steps of each suite. The status says whether all are within the tolerance.
+/// Prints the steps of each suite. Returns whether all are within the tolerance.
 pub(super) fn steps(args: &StepsArgs) -> Status {
     let extent = if args.full { Extent::Full } else { Extent::Usual };
     let is_off = Cell::new(false);

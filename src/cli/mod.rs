@@ -1,5 +1,5 @@
 //! `mpm-verify`: write, run, list, check and explain suites, propose expectations, compare runs,
-//! and what accuracy costs.
+//! and measure the cost of accuracy.
 
 mod arguments;
 mod check;
@@ -48,47 +48,46 @@ enum Command {
     /// Run suites and judge them (the default); exit status 1 if an expectation is not met, 2 on
     /// bad input
     Run(run::RunArgs),
-    /// Write a suite that runs; what no option says is asked for, if a terminal is there to answer
+    /// Write a new suite; prompts for missing options when run in a terminal
     New(new::NewArgs),
-    /// Report what the parts of a run have found (`run --shard K/N --resume DIR`), byte for byte as
-    /// one run of all would; nothing runs
+    /// Merge the results of a sharded run (`run --shard K/N --resume DIR`), byte for byte like a
+    /// single run; runs nothing
     Merge(run::MergeArgs),
     /// List suites and their cases, as JSON with the predicted cost of each
     List(list::ListArgs),
-    /// Validate suites without running them: grammar, formulas, the truth itself, and whether the
-    /// runs can support what is expected; exit status 2 on bad input
+    /// Validate suites without running them: grammar, formulas, exact solution, and whether the
+    /// runs can support the expectations; exit status 2 on bad input
     Check(check::CheckArgs),
-    /// Print the problem of a suite, its source, what a step of each case takes (effects, passes,
-    /// memory), and what is expected
+    /// Print the problem of a suite, its source, the cost of a step of each case (effects, passes,
+    /// memory), and the expectations
     Explain(explain::ExplainArgs),
     /// Run suites and print the `expect` entries that theory gives and the runs support, each with
-    /// its origin; no file is changed
+    /// its origin; changes no file
     Propose(propose::ProposeArgs),
-    /// Find the cause if a case does not have the order of theory: its finest levels run again with
-    /// one thing changed at a time
+    /// Find the cause if a case does not have the theoretical order: its finest levels run again
+    /// with one change at a time
     Diagnose(diagnose::DiagnoseArgs),
-    /// Put a solver to small problems that each show one kind of mistake, and say what is wrong
-    /// with it in the words that its author needs; exit status 1 if something is, 2 if it cannot
-    /// be talked to
+    /// Run a solver on small problems that each show one kind of defect, and describe the defects
+    /// for its author; exit status 1 if there is a defect, 2 if the solver does not respond
     Doctor(doctor::DoctorArgs),
     /// Print a JSON Schema, for editors and for authors of solvers
     Schema(generate::SchemaArgs),
-    /// Print the time step of every level, as the suite asks for it and as it is taken; exit status
-    /// 1 if one is off by more than 1 %
+    /// Print the requested and the actual time step of every level; exit status 1 if one is off by
+    /// more than 1 %
     Steps(list::StepsArgs),
-    /// Write the initial state of one level, ready to be stepped by any solver, or its exact state
-    /// at a time: particles, grid, faces, material, steps
+    /// Write the initial state of one level for any solver, or its exact state at a time:
+    /// particles, grid, faces, material, steps
     Problem(problem::ProblemArgs),
-    /// Measure what accuracy costs: error against work and seconds, the cheapest method for an
+    /// Measure the cost of accuracy: error against work and seconds, the cheapest method for an
     /// error, and the most accurate setting within a budget
     Cost(cost::CostArgs),
     /// Compare two runs or two sets of snapshots, and list the changes, the most important first;
     /// exit status 1 if something got worse (a verdict, an error, a limit of stability, the work),
     /// 2 on bad input
     Compare(compare::CompareArgs),
-    /// Print a script with which a shell completes the words of this command line
+    /// Print a script for completion of the arguments in a shell
     Completions(generate::CompletionsArgs),
-    /// Print the page of this program for `man`
+    /// Print the manual page for `man`
     Man(generate::ManArgs),
 }
 
@@ -147,7 +146,7 @@ fn run_command(command: Command) -> Result<Status, CommandError> {
     }
 }
 
-/// The arguments with `run` in front of those that name no command.
+/// The arguments, with `run` inserted if they name no command.
 ///
 /// # Errors
 /// If the first argument is neither a command nor a suite, and is most like a command.

@@ -1,5 +1,5 @@
-//! Standard output and standard error. All that is printed goes through here, so that a failure to
-//! write is reported in the end. Verdicts and errors have colours, which the streams strip unless
+//! Standard output and standard error. All output goes through this module, so that a failure to
+//! write is reported at the end. Verdicts and errors have colours, which the streams strip unless
 //! they are terminals.
 
 use anstyle::{AnsiColor, Style};
@@ -16,12 +16,12 @@ pub(super) fn print(text: &str) {
     note(anstream::stdout().lock(), painted.as_bytes());
 }
 
-/// Prints what need not be text.
+/// Prints bytes, which may be binary.
 pub(super) fn print_bytes(bytes: &[u8]) {
     note(io::stdout().lock(), bytes);
 }
 
-/// Why something could not be printed, if so.
+/// The first failure to print, as text; `None` if there is none.
 pub(super) fn failure() -> Option<&'static str> {
     FAILURE.get().map(String::as_str)
 }
@@ -36,7 +36,7 @@ pub(super) fn diagnose(diagnostic: &Diagnostic) {
     complain(&diagnostic.styled());
 }
 
-/// Keeps the outcome of what was written. A reader that has gone away (`mpm-verify | head`) is no
+/// Records the result of a write. A reader that closes the pipe (`mpm-verify | head`) is not a
 /// failure.
 pub(super) fn keep(outcome: io::Result<()>) {
     if let Err(error) = outcome

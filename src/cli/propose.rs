@@ -21,7 +21,7 @@ pub(super) struct ProposeArgs {
     solver: SolverArgs,
 }
 
-/// Runs each suite as if it expected nothing, and prints what it could expect.
+/// Runs each suite without its expectations, and prints possible expectations.
 pub(super) fn propose(args: &ProposeArgs) -> Result<Status, CommandError> {
     let targets = &args.targets.targets;
     let solver = solver::greeted(&args.solver)?;
@@ -57,7 +57,7 @@ fn of_suite(
     if let Some(refused) = outcome.cases.iter().find(|case| case.study.is_none()) {
         return Err(CommandError::about(format_args!("{name}::{}", refused.case), &refused.reason));
     }
-    // The amplitude, the grid and the steps, which no claim can make up for.
+    // Notes on the amplitude, the grid and the steps, whose errors no expectation can avoid.
     let found = preflight(&exploring, source);
     let remarks = found.iter().map(|found| {
         let help = found.help().map(|help| format!("; {help}"));

@@ -9,27 +9,27 @@ use std::ffi::OsStr;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Where suites are looked for by default.
+/// Default folder of suites.
 const FOLDER: &str = "verification";
 
 /// The target that is standard input.
 const STDIN: &str = "-";
 
-/// The suites that `targets` name, each loaded or with the complaint that says why not.
+/// The suites that `targets` name, each loaded or with the diagnostic that gives the reason.
 ///
-/// With no target: all of `verification/`, or the embedded suites where there is no such folder.
+/// Without targets: all of `verification/`, or the embedded suites if there is no such folder.
 pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Diagnostic>> {
     with_sources(targets).into_iter().map(|found| found.map(|(_, suite)| suite)).collect()
 }
 
-/// The same, each with the file that it came from.
+/// The suites that `targets` name, each with its file, or with a diagnostic.
 pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Result<(Source, Suite), Diagnostic>> {
     let sources = if targets.is_empty() {
         everything()
     } else {
         targets.iter().flat_map(|target| sources(target)).collect()
     };
-    // The check of a truth takes a tenth of a second; there may be many.
+    // The check of an exact solution takes 0.1 s, and there may be many suites.
     let load = |source: Source| Suite::load(&source).map(|suite| (source, suite));
     sources.into_par_iter().map(|source| source.and_then(load)).collect()
 }
@@ -45,15 +45,15 @@ fn everything() -> Sources {
     }
 }
 
-/// Names of the suites that `targets` name one by one: as a file, by name or on standard input, and
-/// not by a folder, a group or a pattern. `suites` are all that the targets select.
+/// Names of the suites that `targets` name individually: as a file, by name or on standard input,
+/// and not by a folder, a group or a pattern. `suites` are all that the targets select.
 pub(super) fn named_singly(targets: &[PathBuf], suites: &[Suite]) -> BTreeSet<String> {
     #[derive(serde::Deserialize)]
     struct Name {
         suite: String,
     }
     if targets.iter().any(|target| target.as_os_str() == STDIN) {
-        // Standard input cannot be read again.
+        // Standard input cannot be read twice.
         return suites.iter().map(|suite| suite.name.clone()).collect();
     }
     let is_one = |target: &&PathBuf| match place(target) {
@@ -65,18 +65,18 @@ pub(super) fn named_singly(targets: &[PathBuf], suites: &[Suite]) -> BTreeSet<St
     sources.filter_map(|source| name(source.ok()?)).collect()
 }
 
-/// Whether `target` names suites that are there, or should be.
+/// Whether `target` names suites that exist, or should exist.
 pub(super) fn is_known(target: &str) -> bool {
     let path = Path::new(target);
     target == STDIN || is_pattern(path) || place(path).is_some() || named(target).is_some()
 }
 
-/// Whether it is a pattern of names, and no file that is called so.
+/// Whether it is a pattern of names, and not the name of a file.
 fn is_pattern(target: &Path) -> bool {
     target.to_string_lossy().contains('*') && !target.exists()
 }
 
-/// File or folder that `target` names, there or not; none for a name alone.
+/// File or folder that `target` names, existing or not; `None` for a plain name.
 fn place(target: &Path) -> Option<PathBuf> {
     let name = target.to_string_lossy();
     if name == STDIN || is_pattern(target) {
@@ -88,7 +88,7 @@ fn place(target: &Path) -> Option<PathBuf> {
     }
     let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
     let of_name = local.into_iter().find(|file| file.file_stem() == Some(target.as_os_str()));
-    // A built-in suite goes before a group of local ones.
+    // A built-in suite has precedence over a group of local suites.
     let group = || Some(Path::new(FOLDER).join(target)).filter(|group| group.is_dir());
     of_name.or_else(|| if embedded::source(&name).is_none() { group() } else { None })
 }
@@ -110,7 +110,7 @@ fn sources(target: &Path) -> Sources {
     }
 }
 
-/// The built-in suite of this name, or else those of this group.
+/// The built-in suite of this name, or else the suites of this group.
 fn named(name: &str) -> Option<Sources> {
     if let Some(suite) = embedded::source(name) {
         return Some(vec![suite]);
@@ -142,7 +142,7 @@ fn fitting(glob: &str) -> Sources {
     vec![Err(diagnostic.with_help("`*` stands for any text: `mms-*`, `heat/*`"))]
 }
 
-/// Meaning of the path of a file that is not there: a file beside it, or a suite by its name.
+/// Suggestion for the path of a missing file: a file in the same folder, or a suite of this name.
 fn meant_by_path(target: &Path) -> String {
     let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let folder = target.parent().unwrap_or(Path::new(""));
@@ -170,8 +170,7 @@ fn unknown(name: &str) -> Diagnostic {
     diagnostic.with_help(&help)
 }
 
-/// Names by which suites can be asked for, and those of their groups: of the default folder, and
-/// the embedded ones.
+/// Names of suites and groups: in the default folder, and embedded ones.
 pub(super) fn suite_names() -> Vec<String> {
     let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
     let groups = local.iter().map(|path| Source::group_of(path));

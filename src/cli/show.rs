@@ -1,4 +1,4 @@
-//! Pages about suites, one after the other, or all in one JSON document.
+//! Pages about suites, one after the other, or in one JSON document.
 
 use super::status::{CommandError, Status};
 use super::{output, select};
@@ -8,12 +8,12 @@ use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::path::PathBuf;
 
-/// Prints a page of each suite that can be loaded, and the complaints about others.
+/// Prints a page of each suite that can be loaded, and diagnostics about the other suites.
 pub(super) fn each(targets: &[PathBuf], page: impl Fn(&Suite) -> String) -> Status {
     try_each(targets, |_, suite| Ok(page(suite)))
 }
 
-/// Prints a page of each suite, which may need its file and may fail, and the errors of others.
+/// Prints a page of each suite, or its error. `page` may use the file of the suite, and may fail.
 pub(super) fn try_each(
     targets: &[PathBuf],
     page: impl Fn(&Source, &Suite) -> Result<String, CommandError>,
@@ -32,7 +32,7 @@ pub(super) fn try_each(
     code
 }
 
-/// Prints one document of all suites that can be loaded, and the complaints about others.
+/// Prints one document of all suites that can be loaded, and diagnostics about the other suites.
 pub(super) fn json(
     targets: &[PathBuf],
     value: impl Fn(&Source, &Suite) -> Result<Value, CommandError>,

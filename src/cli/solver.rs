@@ -1,4 +1,4 @@
-//! Suites under a solver of another program.
+//! Suites with an external solver.
 
 use super::arguments::{SolverArgs, SolverLimitArgs};
 use super::output;
@@ -17,7 +17,7 @@ pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, Comman
     args.solver.as_deref().map(|command| greet(command, &args.limits)).transpose()
 }
 
-/// Starts the solver of a command and asks for its capabilities.
+/// Starts a solver and requests its capabilities.
 ///
 /// # Errors
 /// The solver cannot be used.
@@ -39,8 +39,8 @@ pub(super) fn greet(
     Ok(solver)
 }
 
-/// The suite with the solver, if there is one, in place of its methods; `None` if the suite is left
-/// out because it studies the inside of a method, with a note.
+/// The suite with the solver, if any, in place of its methods; `None`, with a note, if the suite
+/// studies the inside of a method.
 pub(super) fn in_place_of_methods(
     suite: Suite,
     solver: Option<&dyn SolverFactory>,
@@ -64,8 +64,8 @@ fn suite_of_solver(
     judged
 }
 
-/// The suites with the solver in place of their methods, each gated on its `terms` if it has any,
-/// and the names of those that are left out because they study the inside of a method.
+/// The suites with the solver in place of their methods, each gated on its `terms`, if any, and the
+/// names of skipped suites, which study the inside of a method.
 pub(super) fn suites_of_solver(
     suites: Vec<Suite>,
     solver: &SolverProgram,
@@ -81,7 +81,7 @@ pub(super) fn suites_of_solver(
     (judged, left_out)
 }
 
-/// Whether there is a case that the solver could be put to.
+/// Whether the solver can run at least one case.
 pub(super) fn is_applicable(outcomes: &[SuiteOutcome]) -> bool {
     outcomes.iter().flat_map(|outcome| &outcome.cases).any(|case| case.lacks.is_empty())
 }

@@ -8,7 +8,7 @@ use thiserror::Error;
 /// Exit status of a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Status {
-    /// Everything came as expected; in a comparison, nothing got worse.
+    /// All results are as expected; in a comparison, nothing got worse.
     Passed = 0,
     /// Some expectation was not met; in a comparison, something got worse.
     Failed = 1,

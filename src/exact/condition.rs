@@ -5,7 +5,7 @@ use super::violation::Violation;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// A condition on a face of the body, to which the motion is held point by point.
+/// A condition on a face of the body, checked point by point.
 pub trait Condition: Debug + Send + Sync {
     /// Holds the motion at `point` to the condition.
     ///
@@ -14,9 +14,8 @@ pub trait Condition: Debug + Send + Sync {
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation>;
 }
 
-/// A point of a face at a time of the run, and what can be demanded of the motion there. These
-/// demands are few, since a residual needs a size of the whole motion that it is compared with;
-/// conditions are made of them.
+/// A point of a face at a time of the run, with elementary requirements, which form the conditions.
+/// There are few of them, because each residual needs a scale of the whole motion.
 pub trait FacePoint {
     /// Number of space dimensions.
     fn dimension(&self) -> usize;
@@ -30,7 +29,7 @@ pub trait FacePoint {
     /// `J F^-T n`, the present area per reference area. Where strains are small it is n.
     fn present_area(&self) -> [f64; 3];
 
-    /// `u_i = 0`, of a face that is `what`.
+    /// `u_i = 0`, on a face that is `what`.
     ///
     /// # Errors
     /// The violation.
@@ -48,15 +47,15 @@ pub trait FacePoint {
     /// The violation.
     fn traction(&self, i: usize, what: &str, given: f64) -> Result<(), Violation>;
 
-    /// u . n = 0 and no pull; along the face a traction of the `coefficient` times the pressure
-    /// against the velocity, and at most as much where the face rests.
+    /// u . n = 0 and no tension. The tangential traction is `coefficient` times the pressure,
+    /// against the velocity; where the face does not move, it is at most this value.
     ///
     /// # Errors
     /// The first violation.
     fn friction(&self, coefficient: f64) -> Result<(), Violation>;
 
-    /// x lies one period further along the axis than on the opposite face, and grad u is the same:
-    /// then P is, and nothing tells where the seam is.
+    /// x lies one period further along the axis than on the opposite face, and grad u, and so P, is
+    /// equal on both.
     ///
     /// # Errors
     /// The first violation.
@@ -72,7 +71,7 @@ pub struct Face {
     pub axis: usize,
     /// Whether it is the face with the larger coordinate.
     pub high: bool,
-    /// Length (m) of the axis on which the body moves: a period, where the axis has no end. It is
+    /// Length (m) of the axis on which the body moves: its period, if the axis is periodic. It is
     /// that of the body itself, unless a periodic body starts deformed.
     pub period: f64,
     /// Condition on the motion there.

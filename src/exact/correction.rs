@@ -24,18 +24,18 @@ const ELEMENTS: (f64, f64) = (32.0, 256.0);
 /// Time step, relative to the time in which a wave crosses an element.
 const COURANT: f64 = 0.9;
 
-/// Demand of a condition on a face.
+/// Requirement of a condition on a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Demand {
     /// The displacement or the velocity is given.
     Held,
     /// The difference of the given traction and the traction of the motion (Pa).
     Traction(f64),
-    /// Another demand, for which no correction is computed.
+    /// Another requirement, for which no correction is computed.
     Other,
 }
 
-/// A point of a face that records what its condition demands along the normal.
+/// A point of a face that records the requirement of its condition along the normal.
 struct DemandPoint<'a> {
     problem: &'a Problem,
     face: &'a Face,
@@ -179,7 +179,7 @@ impl Line<'_> {
         Some(d.into_iter().map(|d| d - shift).collect())
     }
 
-    /// The correction at a time `until`, of a motion that starts without one.
+    /// The correction at the time `until`, from a start with zero correction.
     fn in_motion(&self, until: f64, steps: usize) -> Option<FirstCorrection> {
         let (problem, last) = (self.problem, self.elements);
         let (dt, stiffness) = (until / steps as f64, problem.equation.modulus() / self.h);

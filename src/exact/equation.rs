@@ -1,5 +1,5 @@
-//! Stresses and forces of an [`Equation`], whatever its law, and derivatives of a motion in a
-//! plane, completed by the state across the plane.
+//! Stresses and forces of an [`Equation`] with any law, and completion of the derivatives of a
+//! plane motion by the state across the plane.
 
 use super::formula::{Number, Slope};
 use super::law::Equation;
@@ -8,14 +8,12 @@ use super::tensor::{Tensor, cofactor, pushed_forward, sum, tensor, unit};
 use crate::subject::PlaneState;
 
 impl Equation {
-    /// Whether strains are taken as they are; a theory of small strains has no deformed
-    /// configuration.
+    /// Whether the law has finite strains; a law of small strains has no deformed configuration.
     pub fn is_finite(&self) -> bool {
         self.small_strain_modulus().is_none()
     }
 
-    /// Cauchy stress (Pa), `sigma = P F^T / J`. Theory of small strains does not tell it from P,
-    /// which is what it is there.
+    /// Cauchy stress (Pa), `sigma = P F^T / J`. In small-strain theory it equals P.
     pub fn cauchy(&self, grad: &Tensor<f64>) -> Tensor<f64> {
         let piola = self.piola(grad);
         if !self.is_finite() {
@@ -38,7 +36,7 @@ impl Equation {
     }
 
     /// Div P (N/m3) from the gradient and its derivatives, `second[k][a][b] = d2 u_k/dX_a dX_b`,
-    /// where nothing varies beyond the first `dimension` axes.
+    /// for a motion that varies along the first `dimension` axes only.
     pub fn divergence(
         &self,
         dimension: usize,
@@ -85,7 +83,7 @@ pub(super) fn complete_in_plane(
             let varying: Tensor<Slope<2>, 2> = tensor(|i, j| {
                 Slope::new(now.grad[i][j], [now.second[i][j][0], now.second[i][j][1]])
             });
-            // A scene of a law that is not known there is refused.
+            // A scene with a law without this state has already been refused.
             let Some(across) = equation.free_gradient(&varying) else { return };
             now.grad[2][2] = across.value();
             now.second[2][2] = [across.d(0), across.d(1), 0.0];
@@ -133,7 +131,7 @@ mod tests {
     }
 
     /// Simple shear along X, u_X = g Y: the top keeps its area and its normal, and the right end
-    /// turns, `n da = (1, -g) dA` (Nanson).
+    /// rotates, `n da = (1, -g) dA` (Nanson).
     #[test]
     fn the_face_of_a_sheared_body_turns() {
         let g = 0.4;
@@ -146,7 +144,8 @@ mod tests {
         assert_eq!(small.present_area(&grad, 0, true), [1.0, 0.0, 0.0]);
     }
 
-    /// Nothing acts across a plate, and the stretch varies along it as its own difference says.
+    /// The stress across a plate is zero, and the derivative of the stretch agrees with its
+    /// difference.
     #[rstest]
     fn a_plate_is_free_across(
         #[values(
@@ -173,8 +172,8 @@ mod tests {
         assert_relative_eq!(here.second[2][2][0], slope, max_relative = 1e-8, epsilon = 1e-9);
     }
 
-    /// On the axis the hoop and its slopes are the limits of those beside it: of
-    /// `u_r = a r + b r^2 + c r z` the hoop `u_r/r` is `a + b r + c z`.
+    /// On the axis the hoop strain and its derivatives are the limits for r -> 0: for
+    /// `u_r = a r + b r^2 + c r z` the hoop strain `u_r/r` is `a + b r + c z`.
     #[rstest]
     fn the_hoop_is_smooth_on_the_axis(#[values(0.0, 1e-3, 0.5)] radius: f64) {
         let (a, b, c, z) = (0.1, 0.3, 0.2, 0.7);

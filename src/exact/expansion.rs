@@ -52,7 +52,7 @@ fn piola<T: Number, const D: usize>(
     tensor(|i, j| area * stress[i][j])
 }
 
-/// P (Pa) of a body in `dimension` dimensions; what lies beyond is zero.
+/// P (Pa) of a body in `dimension` dimensions; further components are zero.
 pub(super) fn swollen_piola(
     equation: &Equation,
     dimension: usize,
@@ -72,7 +72,7 @@ pub(super) fn swollen_piola(
     }
 }
 
-/// Cauchy stress (Pa): that of F/theta, or P itself where strains are small.
+/// Cauchy stress (Pa): that of F/theta, or P itself for small strains.
 pub(super) fn swollen_cauchy(
     equation: &Equation,
     dimension: usize,
@@ -178,7 +178,7 @@ mod tests {
         assert!(force[0].abs() < 1e-12, "{force:?}");
     }
 
-    /// Of the energy `theta^D W(F/theta)`, and `sigma = P F^T/J`.
+    /// P derives from the energy `theta^D W(F/theta)`, and `sigma = P F^T/J`.
     #[test]
     fn cauchy_stress_belongs_to_the_first_piola_kirchhoff_stress() {
         let (equation, theta) = (Equation::from(NeoHookeanLaw::new(50.0, 0.0)), 1.1);

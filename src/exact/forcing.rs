@@ -12,7 +12,7 @@ pub struct Forcing {
     places: Box<dyn Places>,
     /// The places (m), if a term or the stress depends on them.
     labels: Vec<Vec<f64>>,
-    /// Forces that other runs have computed, with the number of the places there.
+    /// Forces computed by other runs, with the number of the set of places.
     shared: Option<(Arc<SharedForces>, usize)>,
 }
 
@@ -32,8 +32,8 @@ impl Forcing {
         Self { problem: problem.clone(), places, labels, shared }
     }
 
-    /// Fills in the force (m/s2) at each place at time `t` (s), as
-    /// [`Problem::manufactured_force`] gives it for one. Allocates only what is shared.
+    /// Writes the force (m/s2) at each place at time `t` (s), as given by
+    /// [`Problem::manufactured_force`]. Allocates only for shared forces.
     pub fn at<T>(&mut self, t: f64, into: &mut [T], make: impl Fn([f64; 3]) -> T) {
         let dimension = self.problem.dimension();
         if let Some(known) = self.shared.as_ref().and_then(|(forces, at)| forces.get(*at, t)) {

@@ -4,7 +4,7 @@
 const POINTS: usize = 8;
 
 /// Places on `-1 <= xi <= 1` and weights, whose sum is 2: roots of the Legendre polynomial by
-/// Newton's method (Golub & Welsch 1969 have another way; eight roots need none).
+/// Newton's method (sufficient for eight roots; an alternative is Golub & Welsch 1969).
 fn rule() -> [(f64, f64); POINTS] {
     let n = POINTS as f64;
     std::array::from_fn(|k| {

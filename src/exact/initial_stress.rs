@@ -1,10 +1,11 @@
-//! Stress of the reference configuration.
+//! Initial stress, in the reference configuration.
 //!
-//! Beside a law of finite strains it is a second Piola-Kirchhoff stress S0, `P = P_law(F) + F S0`:
-//! the derivative of the energy `W_law(F) + S0 : E`, `E = (F^T F - I)/2`, which no rotation changes
-//! (Merodio, Ogden & Rodriguez 2013, Int. J. Non-Linear Mech. 56). Small waves along S0 then have
-//! `rho0 c^2 = M + S0`. In a theory of small strains `P = C : eps + S0`, which neglects `grad u S0`
-//! beside `C : eps`: S0 is small beside the moduli there, as strains are beside one.
+//! With a law of finite strains it is a second Piola-Kirchhoff stress S0, `P = P_law(F) + F S0`.
+//! This is the derivative of the energy `W_law(F) + S0 : E`, `E = (F^T F - I)/2`, which is
+//! invariant under rotation (Merodio, Ogden & Rodriguez 2013, Int. J. Non-Linear Mech. 56). Small
+//! waves along S0 then have `rho0 c^2 = M + S0`. With a law of small strains `P = C : eps + S0`,
+//! which neglects `grad u S0` against `C : eps`: S0 must be much smaller than the moduli, as
+//! strains must be much smaller than one.
 
 use super::formula::{Formula, Number, Slope};
 use super::tensor::{Tensor, pushed_forward, sum, tensor, unit};
@@ -24,7 +25,7 @@ impl InitialStress {
         Self { components }
     }
 
-    /// Whether there is none.
+    /// Whether there is no initial stress.
     pub fn is_none(&self) -> bool {
         self.components.is_empty()
     }
@@ -149,7 +150,7 @@ mod tests {
         assert_eq!(s0.cauchy(&[2.0, 5.0], &GRAD, false), s0.at(&[2.0, 5.0]));
     }
 
-    /// A field that varies, beside a manufactured motion and its weight.
+    /// A problem with a varying initial stress, a manufactured motion and gravity.
     fn prestressed(dimension: usize) -> Problem {
         let components = [(0, 0, "3*sin(X)"), (1, 1, "X - Y"), (0, 1, "Y^2"), (2, 2, "X*Z")];
         let inside = components.into_iter().filter(|(_, j, _)| *j < dimension);
@@ -158,7 +159,7 @@ mod tests {
         Problem { initial_stress, ..held(dimension) }
     }
 
-    /// The force has the stress in it, which the weak form sees by another way.
+    /// The manufactured force includes the stress, which enters the weak form in another way.
     #[rstest]
     fn a_manufactured_force_balances_it(#[values(1, 2, 3)] dimension: usize) {
         let (problem, bare) = (prestressed(dimension), held(dimension));
@@ -171,7 +172,7 @@ mod tests {
         assert_eq!(found[0], force);
     }
 
-    /// A stress that nothing balances.
+    /// A stress without balancing force.
     #[test]
     fn a_truth_without_its_force_is_none() {
         let equation = SmallStrainLaw::new(10.0, 0.3).into();

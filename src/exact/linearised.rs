@@ -1,8 +1,8 @@
 //! A motion that solves the linearised problem only.
 
-/// The share that a linearised motion may leave of the equations that the law enters: the equation
-/// of motion and tractions. Whatever is linear in u holds to the tolerance of the problem all the
-/// same.
+/// The residual that a linearised motion may leave in the equations with the law: the equation of
+/// motion and tractions. Conditions that are linear in u are still checked to the tolerance of the
+/// problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linearised {
     /// Largest residual, relative to the terms of the condition.
@@ -11,7 +11,7 @@ pub struct Linearised {
     pub because: String,
 }
 
-/// A residual (of any unit) relative to what it is compared with. Nothing left of nothing is zero.
+/// A residual `left` relative to `size`, in the same unit; 0 if the residual is 0.
 pub(super) fn share(left: f64, size: f64) -> f64 {
     if left == 0.0 { 0.0 } else { left.abs() / size }
 }
@@ -25,9 +25,9 @@ mod tests {
     use crate::exact::{Problem, Survey};
     use rstest::rstest;
 
-    /// A wave of small amplitude in Tait's fluid, between walls: K u_XX times 8 u_X is left,
-    /// beside a sum of inertia and stress of 2 K u_XX; the product of sine and cosine is at most a
-    /// half.
+    /// A wave of small amplitude in Tait's fluid, between walls: the residual is K u_XX times 8
+    /// u_X, compared with a sum of inertia and stress of 2 K u_XX; the product of sine and cosine
+    /// is at most 1/2.
     #[rstest]
     #[case(1e-3)]
     #[case(1e-6)]
@@ -47,7 +47,7 @@ mod tests {
         }
     }
 
-    /// A law that is linear leaves rounding, and a condition that has no law in it has no residual.
+    /// A linear law leaves rounding only, and a condition without the law has no residual.
     #[test]
     fn the_residual_is_that_of_the_law() {
         let wave = "sin(pi*X)*cos(pi*t)/50";
@@ -64,7 +64,7 @@ mod tests {
         assert_eq!(share(1.0, 0.0), f64::INFINITY);
     }
 
-    /// A rod that is pressed has a traction that is all of its stress, whatever its sign.
+    /// The traction on a compressed rod equals its stress, for both signs.
     #[test]
     fn a_traction_that_presses_is_left_over_too() {
         let left = |u| {

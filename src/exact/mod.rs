@@ -1,8 +1,8 @@
-//! The truth: exact solutions, and the proof that they are what they claim to be.
+//! Exact solutions, and the check that they solve their problem.
 //!
-//! A suite states its solution as formulas ([`formula`]); [`Problem`] says which continuum problem
-//! they are to solve; [`check`](Problem::check) holds the one against the other before any solver
-//! runs. Knows no solver.
+//! A suite states its solution as formulas ([`formula`]) and its continuum problem as a
+//! [`Problem`]. [`check`](Problem::check) inserts the formulas into the problem before any solver
+//! runs. The module imports no solver.
 
 mod check;
 mod condition;
@@ -40,7 +40,7 @@ pub use initial_stress::InitialStress;
 pub use law::{Equation, HenckyLaw, NeoHookeanLaw, SmallStrainLaw};
 pub use linearised::Linearised;
 pub use motion::{Derivatives, Motion, Places, variables};
-pub use outline::{Cut, Outline, Piece, Polygon, Round, join_small};
+pub use outline::{Circle, Cut, Outline, Piece, Polygon, Round, join_small};
 pub use parametric_motion::{ParametricMotion, ParametricState};
 pub use problem::Problem;
 pub use random::Random;

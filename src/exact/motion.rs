@@ -4,8 +4,8 @@ use super::formula::{Formula, Hoisted, Jet, Number, NumberBatch, Slope};
 use super::truth::Truth;
 use crate::dimension::with_dimension;
 
-/// A displacement field u(X, t) with one formula for each component, each a function of the
-/// reference coordinates (as many as there are components) and of t, in this order.
+/// A displacement field u(X, t) with one formula for each component. Each is a function of the
+/// reference coordinates (one per component) and of t, in this order.
 #[derive(Debug, Clone)]
 pub struct Motion {
     components: Vec<Formula>,
@@ -60,19 +60,20 @@ impl Motion {
         self.components[i].eval(&variables(label, t)[..=label.len()])
     }
 
-    /// All derivatives, by automatic differentiation over as many variables as there are.
+    /// All derivatives, by automatic differentiation with respect to all coordinates and t.
     pub fn derivatives(&self, label: &[f64], t: f64) -> Derivatives {
         with_dimension!(self.dimension(), D => self.over_jets::<{ D + 1 }>(label, t))
     }
 
-    /// The motion at `labels`, for which what does not depend on time is computed here and now.
+    /// The motion at `labels`. Terms that do not depend on time are computed in this call.
     pub fn at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Jet<{ D + 1 }>>(labels, Jet::variable))
         })
     }
 
-    /// The same to first order, at a third of the cost: second derivatives are left alone.
+    /// The motion at `labels` with first derivatives only, at a third of the cost of
+    /// [`Self::at_places`]: second derivatives are not written.
     pub fn slopes_at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Slope<{ D + 1 }>>(labels, Slope::variable))
@@ -107,9 +108,9 @@ pub trait Places: Send {
     /// Moves on to the time `t` (s).
     fn set_time(&mut self, t: f64);
 
-    /// Fills in the derivatives at a place, in the order in which they were given, with the bits
-    /// of [`Motion::derivatives`]; components and axes beyond the dimension are left alone.
-    /// Allocates nothing.
+    /// Writes the derivatives at a place, by its index in `labels`, with the bits of
+    /// [`Motion::derivatives`]; components and axes beyond the dimension are not written. Does not
+    /// allocate.
     fn derivatives(&mut self, place: usize, into: &mut Derivatives);
 }
 
@@ -172,12 +173,12 @@ impl Truth for Motion {
         }
     }
 
-    /// The same, some points at a time.
+    /// Displacements at all `labels`, computed in batches of points.
     fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
         for (labels, into) in
             labels.chunks(d * NumberBatch::LEN).zip(into.chunks_mut(d * NumberBatch::LEN))
         {
-            // Lanes without a point of their own take that of the last.
+            // Lanes without a point repeat the last point.
             let last = labels.len() / d - 1;
             let mut all = [NumberBatch::from(t); 4];
             for axis in 0..d {

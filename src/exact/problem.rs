@@ -1,9 +1,9 @@
-//! The continuum problem that an exact solution is held to.
+//! Continuum problem of an exact solution: geometry, equation of motion, loads and conditions.
 //!
-//! Stress of a problem's body: that of its law, of its expansion by heat and of its start.
+//! The stress is the sum of that of the law, with thermal expansion, and the initial stress.
 //!
-//! Manufactured forces that several runs ask for: the cases of a study differ in their methods, but
-//! most have particles at the same places and take the same steps.
+//! Manufactured forces are shared by runs: the cases of a study differ in their methods, but most
+//! have particles at the same places and take the same steps.
 
 use super::condition::Face;
 use super::equation::complete_in_plane;
@@ -22,7 +22,7 @@ use crate::subject::PlaneState;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// An initial-boundary-value problem on a box or a body of another outline, with its claimed
+/// An initial-boundary-value problem on a box or a body of another outline, with its stated
 /// solution.
 #[derive(Debug, Clone)]
 pub struct Problem {
@@ -30,9 +30,9 @@ pub struct Problem {
     pub from: Vec<f64>,
     /// Highest corner (m).
     pub to: Vec<f64>,
-    /// The body, if it is no box; then there are no faces.
+    /// The shape of a body that is not a box; such a body has no faces.
     pub outline: Option<Arc<dyn Outline>>,
-    /// The problems of the boxes that this problem consists of; empty where there is one body.
+    /// The problems of the single bodies, which are boxes; empty if there is one body.
     pub bodies: Vec<Self>,
     /// State across the plane of a body in two dimensions.
     pub plane: PlaneState,
@@ -42,12 +42,13 @@ pub struct Problem {
     pub equation: Equation,
     /// Terms of the loads on the body.
     pub terms: Vec<Arc<dyn Term>>,
-    /// Whether the motion is the state in which the body comes to rest: no function of t, held to
-    /// the loads at the end of the run and to no initial condition.
+    /// Whether the motion is an equilibrium: independent of t, checked with the loads at the end of
+    /// the run, and not checked against initial conditions.
     pub at_rest: bool,
-    /// Whether a further one makes the motion a solution: manufactured solutions (Roache 2002).
+    /// Whether an additional body force makes the motion a solution: a manufactured solution
+    /// (Roache 2002).
     pub manufactured: bool,
-    /// The heat problem beside it, of a body in which heat flows.
+    /// The heat problem of a body that conducts heat.
     pub heat: Option<Conduction>,
     /// Every face of the body.
     pub faces: Vec<Face>,
@@ -66,9 +67,9 @@ pub struct Problem {
     pub motion: Motion,
     /// Largest residual that passes, relative to the terms of the condition.
     pub tolerance: f64,
-    /// The share that may be left of the law, if the motion solves the linearised problem only.
+    /// The residual that the law may leave, if the motion solves the linearised problem only.
     pub linearised: Option<Linearised>,
-    /// Where runs of this problem keep the manufactured forces that they have computed, if they do.
+    /// Cache of manufactured forces for the runs of this problem, if any.
     pub shared_forces: Option<Arc<SharedForces>>,
 }
 
@@ -168,7 +169,7 @@ impl Problem {
         placed.fold(0.0, |sum, term| sum + term.stated(i, label, t, u))
     }
 
-    /// Component i of the forces against the motion (m/s2), beside the stated force `stated`.
+    /// Component i of the forces against the motion (m/s2); `stated` is the stated force (m/s2).
     pub(super) fn resistance(
         &self,
         i: usize,
@@ -272,8 +273,9 @@ impl Problem {
         std::array::from_fn(|i| force[i] + initial[i])
     }
 
-    /// The part of Div P (N/m3) of a body of revolution that is no derivative: `((P_rR - P_tT)/R,
-    /// P_zR/R)` at the radius R (Malvern 1969, appendix II). None of others.
+    /// The part of Div P (N/m3) of a body of revolution without a derivative:
+    /// `((P_rR - P_tT)/R, P_zR/R)` at the radius R (Malvern 1969, appendix II). Zero for other
+    /// bodies.
     pub(super) fn hoop_force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         if self.plane != PlaneState::Axisymmetric {
             return [0.0; 3];
@@ -282,8 +284,8 @@ impl Problem {
         [(piola[0][0] - piola[2][2]) / radius, piola[1][0] / radius, 0.0]
     }
 
-    /// Length (m/rad) of the ring at `label`, one but in a body of revolution, and the hoop
-    /// stress that acts against the components of a displacement there (Pa).
+    /// Length (m/rad) of the ring at `label` (1 unless the body is one of revolution), and the hoop
+    /// stress (Pa) that acts against each component of a displacement.
     pub(super) fn ring(&self, label: &[f64], piola: &Tensor<f64>) -> (f64, [f64; 3]) {
         match self.plane {
             PlaneState::Axisymmetric => (label[0], [piola[2][2], 0.0, 0.0]),
@@ -292,11 +294,11 @@ impl Problem {
     }
 }
 
-/// Most numbers that are kept: 32 MiB. The largest of our own suites has three quarters of it.
+/// Maximum number of stored `f64` (32 MiB). The largest built-in suite needs three quarters of it.
 const MOST: usize = 1 << 22;
 
-/// Forces by places and time, each computed by the run that asks first. When they are too many, the
-/// rest are computed by each run.
+/// Cache of forces by places and time, filled by the first run that needs them. If the cache is
+/// full, each run computes its own.
 #[derive(Debug, Default)]
 pub struct SharedForces(Mutex<Tables>);
 
@@ -304,14 +306,14 @@ pub struct SharedForces(Mutex<Tables>);
 struct Tables {
     /// The coordinates of places, one after the other.
     places: Vec<Vec<f64>>,
-    /// Forces at all places of one number, by that and by the bits of the time.
+    /// Forces at all places of a set, by the number of the set and the bits of the time.
     forces: BTreeMap<(usize, u64), Arc<[f64]>>,
-    /// Numbers that are kept.
+    /// Number of stored `f64`.
     size: usize,
 }
 
 impl SharedForces {
-    /// The number by which forces at `places` are known: the same for the same bits.
+    /// The number of the set `places`: equal for sets with equal bits.
     pub(in crate::exact) fn number_of(&self, places: Vec<f64>) -> usize {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let bits = f64::to_bits;
@@ -331,22 +333,22 @@ impl SharedForces {
         tables.forces.get(&(places, t.to_bits())).cloned()
     }
 
-    /// Keeps forces, if there is room for them.
+    /// Stores forces, if the cache is not full.
     pub(in crate::exact) fn put(&self, places: usize, t: f64, forces: Vec<f64>) {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if tables.size + forces.len() <= MOST {
             let size = forces.len();
-            // Another run may have computed the same meanwhile.
+            // Another run may have stored these forces meanwhile.
             if tables.forces.insert((places, t.to_bits()), forces.into()).is_none() {
                 tables.size += size;
             }
         }
     }
 
-    /// Forgets all forces: nobody will ask again, or they will be computed again.
+    /// Clears all forces; they are recomputed if a run needs them again.
     pub fn clear(&self) {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        // Runs go on to know their places by number.
+        // Running studies still use the numbers of their places.
         tables.size = tables.places.iter().map(Vec::len).sum();
         tables.forces.clear();
     }

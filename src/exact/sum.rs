@@ -62,11 +62,11 @@ pub enum SumRegion {
     Faces(Vec<usize>),
 }
 
-/// Number of points at most, after the last refinement.
+/// Maximum number of points, after the last refinement.
 const MOST_POINTS: usize = 1 << 16;
 
-/// Largest change by the last refinement, over the size of the sum: far below any discretisation
-/// error that is judged, far above what rounding leaves.
+/// Maximum change by the last refinement, over the size of the sum: far below any judged
+/// discretisation error, far above rounding.
 const TOLERANCE: f64 = 1e-10;
 
 /// Intervals of the raster of times at which a size is taken, and which the points are made for.
@@ -94,7 +94,7 @@ struct SumSite {
 /// starts with the name of the sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum SumError {
-    /// The sum is zero at all times, so that errors have no size to be relative to.
+    /// The sum is zero at all times, so that relative errors are undefined.
     #[error("is zero throughout")]
     Zero,
     /// The maximum number of quadrature points does not reach the tolerance.
@@ -106,8 +106,8 @@ pub enum SumError {
 }
 
 impl BodySum {
-    /// The sum of `density` over a `region` of the body of `problem`, with as many points as it
-    /// takes throughout the run.
+    /// The sum of `density` over a `region` of the body of `problem`, with a number of points that
+    /// is sufficient during the whole run.
     ///
     /// # Errors
     /// The sum is zero throughout the run, or quadrature does not converge.
@@ -284,7 +284,7 @@ mod tests {
         assert_relative_eq!(of(&problem), 2.0 * of(&whole), max_relative = 1e-12);
     }
 
-    /// A round body of density 2 that turns about the origin, where its centre is: `w I`.
+    /// A round body of density 2 that rotates about the origin, its centre: `w I`.
     #[rstest]
     #[case::disk(2, 0.0, PI / 2.0)]
     #[case::annulus(2, 0.5, PI / 2.0 * (1.0 - 0.0625))]

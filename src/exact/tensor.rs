@@ -2,8 +2,8 @@
 
 use super::formula::Number;
 
-/// Stress or gradient; what lies beyond the dimension D is zero, so a motion in fewer dimensions
-/// than three is one of plane or uniaxial strain.
+/// Stress or gradient; components beyond the dimension D are zero, so that a motion in fewer than
+/// three dimensions is one of plane or uniaxial strain.
 pub(super) type Tensor<T, const D: usize = 3> = [[T; D]; D];
 
 /// Largest number of terms of the series below: enough for stretches up to about ten.
@@ -34,8 +34,8 @@ pub(super) fn unit<T: Number>(i: usize, j: usize) -> T {
     T::from(f64::from(u8::from(i == j)))
 }
 
-/// Cofactor of f_ij: `F^-T = cof(F)/det(F)`. In fewer dimensions than three it is that of F with
-/// ones on the rest of its diagonal.
+/// Cofactor of f_ij: `F^-T = cof(F)/det(F)`. In fewer than three dimensions it is that of F
+/// extended by ones on the diagonal.
 #[inline]
 pub(super) fn cofactor<T: Number, const D: usize>(f: &Tensor<T, D>, i: usize, j: usize) -> T {
     match D {
@@ -69,7 +69,7 @@ pub(super) fn area<T: Number>(grad: &Tensor<T, 2>) -> T {
     f[0][0] * f[1][1] - f[0][1] * f[1][0]
 }
 
-/// `det(I + grad) - 1`, by the invariants of grad: small ones keep their digits.
+/// `det(I + grad) - 1`, by the invariants of grad, without cancellation for small values.
 pub(super) fn dilation(grad: &Tensor<f64>) -> f64 {
     let minors: Tensor<f64> = tensor(|i, j| cofactor(grad, i, j));
     det(grad, &minors) + sum::<f64, 3>(|i| grad[i][i] + minors[i][i])
@@ -86,9 +86,9 @@ pub(super) fn product<T: Number, const D: usize>(
 /// The logarithmic strain `eps = ln(b)/2`, `b = F F^T`.
 ///
 /// From `tanh(eps) = X = (b - I)(b + I)^-1` by the series of the inverse, `X + X^3/3 + X^5/5 + ...`
-/// (Higham 2008, *Functions of Matrices*, section 11.4): no eigenvalues, whose derivatives would
-/// not exist where they coincide. NaN where [`MOST_TERMS`] do not suffice. Where nothing shears,
-/// and with no derivative either, the strains are logarithms, which is quicker.
+/// (Higham 2008, *Functions of Matrices*, section 11.4): this avoids eigenvalues, which are not
+/// differentiable where they coincide. NaN if [`MOST_TERMS`] terms do not suffice. If the shear and
+/// its derivatives vanish, the strains are logarithms, which is faster.
 pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     if !is_sheared(f) {
         return tensor(|i, j| if i == j { Number::ln(f[i][i]) } else { T::from(0.0) });
@@ -104,7 +104,7 @@ pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<
     let (mut power, mut strain) = (x, x);
     for k in 1..=MOST_TERMS {
         power = product(&power, &square);
-        // What this bounds is, relative to X, the derivative of the rest too.
+        // This test also bounds the derivative of the remainder, relative to X.
         if size(&power) <= 1e-17 * size(&x) {
             return strain;
         }
@@ -114,9 +114,9 @@ pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<
     tensor(|_, _| T::from(f64::NAN))
 }
 
-/// The rotation R of the polar decomposition `F = R U`, by Newton's iteration
-/// `R <- (R + R^-T)/2` from F on (Higham 2008, *Functions of Matrices*, section 8.3). Where nothing
-/// shears, and with no derivative either, nothing turns. NaN where [`MOST_TERMS`] do not suffice.
+/// The rotation R of the polar decomposition `F = R U`, by Newton's iteration `R <- (R + R^-T)/2`,
+/// starting at F (Higham 2008, *Functions of Matrices*, section 8.3). If the shear and its
+/// derivatives vanish, R is the identity. NaN if [`MOST_TERMS`] iterations do not suffice.
 pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     if !is_sheared(f) && (0..D).all(|i| f[i][i].value() > 0.0) {
         return tensor(unit);
@@ -127,7 +127,7 @@ pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T,
         let cofactors: Tensor<T, D> = tensor(|i, j| cofactor(&before, i, j));
         let det = det(&before, &cofactors);
         turn = tensor(|i, j| half * (before[i][j] + cofactors[i][j] / det));
-        // Each step squares what is left of the values, and derivatives follow a step behind.
+        // Each step squares the error of the values; the derivatives need one step more.
         let step: Tensor<T, D> = tensor(|i, j| turn[i][j] - before[i][j]);
         if size(&step) <= 1e-12 {
             return turn;

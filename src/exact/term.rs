@@ -4,8 +4,8 @@ use super::expansion::Expansion;
 use super::formula::Formula;
 use std::fmt::Debug;
 
-/// The part of a load in the equation of motion, `rho0 u_tt = Div P + rho0 b`, and in what the
-/// motion is held to. A load implements the methods that concern it.
+/// The terms of a load in the equation of motion, `rho0 u_tt = Div P + rho0 b`, and in the check of
+/// an exact solution. A load implements the methods that concern it.
 pub trait Term: Debug + Send + Sync {
     /// Component i of the stated force per unit mass (m/s2) at the place `label` (m) and time `t`
     /// (s), where the displacement is `u` (m).
@@ -13,24 +13,24 @@ pub trait Term: Debug + Send + Sync {
         0.0
     }
 
-    /// Whether that force is the same at every place, whatever u: it is then asked for once per
-    /// time.
+    /// Whether the stated force is independent of place and displacement. It is then evaluated once
+    /// per time.
     fn is_uniform(&self) -> bool {
         false
     }
 
-    /// Whether it is the same at every time too.
+    /// Whether the stated force is also independent of time.
     fn is_constant(&self) -> bool {
         false
     }
 
-    /// Whether the displacement has a part in it.
+    /// Whether the stated force depends on the displacement.
     fn depends_on_displacement(&self) -> bool {
         false
     }
 
-    /// Whether the equation is checked as one for the force: a stated b is held against the b that
-    /// the motion needs.
+    /// Whether the equation is checked in terms of the force: a stated b is compared with the b
+    /// that the motion requires.
     fn is_body_force(&self) -> bool {
         false
     }
@@ -41,13 +41,19 @@ pub trait Term: Debug + Send + Sync {
         0.0
     }
 
-    /// Whether that force asks for the force out of balance.
+    /// Whether the resistance depends on the force out of balance.
     fn resists_imbalance(&self) -> bool {
         false
     }
 
     /// Expansion by temperature.
     fn expansion(&self) -> Option<Expansion> {
+        None
+    }
+
+    /// The number of a rim in [`Outline::rims`](super::Outline::rims) and the pressure on it (Pa,
+    /// per present area), a formula of the coordinates and t.
+    fn pressed_rim(&self) -> Option<(usize, &Formula)> {
         None
     }
 
@@ -60,7 +66,7 @@ pub trait Term: Debug + Send + Sync {
 /// The material points in a box.
 #[derive(Debug, Clone)]
 pub struct Region {
-    /// Name that a suite gives it.
+    /// Name in the suite.
     pub name: String,
     /// Lowest corner (m).
     pub from: Vec<f64>,

@@ -1,5 +1,5 @@
-//! A wave in a body that is held all around, in one, two and three dimensions: its force is
-//! manufactured.
+//! A wave in a body that is fixed on all faces, in one, two and three dimensions, with a
+//! manufactured force.
 
 use super::formula::{Expr, Formula, Scope};
 use super::linearised::Linearised;
@@ -67,7 +67,7 @@ impl Term for LocallyDamped {
     }
 }
 
-/// A condition by what it demands of a point.
+/// A condition, given by its requirements at a point.
 pub(super) struct Demands<F>(F);
 
 impl<F> Demands<F>
@@ -99,7 +99,7 @@ pub(super) fn fixed() -> Arc<dyn Condition> {
     Demands::condition(|point| (0..point.dimension()).try_for_each(|i| point.held(i, "fixed")))
 }
 
-/// A face on which nothing acts.
+/// A free face.
 pub(super) fn free() -> Arc<dyn Condition> {
     Demands::condition(|point| {
         (0..point.dimension()).try_for_each(|i| point.traction(i, "free", 0.0))
@@ -142,7 +142,7 @@ pub(super) fn held(dimension: usize) -> Problem {
     }
 }
 
-/// The raster of the weak form must be fine enough for it in every dimension.
+/// The raster of the weak form must be fine enough in every dimension.
 #[rstest]
 fn a_sound_motion_passes(#[values(1, 2, 3)] dimension: usize) {
     held(dimension).check().unwrap();
@@ -162,12 +162,12 @@ fn a_sound_motion_passes_whatever_happens_across(
     Problem { plane, equation, ..ring() }.check().unwrap();
 }
 
-/// The wave of [`held`] where the first coordinate goes from 1 to 2.
+/// The wave of [`held`] with the first coordinate from 1 to 2.
 fn ring() -> Problem {
     Problem { from: vec![1.0, 0.0], to: vec![2.0, 1.0], ..held(2) }
 }
 
-/// The weak form needs no other check to see that a force is missing.
+/// The weak form alone detects a missing force.
 #[rstest]
 fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
     let unforced = Problem { manufactured: false, ..held(dimension) };
@@ -175,7 +175,7 @@ fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
-/// Neither does it need one to see that the force is that of plane strain.
+/// The weak form alone detects the force of plane strain.
 #[rstest]
 fn the_weak_form_sees_what_happens_across(
     #[values(PlaneState::Stress, PlaneState::Axisymmetric)] plane: PlaneState,
@@ -219,8 +219,8 @@ fn the_force_of_a_run_is_the_force(
     }
 }
 
-/// Of two runs the second finds what the first has computed, and only that: places and times of its
-/// own are its own.
+/// The second of two runs reuses the forces of the first, and computes forces for its own places
+/// and times.
 #[rstest]
 fn forces_that_are_shared_have_the_same_bits(#[values(1, 2, 3)] dimension: usize) {
     let alone = held(dimension);
@@ -284,8 +284,8 @@ fn the_stress_of_several_bodies_is_that_of_each() {
     }
 }
 
-/// A plate with nu = 0 that is stretched and sheared, F = ((1, 0.2 t), (0, 1 + 0.3 t)), by what
-/// acts on its top, where P N = mu (F - F^-T) N.
+/// A plate with nu = 0 that is stretched and sheared, F = ((1, 0.2 t), (0, 1 + 0.3 t)), by the
+/// condition on its top, where P N = mu (F - F^-T) N.
 fn sheared(top: Arc<dyn Condition>) -> Problem {
     let names = ["X", "Y", "t"];
     let face = |name, axis, high, condition| Face { name, axis, high, period: 1.0, condition };
@@ -317,8 +317,8 @@ fn a_traction_may_depend_on_the_place() {
     assert!(found.condition.contains("top is loaded, traction in X"), "{found}");
 }
 
-/// A cube under a uniform pressure shrinks alike on all sides, `P N = -p J F^-T N`: with a stretch
-/// of s its faces have s^2 of their area, which a dead load does not know.
+/// A cube under a uniform pressure shrinks equally on all sides, `P N = -p J F^-T N`: with a
+/// stretch of s its faces have s^2 of their area, which a dead load ignores.
 #[test]
 fn a_pressure_acts_on_the_present_area() {
     let names = ["X", "Y", "Z", "t"];
@@ -384,7 +384,7 @@ fn local_damping_opposes_the_motion_with_a_share_of_the_other_forces() {
         let found = wrong.check().unwrap_err();
         assert!(found.condition.starts_with("equation of motion"), "{found}");
     }
-    // Gravity is part of what is out of balance.
+    // Gravity is part of the force out of balance.
     let mut weighed = locally(0.6, &wave);
     weighed.terms.extend(weight(&["1"]));
     assert!(weighed.check().is_err());
@@ -413,8 +413,8 @@ fn an_equilibrium_is_one_with_the_loads_at_the_end() {
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
-/// A pipe under pressure from within, free outside: `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`.
-/// The traction left on the inner rim counts, though none is left on the outer one.
+/// A pipe under internal pressure, free outside: `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`. The
+/// residual traction on the inner rim counts, although there is none on the outer rim.
 #[test]
 fn what_is_left_is_the_largest_of_all_rims() {
     let names = ["X", "Y", "t"];
@@ -438,12 +438,12 @@ fn what_is_left_is_the_largest_of_all_rims() {
     };
     let any = Linearised { tolerance: f64::INFINITY, because: String::new() };
     let pipe = Problem { linearised: Some(any), ..pipe };
-    let left = super::check::pointwise::traction_free_rims(&pipe, &Survey::new(&pipe)).unwrap();
+    let left = super::check::pointwise::tractions_on_rims(&pipe, &Survey::new(&pipe)).unwrap();
     assert!(left > 0.1, "{left}");
 }
 
-/// A column that is sheared along its axis, so that `P_zR` and `P_Rz` differ: the hoop term of the
-/// equation point by point is that of the weak form.
+/// A column that is sheared along its axis, so that `P_zR` and `P_Rz` differ: the hoop terms of the
+/// pointwise equation and of the weak form agree.
 #[test]
 fn large_shear_about_an_axis_balances_in_weak_form() {
     let names = ["X", "Y", "t"];

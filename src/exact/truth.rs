@@ -15,21 +15,21 @@ pub trait Truth: Send + Sync {
     /// Velocity (m/s) of that point, D numbers.
     fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]);
 
-    /// Deformation gradient F there, D * D numbers, row after row. Returns whether this truth
-    /// knows it; if not, `into` is left alone.
+    /// Writes the deformation gradient F, D * D numbers, row after row. Returns false, and writes
+    /// nothing, if the solution does not define it.
     fn deformation_gradient(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
         let _ = (label, t, into);
         false
     }
 
-    /// Temperature (K) there; none from a truth that does not know it.
+    /// Temperature (K); `None` if the solution does not define it.
     fn temperature(&self, label: &[f64], t: f64) -> Option<f64> {
         let _ = (label, t);
         None
     }
 
-    /// Cauchy stress (Pa) there, D * D numbers, row after row. Returns whether this truth knows
-    /// it; if not, `into` is left alone.
+    /// Writes the Cauchy stress (Pa), D * D numbers, row after row. Returns false, and writes
+    /// nothing, if the solution does not define it.
     fn stress(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
         let _ = (label, t, into);
         false

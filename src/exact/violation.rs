@@ -1,17 +1,18 @@
-//! Violation: the condition that a wrong exact solution breaks.
+//! Violation: the condition that a wrong exact solution violates.
 
 use std::fmt;
 
-/// A condition that the declared solution does not satisfy: which, where, when, by how much.
+/// A condition that the stated solution violates: the condition, the place, the time and the
+/// difference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
-    /// The condition, in words and symbols.
+    /// The condition, as text.
     pub condition: String,
     /// Reference position (m).
     pub label: Vec<f64>,
     /// Time (s).
     pub t: f64,
-    /// Value that the condition asks for, where that is one number.
+    /// Value that the condition requires, if it is one number.
     pub expected: Option<f64>,
     /// Value of the solution.
     pub found: f64,
@@ -21,15 +22,15 @@ pub struct Violation {
     pub unit: &'static str,
 }
 
-/// The largest of several violations, relative to what is allowed. Among similar ones, the first.
+/// The largest of several violations, relative to the tolerance. Among similar ones, the first.
 #[derive(Debug, Default)]
 pub(super) struct LargestViolation(Option<Violation>);
 
 impl LargestViolation {
-    /// Adds what was found at one place and time.
+    /// Adds the result at one place and time.
     pub(super) fn add(&mut self, found: Result<(), Violation>) {
         let Err(found) = found else { return };
-        // An excess that is no number counts as the largest.
+        // An excess that is not finite counts as the largest.
         let exceeds = |largest: &Violation| {
             let factor = if found.condition == largest.condition { 1.01 } else { 10.0 };
             !(found.excess() <= factor * largest.excess())

@@ -1,10 +1,10 @@
-//! Abilities of solvers, needs of problems, and the names that both have for them.
+//! Capabilities of solvers, requirements of problems, and their common names.
 
 use crate::members::{each_effect, each_material};
 use crate::nearest::nearest;
 use serde::{Deserialize, Serialize};
 
-/// Abilities of a solver. What is not named is lacking.
+/// Capabilities of a solver. A capability that is not listed is missing.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(default)]
@@ -18,11 +18,11 @@ pub struct Capabilities {
     pub conditions: Vec<String>,
     /// Loads and effects, by their names in suites.
     pub loads: Vec<String>,
-    /// Columns of its state besides displacement and velocity.
+    /// Columns of its state in addition to displacement and velocity.
     pub columns: Vec<String>,
     /// Parameters with respect to which functionals of the final state are differentiated.
     pub gradients: Vec<String>,
-    /// Whether it takes a body force that is known by its values only.
+    /// Whether it accepts a body force that is given by values only, not by a formula.
     pub manufactured: bool,
     /// Whether particles may start displaced, with F and stress.
     pub initial_deformation: bool,
@@ -38,11 +38,13 @@ pub struct Capabilities {
     pub initial_stress: bool,
     /// Whether the body force may depend on the displacement.
     pub displacement_force: bool,
+    /// Whether loads may act on the rims of disks and annuli.
+    pub loaded_rims: bool,
     /// Whether columns may be raw bytes.
     pub binary: bool,
 }
 
-/// Needs of a problem, each by the name that suites and capabilities have for it.
+/// Requirements of a problem, with the names of suites and capabilities.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 #[expect(clippy::struct_excessive_bools, reason = "independent needs, each with its ability")]
@@ -55,7 +57,7 @@ pub struct ProblemNeeds {
     pub conditions: Vec<&'static str>,
     /// Loads and effects.
     pub loads: Vec<&'static str>,
-    /// The column that is judged, if it is none that every solver gives.
+    /// The judged column, if it is an optional one.
     pub column: Option<&'static str>,
     /// Parameters with respect to which the study needs gradients.
     pub gradients: Vec<&'static str>,
@@ -75,12 +77,15 @@ pub struct ProblemNeeds {
     pub initial_stress: bool,
     /// Whether the body force depends on the displacement.
     pub displacement_force: bool,
-    /// Parts of the scene that no solver can be handed yet.
+    /// Whether a load acts on the rim of a disk or an annulus.
+    pub loaded_rims: bool,
+    /// Parts of the scene that the protocol cannot represent yet.
     pub beyond: Vec<&'static str>,
 }
 
 impl Capabilities {
-    /// Abilities by their names in suites: numbers of dimensions, laws, conditions on faces, loads.
+    /// Capabilities by their names in suites: numbers of dimensions, laws, conditions on faces,
+    /// loads.
     pub fn of(dimensions: &[usize], laws: &[&str], conditions: &[&str], loads: &[&str]) -> Self {
         let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
         Self {
@@ -92,7 +97,7 @@ impl Capabilities {
         }
     }
 
-    /// Everything that is needed and not there, each as the entry that would be missing.
+    /// Missing capabilities, each as the entry that the solver would have to list.
     pub fn lacking(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = Vec::new();
         if !self.dimensions.contains(&needs.dimension) {
@@ -124,8 +129,8 @@ impl Capabilities {
 }
 
 impl Capabilities {
-    /// Abilities that are there or not, in the order of [`ProblemNeeds::flags`].
-    fn flags(&self) -> [bool; 8] {
+    /// Boolean capabilities, in the order of [`ProblemNeeds::flags`].
+    fn flags(&self) -> [bool; 9] {
         [
             self.manufactured,
             self.initial_deformation,
@@ -135,13 +140,13 @@ impl Capabilities {
             self.axisymmetric,
             self.initial_stress,
             self.displacement_force,
+            self.loaded_rims,
         ]
     }
 }
 
 impl Capabilities {
-    /// One line for each name in the lists, and for each of the `keys` of the capabilities, that
-    /// has no meaning.
+    /// One line for each unknown name in the lists, and for each unknown key in `keys`.
     #[cfg(feature = "external-programs")]
     pub(super) fn unknown_names(&self, keys: &[String]) -> Vec<String> {
         let mut warnings = Vec::new();
@@ -170,8 +175,8 @@ impl Capabilities {
 }
 
 impl ProblemNeeds {
-    /// Needs that are there or not, with the names of the abilities.
-    fn flags(&self) -> [(&'static str, bool); 8] {
+    /// Boolean requirements, with the names of the capabilities.
+    fn flags(&self) -> [(&'static str, bool); 9] {
         [
             ("manufactured", self.manufactured),
             ("initial_deformation", self.initial_deformation),
@@ -181,11 +186,12 @@ impl ProblemNeeds {
             ("axisymmetric", self.axisymmetric),
             ("initial_stress", self.initial_stress),
             ("displacement_force", self.displacement_force),
+            ("loaded_rims", self.loaded_rims),
         ]
     }
 
-    /// Needs that version 1 of the protocol does not hand over as numbers, each as the entry of the
-    /// capabilities that stands for it.
+    /// Requirements that version 1 of the protocol does not pass as numbers, each as its entry in
+    /// the capabilities.
     #[cfg(feature = "external-programs")]
     pub(crate) fn beyond_version_1(&self) -> Vec<String> {
         let by_name = |capability: &'static str, names: &[&'static str], handed: &[&str]| {
@@ -254,6 +260,7 @@ const KEYS: &[&str] = &[
     "axisymmetric",
     "initial_stress",
     "displacement_force",
+    "loaded_rims",
     "binary",
 ];
 
@@ -268,14 +275,14 @@ fn known(capability: &str) -> &'static [&'static str] {
     }
 }
 
-/// The unknown name among `stated` that most likely means `name`.
+/// The unknown name in `stated` that is nearest to `name`.
 fn misspelt<'a>(capability: &str, name: &str, stated: &'a [String]) -> Option<&'a str> {
     let known = known(capability);
     let unknown = stated.iter().map(String::as_str).filter(|stated| !known.contains(stated));
     unknown.into_iter().find(|stated| nearest(stated, known.iter().copied()) == Some(name))
 }
 
-/// The known name that a misspelt one most likely means, or all of them.
+/// The known name that is nearest to a misspelt name, or all known names.
 #[cfg(feature = "external-programs")]
 fn hint(name: &str, known: &[&'static str]) -> String {
     match nearest(name, known.iter().copied()) {
@@ -305,6 +312,7 @@ mod tests {
             axisymmetric: true,
             initial_stress: true,
             displacement_force: true,
+            loaded_rims: true,
             beyond: vec!["heat"],
         };
         let all = [
@@ -323,6 +331,7 @@ mod tests {
             "axisymmetric",
             "initial_stress",
             "displacement_force",
+            "loaded_rims",
             "heat, which the protocol does not hand over",
         ];
         assert_eq!(Capabilities::default().lacking(&needs), all);
@@ -338,9 +347,10 @@ mod tests {
             axisymmetric: true,
             initial_stress: true,
             displacement_force: true,
+            loaded_rims: true,
             ..Capabilities::of(&[1, 2], &["neo_hookean"], &conditions, &["gravity"])
         };
-        assert_eq!(able.lacking(&needs), all[15..]);
+        assert_eq!(able.lacking(&needs), all[16..]);
     }
 
     #[test]

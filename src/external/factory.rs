@@ -7,10 +7,10 @@ use crate::subject::{Precision, Subject};
 
 /// A solver that can be put on every level of a suite.
 pub trait SolverFactory: Sync {
-    /// Its name, which becomes that of its case.
+    /// Its name, which is also that of its case.
     fn name(&self) -> &str;
 
-    /// Order in h that theory gives its displacements on a smooth solution.
+    /// Theoretical order in h of its displacements on a smooth solution.
     fn formal_order(&self) -> f64 {
         2.0
     }
@@ -25,24 +25,24 @@ pub trait SolverFactory: Sync {
         Vec::new()
     }
 
-    /// A number that stands for all that its results depend on besides the problem: its program
-    /// and arguments. Results are kept for a later run of a solver with the same number, and of one
-    /// that has none (the default) not at all.
+    /// Hash of all inputs of the results except the problem: the program and its arguments. Results
+    /// are cached for later runs of a solver with the same hash. `None` (the default): results are
+    /// not cached.
     fn identity(&self) -> Option<u64> {
         None
     }
 
-    /// Everything that a problem needs and the solver lacks; empty if it can be tried.
+    /// Missing capabilities of the solver for a problem; empty if it can be run.
     fn lacks(&self, _needs: &ProblemNeeds) -> Vec<String> {
         Vec::new()
     }
 
     /// The solver in the initial state of `problem`. Its labels are the reference positions of the
-    /// particles, or places of its own.
+    /// particles, or its own sample points.
     ///
     /// # Errors
-    /// One line that says why the problem is not for this solver; the case is then not applicable.
-    /// A solver that is broken gives a subject whose first step fails.
+    /// One line with the reason why the solver refuses the problem; the case is then not
+    /// applicable. A solver with an error returns a subject whose first step fails.
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String>;
 
     /// The value of a functional after all steps of `problem`, and its gradient. The default is

@@ -102,7 +102,7 @@ impl<'a> FieldPlaces<'a> {
     }
 }
 
-/// Reason for which there are no values.
+/// Reason why there are no values.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum FieldError {
     /// The request is wrong: one line.
@@ -124,7 +124,7 @@ pub(crate) trait FieldSource: Send + Sync {
     /// [`ProblemFields::check_places`].
     fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError>;
 
-    /// [`ProblemFields::values`], of all fields but the body force.
+    /// [`ProblemFields::values`], for all fields except the body force.
     fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError>;
 }
 
@@ -148,7 +148,7 @@ impl ProblemFields {
         self.0.nearest_body(label)
     }
 
-    /// Checks that each place is in the body that is given for it, up to rounding.
+    /// Checks that each place is in its stated body, up to rounding.
     ///
     /// # Errors
     /// [`FieldError::Request`] for the first place that is not.
@@ -160,8 +160,8 @@ impl ProblemFields {
     /// after row. The body force is [`LevelProblem::body_force`](super::LevelProblem::body_force).
     ///
     /// # Errors
-    /// [`FieldError::Request`] for a place that is not on its face, [`FieldError::Undefined`] where
-    /// the problem has no such value.
+    /// [`FieldError::Request`] for a place that is not on its face, [`FieldError::Undefined`] if
+    /// the problem does not define the value.
     pub fn values(
         &self,
         of: FieldName,
@@ -193,7 +193,7 @@ pub(crate) trait ForceSource: Send + Sync {
         self.at(body, label, t)
     }
 
-    /// [`BodyForceField::at_places`], where that is cheaper than one place after another.
+    /// [`BodyForceField::at_places`], if it is cheaper than evaluation at single places.
     fn at_places(&self, _bodies: &[usize], _labels: &[&[f64]]) -> Option<PlacedBodyForce> {
         None
     }
@@ -218,13 +218,12 @@ impl BodyForceField {
         self.0.depends_on_displacement()
     }
 
-    /// The force (m/s2) as [`at`](Self::at), where the displacement is `u` (m).
+    /// The force (m/s2) like [`at`](Self::at), with the displacement `u` (m).
     pub fn at_displaced(&self, body: usize, label: &[f64], t: f64, u: &[f64; 3]) -> [f64; 3] {
         self.0.at_displaced(body, label, t, u)
     }
 
-    /// The force at places that are given once, with the body of each: much cheaper where the times
-    /// are many.
+    /// The force at fixed places, with the body of each: much cheaper for many times.
     pub fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
         self.0.at_places(bodies, labels).unwrap_or_else(|| {
             let (force, places) = (self.clone(), owned(bodies, labels));
@@ -237,7 +236,7 @@ impl BodyForceField {
     }
 }
 
-/// Places with their bodies, to be kept.
+/// Copies of places with their bodies.
 pub(crate) fn owned(bodies: &[usize], labels: &[&[f64]]) -> Vec<(usize, Vec<f64>)> {
     bodies.iter().copied().zip(labels.iter().map(|label| label.to_vec())).collect()
 }

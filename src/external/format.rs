@@ -25,17 +25,17 @@ named! {
 }
 
 impl ProblemFormat {
-    /// Whether the file is no text.
+    /// Whether the file is binary.
     pub fn is_binary(self) -> bool {
         matches!(self, Self::Npz | Self::Vtu)
     }
 }
 
 impl LevelProblem {
-    /// The bytes of a file that holds the problem.
+    /// The bytes of the problem as a file.
     ///
     /// # Errors
-    /// A failure of the writer of zip files.
+    /// An error of the zip library.
     pub fn written(&self, format: ProblemFormat) -> io::Result<Vec<u8>> {
         match format {
             ProblemFormat::Csv => Ok(csv_table(self).into_bytes()),
@@ -56,7 +56,7 @@ impl LevelProblem {
 }
 
 impl LevelProblem {
-    /// Number of components that a column has for each particle.
+    /// Number of components per particle of a column.
     fn width(&self, column: &[f64]) -> usize {
         column.len() / self.particles.len().max(1)
     }

@@ -1,5 +1,4 @@
-//! External solvers: the problem that they receive, ready to be stepped, and the protocol by which
-//! a program takes part.
+//! External solvers: their problem, and the protocol for programs.
 //!
 //! ```text
 //! problem        initial state of one level: particles, grid, faces, materials, loads, steps

@@ -1,4 +1,4 @@
-//! A problem, ready to be stepped by any solver.
+//! Problem of one level for any solver.
 
 use super::fields::{BodyForceField, HandedValues, ProblemFields, as_map};
 use crate::subject::PlaneState;
@@ -17,7 +17,7 @@ pub struct LevelProblem {
     pub dimension: usize,
     /// The background grid.
     pub grid: ProblemGrid,
-    /// Faces of the body's box; a body of another shape has none.
+    /// Faces of the box of the body; a body of another shape has none.
     pub faces: Vec<ProblemFace>,
     /// One material for each body.
     pub materials: Vec<ProblemMaterial>,
@@ -42,18 +42,18 @@ pub struct LevelProblem {
     /// The particles.
     #[serde(skip)]
     pub particles: ProblemParticles,
-    /// Body force, stated and manufactured; none where no force acts.
+    /// Body force, stated and manufactured; `None` without force.
     #[serde(skip)]
     pub body_force: Option<BodyForceField>,
     /// Initial state, loads and conditions on faces at any place of the bodies.
     #[serde(skip)]
     pub fields: Option<ProblemFields>,
-    /// Body force (m/s2), D numbers, where it is the same at every place and time.
+    /// Body force (m/s2), D numbers, if it is constant in space and time.
     #[serde(rename = "body_force_value", skip_serializing_if = "Option::is_none")]
     pub constant_body_force: Option<Vec<f64>>,
 }
 
-/// Particles at the start: n of them, one after the other.
+/// Particles at the start: n particles, one after the other.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ProblemParticles {
@@ -77,8 +77,7 @@ pub struct ProblemParticles {
     pub body: Vec<f64>,
     /// Hoop stresses (Pa), n numbers, of bodies of revolution; empty otherwise.
     pub hoop_stress: Vec<f64>,
-    /// Stresses of the reference configuration (Pa), n D^2 numbers, row after row; empty if there
-    /// is none.
+    /// Initial stresses (Pa), n D^2 numbers, row after row; empty if there are none.
     pub initial_stress: Vec<f64>,
 }
 
@@ -91,7 +90,7 @@ impl ProblemParticles {
         self.mass.len()
     }
 
-    /// Whether there is none.
+    /// Whether there are no particles.
     pub fn is_empty(&self) -> bool {
         self.mass.is_empty()
     }
@@ -140,7 +139,7 @@ pub struct ProblemGrid {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ProblemFace {
-    /// Its name, as suites write it.
+    /// Name in suites.
     pub name: &'static str,
     /// Axis of its normal.
     pub axis: usize,
@@ -148,7 +147,7 @@ pub struct ProblemFace {
     pub high: bool,
     /// Its reference coordinate (m).
     pub at: f64,
-    /// Condition on the motion there, as suites write it.
+    /// Condition on the motion there, by its name in suites.
     pub condition: &'static str,
     /// Numbers of the condition: `coefficient` (friction) or `velocity` (m/s).
     #[serde(flatten)]
@@ -193,7 +192,7 @@ pub struct ProblemContact {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ProblemMaterial {
-    /// Name of the law, as suites write it.
+    /// Name of the law in suites.
     pub law: &'static str,
     /// Parameters by their keys, in SI units.
     #[serde(serialize_with = "as_map")]
@@ -216,13 +215,16 @@ impl ProblemMaterial {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ProblemLoad {
-    /// Its name, as suites write it.
+    /// Name in suites.
     pub load: &'static str,
     /// Its values in the suite, as rows of name and text for reports.
     pub rows: Vec<(String, String)>,
     /// Name of the face that it acts on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub face: Option<&'static str>,
+    /// Rim of the round body that it acts on, `inner` or `outer`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rim: Option<&'static str>,
     /// Part of the bodies that it acts on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<ProblemRegion>,

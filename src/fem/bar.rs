@@ -1,6 +1,6 @@
 //! The bar in motion.
 //!
-//! Where the state of a bar is looked at.
+//! Places at which the state of a bar is sampled.
 
 use super::Sampling;
 use super::mass::{BarMassMatrix, add_nodal_lengths};
@@ -43,7 +43,7 @@ pub struct Bar {
     displaced: Vec<f64>,
     load: Vec<f64>,
     time: f64,
-    /// How far the velocities are behind the displacements (s).
+    /// Time by which the velocities are behind the displacements (s).
     lag: f64,
     transfers: u64,
     min_j: f64,
@@ -53,7 +53,7 @@ impl Bar {
     /// Puts the bar into its initial state.
     ///
     /// # Errors
-    /// [`SetupError`] names what makes no sense in `setup`.
+    /// [`SetupError`] names the invalid part of `setup`.
     pub fn new(setup: BarSetup) -> Result<Self, SetupError> {
         setup.check()?;
         let mesh = Mesh::new(setup.from, setup.to, setup.cells, setup.element);
@@ -129,15 +129,15 @@ impl Bar {
         velocity + self.lag * self.mesh.interpolate(cell, place, &self.acceleration)
     }
 
-    /// F at every quadrature point. An element that is turned inside out has no physical stress,
-    /// and an infinite or undefined nodal value always shows as an F that is not finite.
+    /// F at every quadrature point. An inverted element has no physical stress, and an infinite or
+    /// undefined nodal value always gives an F that is not finite.
     fn deform(&mut self) -> Result<(), Failure> {
         with_nodes!(self.mesh.element(), N => self.deform_elements::<N>())?;
         self.count_visits();
         Ok(())
     }
 
-    /// F of elements with N nodes and as many quadrature points.
+    /// F of elements with N nodes and N quadrature points.
     fn deform_elements<const N: usize>(&mut self) -> Result<(), Failure> {
         let (points, mut least) = (self.mesh.points_of::<N>(), self.min_j);
         let elements = self.def_grad.as_chunks_mut::<N>().0.iter_mut().enumerate();
@@ -168,7 +168,7 @@ impl Bar {
         all_finite("force", &self.acceleration)
     }
 
-    /// `-int P dN_i/dX dX` over elements with N nodes and as many quadrature points.
+    /// `-int P dN_i/dX dX` over elements with N nodes and N quadrature points.
     fn add_stress<const N: usize>(&mut self) {
         let points = self.mesh.points_of::<N>();
         let elements = self.def_grad.as_chunks::<N>().0.iter().enumerate();
@@ -206,7 +206,8 @@ impl Bar {
         self.count_visits();
     }
 
-    /// Tractions, whose sign is that of the outward normal; the support takes what is left.
+    /// Adds the tractions, whose sign is that of the outward normal. The reaction of the support
+    /// balances the rest.
     fn add_ends(&mut self) {
         let last = self.acceleration.len() - 1;
         for (end, (node, normal)) in [(0, -1.0), (last, 1.0)].into_iter().enumerate() {
@@ -231,7 +232,8 @@ impl Subject for Bar {
         self.mass.solve(&mut self.acceleration);
         let (kick, lag) = match self.setup.start {
             Start::AtZero => (dt, 0.0),
-            // From the middle of the step before (from t = 0, if there is none) to that of this.
+            // From the middle of the previous step (from t = 0, if there is none) to that of this
+            // step.
             Start::HalfStepBack => (self.lag + 0.5 * dt, 0.5 * dt),
         };
         let motion = self.displacement.iter_mut().zip(&mut self.velocity);
@@ -271,7 +273,7 @@ impl Subject for Bar {
     }
 }
 
-/// Why `def_grad` is no F of the element `cell`.
+/// Why `def_grad` is not a valid F of the element `cell`.
 #[cold]
 fn no_deformation(cell: usize, def_grad: f64) -> Failure {
     let site = Site::Element(cell);
@@ -288,7 +290,7 @@ fn quadrature(mesh: &Mesh) -> Vec<f64> {
     (0..mesh.cells()).flat_map(inside).collect()
 }
 
-/// Nodal values of a field, and zero where the bar is held.
+/// Nodal values of a field, and zero at fixed ends.
 fn interpolant(nodes: &[f64], fixed: [bool; 2], field: &ScalarFunction) -> Vec<f64> {
     let is_fixed = |i: usize| (fixed[0] && i == 0) || (fixed[1] && i + 1 == nodes.len());
     let value = |(i, &x): (usize, &f64)| if is_fixed(i) { 0.0 } else { field(x) };
@@ -296,7 +298,7 @@ fn interpolant(nodes: &[f64], fixed: [bool; 2], field: &ScalarFunction) -> Vec<f
 }
 
 fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
-    // Without an early end, so that the compiler checks several numbers at once.
+    // Without early exit, so that the compiler checks several numbers at once.
     if nodal.iter().fold(true, |finite, value| finite & value.is_finite()) {
         return Ok(());
     }
@@ -306,18 +308,20 @@ fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
     }
 }
 
-/// Places in an element, 0 to 1: the middles of its quarters, where four particles would start.
+/// Places in an element, 0 to 1: the centres of its quarters, as for four particles.
 ///
 /// An element of degree k interpolates `u` with an error that, to leading order, is the same
 /// polynomial everywhere: `(1 - xi^2) u''` if linear, `xi (1 - xi^2) u'''` if quadratic. At the
-/// zeros of that polynomial (the nodes, the midside node included) only the error of the nodal
-/// values is left, which may be of a higher order. At `xi = 1/4` and `3/4` the polynomials take
-/// 0.94 and 0.44, or 0.23 and 0.33 (their maxima are 1 and 0.38): no place here is privileged.
-/// Nor is it one of the points `+-1/sqrt(3)` at which the *strain* of a quadratic element is.
+/// zeros of this polynomial (the nodes, including the midside node) only the error of the nodal
+/// values remains, which may be of a higher order. At `xi = 1/4` and `3/4` the polynomials have the
+/// values 0.94 and 0.44, or 0.23 and 0.33 (their maxima are 1 and 0.38), so that none of these
+/// places is superconvergent. They also differ from the points `+-1/sqrt(3)`, where the *strain* of
+/// a quadratic element is superconvergent.
 const PLACES: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
 impl Bar {
-    /// Writes the present state as it is seen at `sampling`, whatever the setup says.
+    /// Writes the present state at the points of `sampling`, which may differ from those of the
+    /// set-up.
     pub fn sample_as(&self, sampling: Sampling, samples: &mut Samples) {
         samples.clear();
         samples.dimension = 1;
@@ -327,7 +331,7 @@ impl Bar {
         }
     }
 
-    /// Each place stands for its quarter of the element.
+    /// Each place has the weight of a quarter of the element.
     fn sample_inside(&self, samples: &mut Samples) {
         let weight = self.mesh.cell_length() / PLACES.len() as f64;
         for cell in 0..self.mesh.cells() {
@@ -340,7 +344,7 @@ impl Bar {
         }
     }
 
-    /// Each node stands for the length that lumping gives it.
+    /// Each node has the weight of its lumped length.
     fn sample_nodes(&self, samples: &mut Samples) {
         samples.label.extend(self.nodes());
         samples.displacement.extend(self.nodal_displacements());

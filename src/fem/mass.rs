@@ -8,12 +8,12 @@ use super::Mass;
 use super::mesh::Mesh;
 use crate::subject::Failure;
 
-/// A mass matrix that is ready to be solved with, as often as there are steps.
+/// A mass matrix, prepared for one solve per step.
 pub(super) enum BarMassMatrix {
     /// The diagonal.
     Lumped(Vec<f64>),
-    /// The Cholesky factor. It keeps the band of the matrix, so nothing is lost by a library that
-    /// does not reorder.
+    /// The Cholesky factor. It has the band structure of the matrix, so that no reordering is
+    /// needed.
     Consistent(Box<CscCholesky<f64>>),
 }
 
@@ -37,7 +37,7 @@ impl BarMassMatrix {
     }
 
     /// Turns forces into accelerations, in place: neither branch allocates. The force on a fixed
-    /// node has to be zero, and so its acceleration will be.
+    /// node must be zero; its acceleration is then zero.
     pub(super) fn solve(&self, force: &mut [f64]) {
         match self {
             Self::Lumped(diagonal) => {
@@ -63,7 +63,7 @@ pub(super) fn add_nodal_lengths(mesh: &Mesh, lengths: &mut [f64]) {
     }
 }
 
-/// Sums of the rows of the consistent matrix (kg/m2).
+/// Row sums of the consistent matrix (kg/m2).
 pub(super) fn lumped(mesh: &Mesh, density: f64) -> Vec<f64> {
     let mut lengths = vec![0.0; mesh.node_count()];
     add_nodal_lengths(mesh, &mut lengths);

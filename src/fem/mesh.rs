@@ -12,7 +12,7 @@ pub(super) struct MeshPoint {
     pub(super) shape: PerNode,
     /// Derivatives of the shape functions with respect to X (1/m).
     pub(super) gradient: PerNode,
-    /// Length that the point stands for (m).
+    /// Length represented by the point (m).
     pub(super) weight: f64,
 }
 
@@ -61,7 +61,7 @@ impl Mesh {
         &self.points
     }
 
-    /// Quadrature points of an element with N nodes, which has as many of them.
+    /// Quadrature points of an element with N nodes, which has N of them.
     #[inline]
     pub(super) fn points_of<const N: usize>(&self) -> &[MeshPoint; N] {
         self.points.first_chunk().unwrap_or_else(|| unreachable!("{N} nodes"))
@@ -74,7 +74,7 @@ impl Mesh {
         local.unwrap_or_else(|| unreachable!("cell {cell}"))
     }
 
-    /// Nodal values of a cell with N nodes, to be changed.
+    /// Mutable nodal values of a cell with N nodes.
     #[inline]
     pub(super) fn nodes_of_mut<const N: usize>(cell: usize, nodal: &mut [f64]) -> &mut [f64; N] {
         let local = nodal[cell * (N - 1)..].first_chunk_mut();
@@ -108,13 +108,13 @@ impl Mesh {
         &nodal[self.first_node(cell)..][..self.element.nodes()]
     }
 
-    /// Nodal values of a cell, to be changed.
+    /// Mutable nodal values of a cell.
     #[inline]
     pub(super) fn local_mut<'a>(&self, cell: usize, nodal: &'a mut [f64]) -> &'a mut [f64] {
         &mut nodal[self.first_node(cell)..][..self.element.nodes()]
     }
 
-    /// Cell that holds X, and the place in it. Beyond an end, that end is meant.
+    /// Cell that contains X, and the place in it. Positions beyond an end are moved to that end.
     pub(super) fn locate(&self, x: f64) -> (usize, f64) {
         let along = (x.clamp(self.from, self.to) - self.from) / self.cell_length();
         let cell = (along as usize).min(self.cells - 1); // the last node belongs to the last cell
@@ -207,10 +207,9 @@ impl Element {
     }
 
     /// The `k + 1` Gauss points. They are exact to degree `2k + 1`, thus for the mass matrix
-    /// (degree 2k) and for the internal force of a linear law (degree 2k - 2); an integrand that
-    /// is only smooth is integrated to order `2k + 2`, above the order `k + 1` of the element
-    /// (Ciarlet, *The Finite Element Method for Elliptic Problems*, 1978, section 4.1, asks for
-    /// degree 2k - 2).
+    /// (degree 2k) and for the internal force of a linear law (degree 2k - 2); a smooth integrand
+    /// is integrated to order `2k + 2`, above the order `k + 1` of the element (Ciarlet, *The
+    /// Finite Element Method for Elliptic Problems*, 1978, section 4.1, requires degree 2k - 2).
     pub(super) fn quadrature(self) -> &'static [GaussPoint] {
         match self {
             Self::Linear => &GAUSS_2,
@@ -218,10 +217,9 @@ impl Element {
         }
     }
 
-    /// `int N_a dxi / 2`: the share of an element that belongs to each of its nodes. For the
-    /// quadratic element these are at once the weights of the three-point Gauss-Lobatto rule
-    /// (Simpson's), so the sum of a row of the mass matrix and lumping by nodal quadrature are the
-    /// same (Hughes 2000, section 7.3.2).
+    /// `int N_a dxi / 2`: the share of an element for each of its nodes. For the quadratic element
+    /// these are also the weights of the three-point Gauss-Lobatto rule (Simpson's), so that row
+    /// sums of the mass matrix and lumping by nodal quadrature agree (Hughes 2000, section 7.3.2).
     pub(super) fn shares(self) -> PerNode {
         match self {
             Self::Linear => [0.5, 0.5, 0.0],

@@ -16,7 +16,8 @@
 //! - [`Element`]: linear or quadratic shape functions and their Gauss points.
 //! - [`Mass`]: the lumped or the consistent matrix M, factorised once.
 //! - [`Start`](crate::subject::Start): Euler-Cromer steps from `v(0)`, or from `v(-dt/2)`.
-//! - [`Sampling`]: the state is seen inside the elements, or at the nodes, where it superconverges.
+//! - [`Sampling`]: sample points inside the elements, or at the nodes, where displacements
+//!   superconverge.
 //!
 //! With element length h and wave speed `c = sqrt(P'/rho0)` a step is stable up to `c dt / h` of
 //!
@@ -28,8 +29,8 @@
 //! which is `dt = 2 / omega` of the highest frequency of a single element (Hughes 2000, section
 //! 9.1 for the limit, 7.3.2 for the matrices).
 //!
-//! [`BarSetup`] says what is computed, [`Bar`] computes it. A step allocates nothing: every array,
-//! the factor of the mass matrix included, is made by [`Bar::new`], and the triangular solves work
+//! [`BarSetup`] describes the problem, and [`Bar`] solves it. A step does not allocate:
+//! [`Bar::new`] makes every array and the factor of the mass matrix, and the triangular solves work
 //! in place.
 
 mod bar;

@@ -1,6 +1,7 @@
-//! Set-up of a bar, and what is refused.
+//! Set-up of a bar, and its validation.
 //!
-//! Laws of the bar in uniaxial strain, `P(F)`, written apart from those of MPM and of the truth.
+//! Laws of the bar in uniaxial strain, `P(F)`, written separately from those of MPM and of exact
+//! solutions.
 
 use super::Element;
 use crate::named::named;
@@ -11,9 +12,9 @@ use thiserror::Error;
 pub type ScalarFunction = Box<dyn Fn(f64) -> f64 + Send>;
 /// A function of time t.
 pub type TimeFunction = Box<dyn Fn(f64) -> f64 + Send>;
-/// A function of time, reference position and displacement, at many positions at once: given t
-/// (s), positions X (m), which are the same in every call, and displacements u (m) there, it fills
-/// in the values.
+/// A function of time, reference position and displacement, at many positions at once: given t (s),
+/// positions X (m), which are equal in every call, and displacements u (m) there, it writes the
+/// values.
 pub type BarLoad = Box<dyn FnMut(f64, (&[f64], &[f64]), &mut [f64]) + Send>;
 
 /// The load that has the value `f(X, t)` at each position.
@@ -36,9 +37,9 @@ named! {
 }
 
 named! {
-    /// Where the state is seen.
+    /// Points at which the state is sampled.
     pub enum Sampling {
-        /// At four points inside each element, where an ordinary error shows.
+        /// At four points inside each element, which are not superconvergent.
         Inside = "inside",
         /// At the nodes, where the error of a smooth solution may be of a higher order.
         Nodes = "nodes",
@@ -61,33 +62,33 @@ pub struct BarSetup {
     pub density: f64,
     /// First Piola-Kirchhoff stress `P(F)` (Pa).
     pub law: ScalarFunction,
-    /// Whether the left and the right end are held at zero displacement. There the initial fields
-    /// are not asked.
+    /// Whether the left and the right end are fixed at zero displacement. The initial fields are
+    /// not evaluated there.
     pub fixed: [bool; 2],
     /// Body force `b(X, t, u)` per unit mass (m/s2); with `None`, no such term is computed.
     pub body_force: Option<BarLoad>,
-    /// Piola stress `p0(t)` (Pa) that is applied to the left and to the right end: tension is
-    /// positive at both. Only a free end can take it.
+    /// Piola stress `p0(t)` (Pa) on the left and on the right end: tension is positive at both.
+    /// Only a free end can have one.
     pub traction: [Option<TimeFunction>; 2],
     /// Displacement `u(X)` at t = 0 (m).
     pub initial_displacement: ScalarFunction,
-    /// Velocity `v(X)` at t = 0 (m/s). Like the displacement it is interpolated at the nodes: the
-    /// interpolant is accurate to order k + 1, so it keeps the order of the element, it needs no
-    /// second factorisation where the mass is lumped, and it keeps `v` at a fixed end.
+    /// Velocity `v(X)` at t = 0 (m/s). Like the displacement it is interpolated at the nodes. The
+    /// interpolant is accurate to order k + 1, the order of the element; it needs no second
+    /// factorisation if the mass is lumped, and preserves `v` at a fixed end.
     pub initial_velocity: ScalarFunction,
     /// Meaning of the initial velocity in the first step.
     pub start: Start,
-    /// Where the state is seen.
+    /// Points at which the state is sampled.
     pub sampling: Sampling,
 }
 
-/// More elements than this are taken for a slip of the pen rather than tried.
+/// Maximum number of elements; a larger number is probably a mistake.
 pub(super) const MOST_CELLS: usize = 1 << 24;
 
-/// Why there is no bar.
+/// Why the set-up is invalid.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SetupError {
-    /// The number of elements makes no sense.
+    /// The number of elements is invalid.
     #[error("{0} elements; a bar has 1 to {MOST_CELLS} of them")]
     Cells(usize),
     /// The ends are not in order, or their distance is not finite.
@@ -101,7 +102,7 @@ pub enum SetupError {
     /// The density is not a finite, positive number.
     #[error("the density {0} kg/m3 is not finite and positive")]
     Density(f64),
-    /// A traction acts where the displacement is given.
+    /// A traction acts on an end with a prescribed displacement.
     #[error("the {0} end is fixed and cannot take a traction")]
     TractionAtFixedEnd(&'static str),
     /// The initial state is not one, or the mass matrix has no factor.
@@ -110,7 +111,7 @@ pub enum SetupError {
 }
 
 impl BarSetup {
-    /// Refuses whatever has no meaning. Each comparison is such that NaN fails it.
+    /// Refuses invalid values. NaN fails each comparison.
     pub(super) fn check(&self) -> Result<(), SetupError> {
         let Self { from, to, cells, density, .. } = *self;
         if !(1..=MOST_CELLS).contains(&cells) {
@@ -132,7 +133,7 @@ impl BarSetup {
 }
 
 named! {
-    /// Laws that the bar knows.
+    /// Laws of the bar.
     pub enum BarLaw {
         /// `P = M (F - 1)`, `M = lambda + 2 mu`.
         SmallStrain = "small_strain",
@@ -146,7 +147,7 @@ named! {
 }
 
 impl BarLaw {
-    /// The law of this name, if the bar knows it.
+    /// The law of this name, if the bar has it.
     pub fn find(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|law| law.name() == name)
     }

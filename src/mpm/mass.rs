@@ -35,7 +35,7 @@ pub trait MassMatrix<const D: usize>: Send + Sync {
         boundary: &[Box<dyn Boundary<D>>],
     ) -> Result<u64, Failure>;
 
-    /// Divides `field` (kg m/s, or N) by the matrix. Values on held nodes are not defined.
+    /// Divides `field` (kg m/s, or N) by the matrix. Values on fixed nodes are undefined.
     fn solve(&self, grid: &Grid<D>, field: &mut [Vector<D>]);
 }
 
@@ -62,7 +62,7 @@ impl<const D: usize> MassMatrix<D> for Lumped {
 /// The consistent mass matrix.
 #[derive(Default)]
 pub struct Consistent {
-    /// One for each axis, but for axes on which the same nodes are held.
+    /// One factor per axis; axes with the same fixed nodes share a factor.
     factors: Vec<Factor>,
     entries: MassEntries,
 }
@@ -75,7 +75,7 @@ struct MassEntries {
     pairs: Vec<(usize, usize)>,
     /// Mass of each (kg).
     masses: Vec<f64>,
-    /// Whether the pairs are others than those of the step before.
+    /// Whether the pairs differ from those of the previous step.
     have_moved: bool,
 }
 
@@ -107,7 +107,7 @@ impl MassEntries {
 
 /// The matrix of the nodes that are free along an axis.
 struct Factor {
-    /// Row of each node; None where it has none.
+    /// Row of each node; `None` if it has none.
     row: Vec<Option<usize>>,
     rows: usize,
     assembly: Assembly,
@@ -117,7 +117,7 @@ struct Factor {
 }
 
 impl Factor {
-    /// The factor after `last`, that of the step before.
+    /// Updates the factor of the previous step, `last`, or computes a new one.
     fn after(last: Option<Self>, free: &[bool], entries: &MassEntries) -> Result<Self, Failure> {
         let mut rows = 0;
         let mut number = |free: &bool| {
@@ -160,8 +160,8 @@ impl Factor {
         Ok(Self { row, rows, assembly, values, cholesky })
     }
 
-    /// The factor of other masses at the same places: the steps of the factorisation, and so its
-    /// bits, are those of a new one.
+    /// Refactors for other masses with the same pattern: the operations, and so the bits, are those
+    /// of a new factorisation.
     fn refactored(mut self, entries: &MassEntries) -> Result<Self, CholeskyError> {
         self.assembly.add_up(&entries.masses, &mut self.values);
         self.cholesky.refactor(&self.values).map(|()| self)
@@ -181,7 +181,7 @@ impl Factor {
     }
 }
 
-/// Where nothing is held and there is mass: one where a component is free, zero elsewhere.
+/// Nodes with mass that are not fixed: one if a component is free, zero otherwise.
 fn free<const D: usize>(grid: &Grid<D>, boundary: &[Box<dyn Boundary<D>>]) -> Vec<Vector<D>> {
     let has_mass = |m: &f64| Vector::from_element(f64::from(u8::from(*m > 0.0)));
     let mut free: Vec<Vector<D>> = grid.mass.iter().map(has_mass).collect();
@@ -224,18 +224,18 @@ impl<const D: usize> MassMatrix<D> for Consistent {
 struct Assembly {
     /// Where the matrix is not zero.
     pattern: SparsityPattern,
-    /// The numbers of the entries, those of a place behind each other, place after place.
+    /// Indices of the entries, grouped by place in the matrix.
     order: Vec<usize>,
     /// Where in `order` the entries of each place end.
     ends: Vec<usize>,
 }
 
 impl Assembly {
-    /// For a matrix of `size` rows with entries at `places`, row and column; those without are left
-    /// out.
+    /// For a matrix of `size` rows with entries at `places`, row and column; entries without a
+    /// place are ignored.
     ///
-    /// Entries of a place are added in the order of a sort that is not stable, but the same
-    /// everywhere: that of `nalgebra_sparse` for a `CooMatrix`, and so are the bits.
+    /// Entries of a place are added in the order of an unstable but deterministic sort: that of
+    /// `nalgebra_sparse` for a `CooMatrix`, so that the bits agree.
     fn new(size: usize, places: impl Iterator<Item = Option<(usize, usize)>>) -> Self {
         let mut columns = vec![Vec::new(); size];
         let mut row = Vec::new();
@@ -261,7 +261,7 @@ impl Assembly {
         Self { pattern, order, ends }
     }
 
-    /// The values of the matrix, column by column, from those of all entries.
+    /// The values of the matrix, column by column, from the values of all entries.
     fn add_up(&self, entries: &[f64], values: &mut Vec<f64>) {
         values.clear();
         let mut start = 0;
@@ -285,7 +285,7 @@ mod tests {
         fn the_bits_are_those_of_the_library(
             entries in proptest::collection::vec((0..6_usize, 0..6_usize, 1e-3..1.0_f64), 0..900),
         ) {
-            // The row and column 5 is that of nodes that are held.
+            // Row and column 5 belong to fixed nodes.
             let free = |i: usize, j: usize| (i < 5 && j < 5).then_some((i, j));
             let mut matrix = CooMatrix::new(5, 5);
             for &(i, j, value) in &entries {

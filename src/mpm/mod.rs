@@ -1,12 +1,12 @@
 //! The reference Material Point Method: the "original MPM" of Sulsky, Chen & Schreyer (1994) as
 //! Wobbes & Tielen (2015) use it, for any number of dimensions.
 //!
-//! A scheme is a list of named stages ([`SchemeName::stages`]), which the schedule fuses to passes
-//! over particles or nodes once, when the solver is set up; a step is a loop over these passes.
-//! Only the basis meets particles and nodes inside a loop, so only dimension and basis are type
-//! parameters, hidden behind the object-safe [`Kernel`], whose passes [`Transfer`], [`MassMatrix`]
-//! and [`Effect`] are made of; these and [`Material`] meet the solver between stages and are trait
-//! objects. Effects exist only where a scene lists them.
+//! A scheme is a list of named stages ([`SchemeName::stages`]), which the schedule fuses into
+//! passes over particles or nodes once, at set-up; a step is a loop over these passes. Only the
+//! basis is used inside loops over particles and nodes, so that only dimension and basis are type
+//! parameters, hidden behind the object-safe [`Kernel`]. [`Transfer`], [`MassMatrix`] and
+//! [`Effect`] use the passes of the kernel; these and [`Material`] are called between stages and
+//! are trait objects. Only the effects that a scene lists exist.
 //!
 //! ```text
 //! particles --P2G--> mass, momentum, force --solve--> acceleration --G2P--> velocity, strain, x
@@ -62,11 +62,14 @@ pub use multibody::Bodies;
 pub use scheme::{SchemeName, Stage};
 pub use seeding::Fragment;
 pub use seeding::quadrilateral::Quadrilateral;
-pub use step::combination::{CombinationError, combine, combine_across, combine_bodies};
+pub use step::combination::{
+    CombinationError, combine, combine_across, combine_bodies, combine_volume,
+};
 pub use step::heat_solver::HeatSolver;
 pub use step::initial::complete_start;
 pub use step::setup::Setup;
 pub use step::solver::Solver;
+pub use step::volume_average::VolumeName;
 pub use transfer::{
     Apic, Blend, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferChoice, TransferKind,
     TransferName, TransferParameter, WithParameter, Xpic, g2p, transfer,

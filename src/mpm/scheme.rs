@@ -15,8 +15,8 @@ named! {
         Usf = "usf",
         /// Update stress last, from the updated grid velocities.
         Usl = "usl",
-        /// Modified update stress last: the updated particle velocities are mapped to the grid
-        /// once more, and that velocity updates stress and position (the "modified Lagrangian"
+        /// Modified update stress last: the updated particle velocities are mapped back to the
+        /// grid, and the resulting velocity updates stress and position (the "modified Lagrangian"
         /// algorithm of the talk; Sulsky, Zhou & Schreyer 1995).
         Musl = "musl",
     }

@@ -23,12 +23,12 @@ const OF_CASE: [&str; 9] = [
 type CsvRow = HashMap<String, String>;
 
 /// One row for each level of a convergence study, each value of a stability study and each position
-/// of an internal-force study; one row for a case that has none of them.
+/// of an internal-force study; one row for a case without any of these.
 ///
 /// Columns have the names of the keys in the JSON document ([`json`](crate::report::json())), with
 /// a dot between outer and inner key (`errors.rms`, `observed_order.low`); those of stability and
-/// internal-force studies begin with `stability.` and `forces.`. Numbers are written so that they
-/// are read back exactly. A field is empty where the document has `null`.
+/// internal-force studies begin with `stability.` and `forces.`. Numbers have enough digits to be
+/// read back exactly. A field is empty if the document has `null`.
 ///
 /// # Panics
 /// Never: memory is written to.

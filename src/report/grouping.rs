@@ -14,7 +14,7 @@ pub(crate) fn grouped<K: PartialEq, V>(
     groups
 }
 
-/// Values without those that came before.
+/// Values without duplicates, in order of first occurrence.
 pub(crate) fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {
     grouped(values.into_iter().map(|value| (value, ())))
         .into_iter()

@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 /// One test suite for each suite and one test case for each case.
 ///
 /// A case that is not applicable, excepted or not gated is skipped with its reason, unless its
-/// suite is one of `required`: then it fails, as under `run --gate`. A failure has the report of
-/// the case as its text. There are no times, so that equal results have equal documents.
+/// suite is one of `required`: then it fails, as under `run --gate`. A failure contains the report
+/// of the case as its text. There are no times, so that equal results give equal documents.
 ///
 /// # Panics
 /// Never: memory is written to.

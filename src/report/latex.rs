@@ -5,7 +5,7 @@ use crate::report::grouping::grouped;
 use crate::verify::{Axis, Interval, SuiteOutcome, Verdict};
 use std::fmt::Write;
 
-/// Most cases in one table: a page has no place for more.
+/// Maximum number of cases per table, limited by the width of a page.
 const MOST_CASES: usize = 3;
 
 /// Tables of the errors and orders of convergence studies, in the style of the package `booktabs`.
@@ -104,7 +104,7 @@ fn interval(order: Interval) -> String {
     format!("${:.2}$ [${:.2}$, ${:.2}$]", order.value, order.low, order.high)
 }
 
-/// A cell of a text table in LaTeX: `1.235e-05` as a power of ten, a dash for nothing.
+/// A cell of a text table in LaTeX: `1.235e-05` as a power of ten, a dash for an empty cell.
 fn number(text: &str) -> String {
     let (before, rest) = text.strip_prefix('(').map_or(("", text), |rest| ("(", rest));
     let (inner, after) = rest.strip_suffix(')').map_or((rest, ""), |inner| (inner, ")"));
@@ -122,8 +122,8 @@ fn number(text: &str) -> String {
     format!("{before}{cell}{after}")
 }
 
-/// Text for LaTeX. Letters of Latin alphabets stay; other characters beyond ASCII become their
-/// command, or a question mark.
+/// Text for LaTeX. Letters of Latin alphabets do not change; other characters beyond ASCII become
+/// their command, or a question mark.
 pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,4 +1,4 @@
-//! The matrix of problems and methods: what each basis comes to in each suite.
+//! The matrix of problems and methods: the result of each basis in each suite.
 
 use crate::report::grouping::{distinct, grouped};
 use crate::verify::{
@@ -20,7 +20,7 @@ pub(crate) const LEGEND: &str = "Each entry is the range of observed orders of a
     against limits, and no order is measured; `stable`, `unstable` and `limit` (a critical value): \
     results of stability studies. The report of a suite states the reasons.";
 
-/// Class of a finding, from good to bad; a reader of the page sees it as a colour.
+/// Class of a finding, from good to bad, shown as a colour on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum FindingClass {
     /// Bounds, stability studies, and cases that are not applicable.
@@ -78,7 +78,7 @@ impl FindingClass {
     }
 }
 
-/// The worst class of the cases in each of [`COLUMNS`]; `None` where there is no case.
+/// The worst class of the cases in each of [`COLUMNS`]; `None` without cases.
 pub(crate) fn classes(outcome: &SuiteOutcome) -> [Option<FindingClass>; COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcome.cases.iter().filter(|case| column_of(case) == column);
@@ -86,8 +86,8 @@ pub(crate) fn classes(outcome: &SuiteOutcome) -> [Option<FindingClass>; COLUMNS.
     })
 }
 
-/// Cases of suites in each of [`COLUMNS`] that have the expected order, and all that have an order
-/// or none.
+/// In each of [`COLUMNS`], the number of cases with the expected order, and of all cases with an
+/// order or an order-related verdict.
 pub(crate) fn shares(outcomes: &[&SuiteOutcome]) -> [(usize, usize); COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcomes.iter().flat_map(|outcome| &outcome.cases);
@@ -100,7 +100,7 @@ pub(crate) fn shares(outcomes: &[&SuiteOutcome]) -> [(usize, usize); COLUMNS.len
     })
 }
 
-/// Suites, or what has one, by the groups of their names.
+/// Items of suites, by the groups of their names.
 pub(crate) fn by_group<'a, T>(
     all: impl IntoIterator<Item = T>,
     suite: impl Fn(&T) -> &'a SuiteOutcome,
@@ -110,7 +110,7 @@ pub(crate) fn by_group<'a, T>(
     groups
 }
 
-/// Findings of a suite, one text for each of [`COLUMNS`]; a dash where it has no such case.
+/// Findings of a suite, one text for each of [`COLUMNS`]; a dash if it has no such case.
 pub(crate) fn findings(outcome: &SuiteOutcome) -> [String; COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcome.cases.iter().filter(|case| column_of(case) == column);
@@ -139,7 +139,7 @@ fn column_of(case: &CaseOutcome) -> usize {
     }
 }
 
-/// Orders as a range, then what is no order.
+/// Orders as a range, then other verdicts.
 fn finding(cases: &[&CaseOutcome]) -> String {
     let orders = cases.iter().filter_map(|case| order(case));
     let [least, most] = orders.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], order| {
@@ -160,7 +160,7 @@ fn order(case: &CaseOutcome) -> Option<f64> {
     study.judgement.order.map(|order| order.value)
 }
 
-/// The word for a case whose verdict is no order.
+/// The word for a case whose verdict is not an order.
 fn word(case: &CaseOutcome) -> Option<String> {
     if !case.lacks.is_empty() {
         return Some("n/a".to_owned());

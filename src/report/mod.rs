@@ -1,13 +1,13 @@
-//! The page: what a person or a program reads of a [`SuiteOutcome`](crate::verify::SuiteOutcome).
+//! Output of a [`SuiteOutcome`](crate::verify::SuiteOutcome) for people and programs.
 //!
-//! - [`text()`]: the aligned text that is kept as a snapshot. No time, host, date or path.
+//! - [`text()`]: the aligned text of snapshots. No time, host, date or path.
 //! - [`json()`]: one document, an interface.
 //! - [`latex()`]: tables for papers; with the feature `cli` also `csv()`, and `junit()` for CI
 //!   services.
 //! - [`svg()`]: figures, drawn by the layer in [`figure`].
 //! - [`mod@page`]: one HTML page with all of it.
 //! - [`drift`]: comparison of two texts, number by number.
-//! - [`mod@compare`]: two JSON documents side by side, what moved first.
+//! - [`mod@compare`]: comparison of two JSON documents, the largest changes first.
 
 pub(crate) mod columns;
 pub mod compare;

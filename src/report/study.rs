@@ -17,7 +17,7 @@ use serde_json::{Map, Value, json};
 pub(crate) const KINDS: [&dyn StudyReport; 4] =
     [&ConvergenceReport, &InternalForceReport, &StabilityReport, &GradientReport];
 
-/// How the results of one kind of study are shown; cases of other kinds add nothing.
+/// Report of one kind of study; cases of other kinds add nothing.
 pub(crate) trait StudyReport: Sync {
     /// Tables of all cases of a suite.
     fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]);
@@ -27,7 +27,7 @@ pub(crate) trait StudyReport: Sync {
         Vec::new()
     }
 
-    /// Keys of one case in JSON, null where the case is of another kind.
+    /// Keys of one case in JSON, null if the case is of another kind.
     fn json(&self, case: &CaseOutcome) -> Map<String, Value>;
 
     /// Figures of a suite.
@@ -39,7 +39,7 @@ pub(crate) fn studies<R: StudyResults>(cases: &[CaseOutcome]) -> Vec<(&str, &R)>
     cases.iter().filter_map(|case| Some((case.case.as_str(), case.results()?))).collect()
 }
 
-/// The members of an object that `json!` makes.
+/// The members of an object from `json!`.
 pub(crate) fn members(object: Value) -> Map<String, Value> {
     match object {
         Value::Object(members) => members,
@@ -80,7 +80,7 @@ impl StudyReport for ConvergenceReport {
     }
 }
 
-/// Steps that are too long, runs that broke, and whose error a floor is.
+/// Remarks on steps that are too long, failed runs, and causes of floors.
 fn remarks(study: &Convergence) -> Vec<String> {
     let too_long = study.levels.iter().filter(|level| level.is_too_long());
     let too_long: Vec<String> = too_long.map(|level| level.name(study.axis)).collect();
@@ -94,7 +94,7 @@ fn remarks(study: &Convergence) -> Vec<String> {
     too_long.into_iter().chain(failures).chain(floor).collect()
 }
 
-/// Quantity and norm of the judged errors, and what they are divided by.
+/// Quantity and norm of the judged errors, and their scale.
 fn judge(study: &Convergence) -> Value {
     json!({"of": study.of.name(), "norm": study.norm.name(), "scale": study.scale.map(number)})
 }

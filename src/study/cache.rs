@@ -1,10 +1,10 @@
-//! Results of finished levels, kept on disk: a run that was stopped goes on with the other levels.
+//! Cache of the results of finished levels on disk: an interrupted run continues with the remaining
+//! levels.
 //!
-//! The result of a level is written as soon as it has ended, under a name made of all that it
-//! depends on: the program itself, bit by bit, the text of the suite, the case and the level. No
-//! result of another program or text is ever taken for it, and a resumed run prints what an
-//! uninterrupted one prints, byte by byte. A file is written whole or not at all: under another
-//! name first.
+//! The result of a level is written as soon as it ends, under a name made of all its inputs: a hash
+//! of the program, the text of the suite, the case and the level. So a result of another program or
+//! text is never used, and a resumed run prints the same bytes as an uninterrupted one. Files are
+//! written atomically, by renaming.
 
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::yaml::{read_again, written};
@@ -23,7 +23,7 @@ const END: &str = "# end\n";
 #[derive(Debug)]
 pub struct ResultCache {
     folder: PathBuf,
-    /// Further folders, which are only read; where there are any, nothing runs.
+    /// Further folders, which are only read; if there are any, no level runs.
     others: Vec<PathBuf>,
     program: u64,
     /// The first result that could not be written, and why.
@@ -31,10 +31,10 @@ pub struct ResultCache {
 }
 
 impl ResultCache {
-    /// Uses a folder, and makes it if it is not there.
+    /// Uses a folder, and creates it if it does not exist.
     ///
     /// # Errors
-    /// If there can be no such folder, or the program cannot be read.
+    /// If the folder cannot be created, or the program cannot be read.
     pub fn open(folder: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
         let program = fingerprint(&fs::read(std::env::current_exe()?)?);
@@ -42,10 +42,10 @@ impl ResultCache {
         Ok(Self { folder, others, program, first_error: OnceLock::new() })
     }
 
-    /// Takes finished levels from any of `folders`, and runs none.
+    /// Takes finished levels from `folders`, and runs no level.
     ///
     /// # Errors
-    /// If one is no folder, or the program cannot be read.
+    /// If one is not a folder, or the program cannot be read.
     pub fn of_parts(folders: &[PathBuf]) -> Result<Self, (PathBuf, io::Error)> {
         let readable = |folder: &PathBuf| fs::read_dir(folder).map(drop);
         for folder in folders {
@@ -56,8 +56,8 @@ impl ResultCache {
         Ok(Self { others: folders.to_vec(), ..cache })
     }
 
-    /// The result of a level: from the folder, or from `run`. `key` names all that the result
-    /// depends on besides the program; messages call the level `name`.
+    /// The result of a level: from the folder, or from `run`. `key` contains all inputs of the
+    /// result except the program; messages call the level `name`.
     pub(crate) fn level<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
@@ -82,7 +82,7 @@ impl ResultCache {
         Ok(result)
     }
 
-    /// Why a result could not be written, if there is one that could not.
+    /// The first error of writing a result, if any.
     pub fn diagnostic(&self) -> Option<String> {
         Some(format!("{}: {}", self.folder.display(), self.first_error.get()?))
     }
@@ -98,8 +98,8 @@ fn text(key: &str, level: &impl Serialize) -> Result<String, String> {
     Ok(format!("# {key}\n{}{END}", written(level)?))
 }
 
-/// Writes a file whole or not at all, also if the machine stops: under the name `unfinished` first,
-/// which becomes `path` once the bytes are on the disk.
+/// Writes a file atomically, also if the machine stops: the bytes are written to `unfinished`,
+/// which is renamed to `path`.
 fn write_whole(path: &Path, unfinished: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(unfinished)?;
     file.write_all(bytes)?;
@@ -107,7 +107,7 @@ fn write_whole(path: &Path, unfinished: &Path, bytes: &[u8]) -> io::Result<()> {
     fs::rename(unfinished, path)
 }
 
-/// None if the text is of another level, not complete, or no level at all.
+/// `None` if the text belongs to another level, or is incomplete or invalid.
 fn read<T: DeserializeOwned>(text: &str, key: &str) -> Option<T> {
     let rest = text.strip_prefix("# ")?.strip_prefix(key)?.strip_prefix('\n')?;
     read_again(rest.strip_suffix(END)?)

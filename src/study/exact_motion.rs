@@ -1,6 +1,6 @@
 //! Sizes of an exact motion: amplitude, extremes, and the residual of a linearised solution.
 //!
-//! Extremes are taken on a raster of the body and the run, and at the places and times of the
+//! Extremes are computed on a raster of the body and the run, and at the places and times of the
 //! survey of the problem, which resolve a narrow pulse.
 
 use crate::exact::{Derivatives, Problem, Survey};
@@ -12,12 +12,16 @@ use crate::suite::model::{ConvergencePlan, Suite};
 /// and the run.
 pub(crate) fn amplitude(problem: &Problem) -> String {
     const PER_AXIS: usize = 20;
+    const GOLDEN: usize = 8;
     let places = raster(problem, PER_AXIS);
     let mut motion = problem.motion.at_places(places.iter().map(Vec::as_slice));
     let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);
     let mut now = Derivatives::default();
-    for step in 0..=PER_AXIS {
-        motion.set_time(problem.until * (step as f64 / PER_AXIS as f64));
+    let even = (0..=PER_AXIS).map(|step| step as f64 / PER_AXIS as f64);
+    // Even times miss a motion with a whole number of periods in each interval.
+    let golden = (1..=GOLDEN).map(|step| (step as f64 * 0.618_034).fract());
+    for share in even.chain(golden) {
+        motion.set_time(problem.until * share);
         for place in 0..places.len() {
             motion.derivatives(place, &mut now);
             displacement = now.u.iter().fold(displacement, |a, b| a.max(b.abs()));
@@ -27,7 +31,7 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
     format!("largest |u| {displacement:.3e} m, largest |grad u| {gradient:.3e}")
 }
 
-/// Points of the body on a raster of its box, with so many intervals along each axis.
+/// Points of the body on a raster of its box, with `intervals` intervals along each axis.
 pub(crate) fn raster(problem: &Problem, intervals: usize) -> Vec<Vec<f64>> {
     let point = |mut rest: usize| {
         let corners = problem.from.iter().zip(&problem.to);
@@ -48,20 +52,20 @@ const ALONG: [usize; 3] = [16, 8, 4];
 /// Intervals of the raster over the run.
 const OVER: usize = 8;
 
-/// The largest values that a motion takes.
+/// The largest values of a motion.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Extremes {
-    /// Of |u| (m), axis by axis.
+    /// Largest |u| (m), axis by axis.
     pub(crate) displacement: [f64; 3],
-    /// Of the displacement gradient.
+    /// Largest displacement gradient.
     pub(crate) gradient: f64,
-    /// Of the second derivatives of the displacement along the axes (1/m).
+    /// Largest second derivative of the displacement along the axes (1/m).
     pub(crate) curvature: f64,
-    /// Of the speed (m/s).
+    /// Largest speed (m/s).
     pub(crate) speed: f64,
-    /// Of the acceleration (m/s^2).
+    /// Largest acceleration (m/s^2).
     pub(crate) acceleration: f64,
-    /// Of the components of the initial stress (Pa).
+    /// Largest component of the initial stress (Pa).
     pub(crate) initial_stress: f64,
     /// The lowest and the highest place (m) that the body reaches, axis by axis.
     pub(crate) reach: [(f64, f64); 3],
@@ -131,18 +135,18 @@ pub struct Linearisation {
 }
 
 impl Linearisation {
-    /// The linearisation of `problem` after a time `t` (s), if it is linearised; `motion` are its
+    /// The linearisation of `problem` after a time `t` (s), if it is linearised; `motion` has its
     /// extremes.
     ///
-    /// The error is the root mean square of the first correction where that is computed
-    /// ([`Problem::first_correction`]), for motions along one axis. For others it is estimated from
-    /// the residual, to about a factor of ten:
+    /// For motions along one axis the error is the root mean square of the first correction, if
+    /// that is computed ([`Problem::first_correction`]). For other motions it is estimated from the
+    /// residual, to about a factor of ten:
     ///
-    /// Inertia and stress are of the size of the acceleration a = omega^2 u each, so that a
-    /// residual r is a force 2 r a per unit mass. It comes to r a t^2; later, where it swings with
-    /// a mode as the second harmonic of a wave without dispersion does, to r a t/omega. A body so
-    /// stiff that it follows at once is moved by no more than a held bar of its length L,
-    /// r a L^2/c^2. At rest the error is about a share r of u.
+    /// Inertia and stress terms are each of the size of the acceleration a = omega^2 u, so that a
+    /// residual r is a force 2 r a per unit mass. It causes an error r a t^2 at first and r a
+    /// t/omega later, if it is in resonance with a mode, as the second harmonic of a wave without
+    /// dispersion. A body so stiff that it follows quasi-statically is displaced at most like a
+    /// fixed bar of its length L, r a L^2/c^2. At rest the error is about a share r of u.
     pub(crate) fn of(problem: &Problem, motion: &Extremes, t: f64, norm: NormName) -> Option<Self> {
         problem.linearised.as_ref()?;
         let (residual, u) = (problem.residual(), motion.largest_displacement());

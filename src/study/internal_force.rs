@@ -1,4 +1,5 @@
-//! The internal-force study: the force on a node at every position of a particle, judged.
+//! The internal-force study: computes and judges the force on a node at every position of a
+//! particle.
 
 use crate::study::describe::statement::{Rows, push};
 use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
@@ -43,7 +44,7 @@ fn rows(plan: &ForcePlan) -> Rows {
     rows
 }
 
-/// The force for every position, judged.
+/// Computes the force at every position, and judges it.
 fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
     let rows = internal_force::rows(plan, case);
     let seen = [ForceExpectation::AgreesWithin(0.0), ForceExpectation::StepsBelow(0.0)];

@@ -24,19 +24,19 @@ pub(crate) trait Study: StudyPlan {
     /// Rows of name and value that state the study.
     fn statement(&self) -> Rows;
 
-    /// Abilities that it requires of an external solver; none where there is no such
-    /// study of one.
+    /// Capabilities that it requires of an external solver; `None` if no external solver can run
+    /// the study.
     fn needs(&self) -> Option<ProblemNeeds> {
         None
     }
 
-    /// Profile of a step of the case with this index on the coarsest level, without one effect if
-    /// that is wanted; none of a study without levels, and of a subject that gives none.
+    /// Profile of a step of the case with this index on the coarsest level, optionally without one
+    /// effect; `None` for a study without levels, or if the subject gives none.
     fn profile(&self, _case: usize, _without: Option<Dispensable>) -> Option<Profile> {
         None
     }
 
-    /// Runner of the cases; nothing runs yet.
+    /// Runner of the cases. It does not start any run.
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a>;
 }
 
@@ -45,23 +45,23 @@ pub(crate) trait Study: StudyPlan {
 pub struct StepWarning {
     /// Index of the case.
     pub case: usize,
-    /// Words of the warning.
+    /// Text of the warning.
     pub text: String,
-    /// Whether the step is too long, which a suite may mean: its expectations tell.
+    /// Whether the step is too long. A suite may intend this, with an expectation of it.
     pub is_too_long: bool,
 }
 
-/// A run that is to be shown.
+/// A run for output as files.
 pub(crate) struct ShownRun<'a> {
-    /// Its name among those of its case: `64 cells`.
+    /// Name of the run in its case: `64 cells`.
     pub(crate) name: String,
     /// The solver at t = 0.
     pub(crate) subject: Box<dyn Subject>,
-    /// Lengths of the steps (s), taken in turn.
+    /// Lengths of the steps (s), used cyclically.
     pub(crate) dt: Vec<f64>,
     /// Number of steps.
     pub(crate) steps: u64,
-    /// The truth, if there is one.
+    /// The exact solution, if there is one.
     pub(crate) truth: Option<&'a dyn Truth>,
 }
 
@@ -73,16 +73,16 @@ pub(crate) trait CaseRunner: Send + Sync {
     /// Units of progress of all cases.
     fn units(&self) -> u64;
 
-    /// Warnings before anything runs, without the name of the suite.
+    /// Warnings that need no run, without the name of the suite.
     fn warnings(&self) -> Vec<StepWarning> {
         Vec::new()
     }
 
-    /// Calls `then` with the run of a case that shows most: the first one that broke or grew in
-    /// `outcome`, or the last.
+    /// Calls `then` with the most informative run of a case: the first one that failed or grew in
+    /// `outcome`, or the last one.
     ///
     /// # Errors
-    /// Those of `then`, and one line that says why there is no such run.
+    /// The errors of `then`, or one line with the reason why there is no such run.
     fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), String> {
         Err("its study has no runs to be shown".to_owned())
     }
@@ -91,7 +91,7 @@ pub(crate) trait CaseRunner: Send + Sync {
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome;
 }
 
-/// All that runs of a suite depend on besides its plan.
+/// All inputs of the runs of a suite in addition to its plan.
 #[derive(Clone, Copy)]
 pub(crate) struct RunContext<'a> {
     /// Name of the suite.
@@ -109,9 +109,9 @@ pub(crate) struct RunContext<'a> {
 }
 
 impl RunContext<'_> {
-    /// The cached result of `key`, which messages call `name`, or that of `run`, which is cached.
-    /// A result of an external solver is not cached if it is `broken`: a solver that breaks, or
-    /// does not answer in time, may do better the next time.
+    /// The cached result of `key`, which messages call `name`, or that of `run`, which is then
+    /// cached. A result of an external solver is not cached if it is `broken`: a solver that fails,
+    /// or does not answer in time, may succeed the next time.
     pub(crate) fn cached<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
@@ -140,7 +140,7 @@ impl RunContext<'_> {
     }
 }
 
-/// The plan as a study, if it is of one kind.
+/// Downcast of a plan to a study of one kind.
 type AsStudy = for<'a> fn(&'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study>;
 
 /// Every kind of study.
@@ -161,15 +161,15 @@ pub(crate) fn study(suite: &Suite) -> &dyn Study {
     found.unwrap_or_else(|| panic!("`{}` is of a kind of study that is not listed", suite.name))
 }
 
-/// Rows of name and value that state what a suite computes, for reports.
+/// Rows of name and value that state the problem of a suite, for reports.
 pub fn statement(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = head(suite);
     rows.extend(study(suite).statement());
     rows
 }
 
-/// Profile of a step of the case called `name` on the coarsest level, without one effect if that is
-/// wanted; none of a case without levels, and of a subject that gives none.
+/// Profile of a step of the case named `name` on the coarsest level, optionally without one effect;
+/// `None` for a case without levels, or if the subject gives none.
 pub fn profile(suite: &Suite, name: &str, without: Option<Dispensable>) -> Option<Profile> {
     let case = suite.case_names().into_iter().position(|case| case == name)?;
     study(suite).profile(case, without)

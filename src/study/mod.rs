@@ -1,4 +1,4 @@
-//! Studies: what a suite asks for, run and judged.
+//! Studies: running and judging the contents of a suite.
 //!
 //! ```text
 //! setup            model -> Subject: names become types

@@ -1,4 +1,4 @@
-//! Running a suite, of whatever kind of study.
+//! Runs a suite of any kind of study.
 
 use super::cache::ResultCache;
 use super::kind::{CaseRunner, Progress, RunContext, StepWarning, statement, study};
@@ -18,12 +18,12 @@ pub struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    /// A runner of the levels that the gate runs; nothing runs yet.
+    /// A runner of the levels of the gate. It does not start any run.
     pub fn new(suite: &'a Suite) -> Self {
         Self::over(suite, Extent::Usual)
     }
 
-    /// A runner of so many levels.
+    /// A runner of the levels in `extent`.
     pub fn over(suite: &'a Suite, extent: Extent) -> Self {
         let (name, fingerprint) = (suite.name.as_str(), suite.fingerprint);
         let (cache, solver, repeat) = (None, None, 1);
@@ -36,15 +36,15 @@ impl<'a> Runner<'a> {
         Self::with(self.suite, RunContext { solver: Some(solver), ..self.context })
     }
 
-    /// Stores finished levels in a cache, and takes them from it.
+    /// Stores finished levels in a cache, and uses stored ones.
     #[must_use]
     pub fn keeping(self, cache: Option<&'a ResultCache>) -> Self {
         Self::with(self.suite, RunContext { cache, ..self.context })
     }
 
-    /// Runs each level of a convergence study `count` times, in a new process if the solver is one,
-    /// and reports the spread between the runs. Results are then neither stored nor taken from a
-    /// cache. A `count` of 0 or 1 is one run, without a spread.
+    /// Runs each level of a convergence study `count` times, in a new process for an external
+    /// solver, and reports the spread between the runs. Results are then neither stored in a cache
+    /// nor taken from it. A `count` of 0 or 1 is one run, without a spread.
     #[must_use]
     pub fn repeating(self, count: usize) -> Self {
         Self::with(self.suite, RunContext { repeat: count.max(1), ..self.context })
@@ -59,8 +59,8 @@ impl<'a> Runner<'a> {
         self.cases.units()
     }
 
-    /// Warnings before anything runs, about steps longer than the predicted stable time step, or
-    /// not those that the suite asks for.
+    /// Warnings that need no run, about steps longer than the predicted stable time step, or
+    /// different from the requested ones.
     pub fn warnings(&self) -> Vec<StepWarning> {
         let text = |warning: &StepWarning| format!("{}::{}", self.suite.name, warning.text);
         let named = |warning| StepWarning { text: text(&warning), ..warning };
@@ -92,10 +92,10 @@ impl<'a> Runner<'a> {
     }
 
     /// Runs a case again and gives its particles and its grid over time to `write`, as files for
-    /// ParaView: on the first level (or row) that broke or grew in `outcome`, or on the finest.
+    /// ParaView: on the first level (or row) that failed or grew in `outcome`, or on the finest.
     ///
     /// # Errors
-    /// Those of `write`, and one line that says why the case has nothing to show.
+    /// The errors of `write`, or one line with the reason why the case has no run to write.
     pub fn time_series(
         &self,
         outcome: &CaseOutcome,

@@ -1,14 +1,14 @@
-//! Parts of a run of several suites, of about the same predicted cost.
+//! Parts of a run of several suites, with about equal predicted cost.
 
 use super::preflight::{UNKNOWN, estimates};
 use crate::suite::Extent;
 use crate::suite::model::Suite;
 use std::str::FromStr;
 
-/// Most parts of a run.
+/// Maximum number of parts of a run.
 const MOST: usize = 10_000;
 
-/// Time (s) that any case takes besides its steps.
+/// Time (s) of a case in addition to its steps.
 const SET_UP: f64 = 1e-3;
 
 /// One of several parts of a run: `2/5`.
@@ -18,7 +18,7 @@ pub struct Shard {
     count: usize,
 }
 
-/// The text is not a number of a part and a count of parts.
+/// The text does not have the form `K/N`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("expected a number and a count, such as `2/5`, up to {MOST}")]
 pub struct ShardError;
@@ -38,10 +38,10 @@ impl FromStr for Shard {
 }
 
 impl Shard {
-    /// The cases of `suites` that are of this part; suites without one are left out. The most
-    /// expensive case goes to the part with the least to do, and so on (Graham 1969, SIAM J. Appl.
-    /// Math. 17, 416: no part takes more than 4/3 of what is possible), the same for every part
-    /// that asks.
+    /// The cases of `suites` in this part; suites without such a case are excluded. The most
+    /// expensive remaining case is assigned to the part with the least cost so far (Graham 1969,
+    /// SIAM J. Appl. Math. 17, 416: no part takes more than 4/3 of the optimum). The assignment is
+    /// the same in every part.
     pub fn of(self, suites: &[Suite], extent: Extent) -> Vec<Suite> {
         let costs: Vec<Vec<f64>> = suites.iter().map(|suite| seconds(suite, extent)).collect();
         let mut all: Vec<(usize, usize)> = Vec::new();

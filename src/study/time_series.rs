@@ -7,7 +7,7 @@ use crate::subject::{BodyFields, Samples, StateField, Subject};
 use crate::verify::{Quantity, is_instant};
 use crate::vtk;
 
-/// Most instants of a series, besides its start.
+/// Maximum number of instants of a series, in addition to its start.
 const INSTANTS: u64 = 20;
 
 /// A file of a time series.
@@ -24,7 +24,7 @@ pub struct SeriesFile {
 /// [`INSTANTS`] instants and at a failure; the list of the files, named `NAME.RUN.pvd`, comes last.
 ///
 /// # Errors
-/// Those of `write`.
+/// The errors of `write`.
 pub(super) fn time_series(
     name: &str,
     run: ShownRun<'_>,
@@ -48,7 +48,7 @@ pub(super) fn time_series(
     for step in 1..=steps {
         let dt = *lengths.next().unwrap_or(&f64::NAN);
         let failed = subject.step(dt).is_err();
-        // Of equal steps without accumulated rounding.
+        // Equal steps are multiplied to avoid accumulated rounding.
         t = if equal { dt * step as f64 } else { t + dt };
         if failed || is_instant(step, steps, INSTANTS) {
             number += 1;
@@ -62,8 +62,7 @@ pub(super) fn time_series(
     write(SeriesFile { path: format!("{name}.pvd"), bytes: list.into_bytes() })
 }
 
-/// The files of one instant, with `#` for its number: particles, then grid, of one body after the
-/// other.
+/// The files of one instant, with `#` for its number: for each body the particles, then the grid.
 fn files(subject: &dyn Subject, truth: Option<&dyn Truth>, t: f64) -> Vec<(String, Vec<u8>)> {
     let mut samples = Samples::default();
     subject.sample(&mut samples);
@@ -97,7 +96,7 @@ fn files(subject: &dyn Subject, truth: Option<&dyn Truth>, t: f64) -> Vec<(Strin
     files
 }
 
-/// Fields of the particles of all bodies that no solver keeps: u, and the errors.
+/// Fields of the particles of all bodies that no solver stores: u, and the errors.
 fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<StateField> {
     let components = samples.dimension;
     let u = StateField { name: "u".to_owned(), components, numbers: samples.displacement.clone() };
@@ -133,7 +132,7 @@ fn part(field: &StateField, particles: std::ops::Range<usize>) -> StateField {
     StateField { name: field.name.clone(), components: n, numbers }
 }
 
-/// The name of a run as part of that of a file: `dt = 0.001 s` is `dt-0.001-s`.
+/// The name of a run for file names: `dt = 0.001 s` becomes `dt-0.001-s`.
 fn file_name(run: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '.';
     run.split(|c| !plain(c)).filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")

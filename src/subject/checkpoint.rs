@@ -1,19 +1,17 @@
-//! The state of a subject in the middle of a run, as bytes: written down, and taken back bit by
-//! bit.
+//! The state of a subject during a run as bytes, recorded and restored bit for bit.
 //!
-//! One visit does both ([`Memory::visit`]), so that nothing can be written and not be read again.
-//! Numbers are eight bytes each, the lowest first, whatever the machine; nothing is named. So bytes
-//! mean something to the same program and the same set-up only, and whoever keeps them must see to
-//! that.
+//! One visit does both ([`Memory::visit`]), so that every number that is written is also read.
+//! Numbers have eight bytes in little-endian order on any machine, and no names. So the bytes are
+//! valid only for the same program and the same set-up, which the caller must ensure.
 
 use super::{Samples, Totals};
 
 /// State that a checkpoint can hold.
 pub trait Memory {
-    /// Shows each number to `checkpoint`, which writes it down or replaces it.
+    /// Passes each number to `checkpoint`, which records or replaces it.
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>);
 
-    /// The same for several, one after another.
+    /// Visits each of `entries` in order.
     fn visit_each(entries: &mut [Self], checkpoint: &mut Checkpoint<'_>)
     where
         Self: Sized,
@@ -24,26 +22,26 @@ pub trait Memory {
     }
 }
 
-/// A state that is being written down, or taken back.
+/// A state that is being recorded or restored.
 #[derive(Debug)]
 pub struct Checkpoint<'a>(Way<'a>);
 
 #[derive(Debug)]
 enum Way<'a> {
     Out(Vec<u8>),
-    /// Bytes that are still to be read.
+    /// Bytes that remain to be read.
     In(&'a [u8]),
-    /// Reading has failed: from here on nothing is replaced.
+    /// Reading has failed: nothing more is replaced.
     Misfit,
 }
 
 impl<'a> Checkpoint<'a> {
-    /// Nothing yet, to be written.
+    /// An empty checkpoint for recording.
     pub fn empty() -> Self {
         Self(Way::Out(Vec::new()))
     }
 
-    /// A checkpoint to be read from the bytes of [`Checkpoint::into_bytes`] by the same visits.
+    /// A checkpoint that is read from the bytes of [`Checkpoint::into_bytes`] by the same visits.
     pub fn from_bytes(bytes: &'a [u8]) -> Self {
         Self(Way::In(bytes))
     }
@@ -56,19 +54,17 @@ impl<'a> Checkpoint<'a> {
         }
     }
 
-    /// Whether all that was to be read has been, and has fitted. If not, what has been visited is
-    /// spoilt.
+    /// Whether all bytes were read and matched. Otherwise the visited state is invalid.
     pub fn is_used_up(&self) -> bool {
         matches!(self.0, Way::In([]))
     }
 
-    /// Writes `memory` down, or takes it back.
+    /// Records or restores `memory`.
     pub fn visit<T: Memory + ?Sized>(&mut self, memory: &mut T) {
         memory.visit(self);
     }
 
-    /// Notes something that setting up gives again: it must be the same when the rest is taken
-    /// back.
+    /// Records a number that the set-up determines: it must be equal when the state is restored.
     pub fn same(&mut self, number: usize) {
         let mut found = number as u64;
         self.visit(&mut found);
@@ -116,7 +112,7 @@ impl Memory for f64 {
         *self = Self::from_bits(checkpoint.word(self.to_bits()));
     }
 
-    /// All at once: analyses take a state back before each of their many steps.
+    /// All entries in one call: analyses restore a state before each of their many steps.
     fn visit_each(entries: &mut [Self], checkpoint: &mut Checkpoint<'_>) {
         match &mut checkpoint.0 {
             Way::Out(bytes) => bytes.extend(entries.iter().flat_map(|entry| entry.to_le_bytes())),
@@ -143,7 +139,7 @@ impl Memory for bool {
     }
 }
 
-/// As long as it is.
+/// The length is fixed.
 impl<T: Memory> Memory for [T] {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.same(self.len());
@@ -159,7 +155,8 @@ impl<T: Memory, const N: usize> Memory for [T; N] {
     }
 }
 
-/// As long as it was: for what grows during a run. No entry may take no bytes.
+/// The length is stored, for vectors that grow during a run. Every entry must take at least one
+/// byte.
 impl<T: Memory + Default> Memory for Vec<T> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let mut len = self.len() as u64;
@@ -275,7 +272,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 
-        /// NaN, -0 and all; whatever was there before.
+        /// All bits are restored, including NaN and -0, for any previous state.
         #[test]
         fn every_bit_comes_back(x in prop::num::f64::ANY, n in any::<u64>(), m in any::<u64>()) {
             let bytes = written(&mut some(x, n));

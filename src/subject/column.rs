@@ -10,9 +10,9 @@ pub enum Holder {
     Node,
 }
 
-/// Entry of a column: a number, a vector, a tensor, or what has no numbers to show.
+/// Entry of a column: a number, a vector, a tensor, or an entry without numbers.
 pub trait Entry {
-    /// Appends its numbers, those of a tensor row after row.
+    /// Appends its numbers; a tensor row after row.
     fn write(&self, _numbers: &mut Vec<f64>) {}
 }
 
@@ -29,7 +29,7 @@ impl<T, const N: usize> Entry for [T; N] {}
 /// Size of a column: memory for each particle or node, or for some of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ColumnSize {
-    /// Name of the field that it holds.
+    /// Name of the field in the column.
     pub name: &'static str,
     /// Owner of an entry.
     pub holder: Holder,
@@ -68,7 +68,7 @@ impl<'a> Column<'a> {
         }
     }
 
-    /// Its numbers; none of a column that has no numbers to show.
+    /// The numbers of the column; `None` for a column without numbers.
     pub fn field(&self) -> Option<StateField> {
         let mut numbers = Vec::new();
         (self.write)(&mut numbers);
@@ -106,7 +106,7 @@ pub struct BodyFields {
     pub of_nodes: Vec<StateField>,
 }
 
-/// Cost of one step of a subject: the passes that it computes and the memory that it keeps.
+/// Cost of one step of a subject: its passes and its memory.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Profile {
     /// The effects that are active, in their order.
@@ -125,7 +125,7 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// How many there are of what columns have entries for.
+    /// Number of holders of entries.
     pub fn holders(&self, holder: Holder) -> usize {
         match holder {
             Holder::Particle => self.particles,

@@ -1,16 +1,11 @@
-//! The contract between the judge and the judged.
+//! Interface between the judge and a solver.
 //!
-//! A [`Subject`] can be put on every level of a refinement plan and held against the truth: the
-//! crate's own MPM and FEM, or a solver of yours. The trait is object-safe and flat (`f64` slices,
-//! no type of this crate's algebra), so that a solver in another language can stand behind it.
+//! A [`Subject`] is a solver at one level of a refinement plan, whose errors are measured: the MPM
+//! and FEM of this crate, or another solver. The trait is object-safe and flat (`f64` slices, no
+//! linear-algebra types of this crate), so that it can wrap a solver in another language.
 //!
-//! Sums over a body.
-//!
-//! Force of walls on a body.
-//!
-//! A solver's account of itself: its name, and the order that it claims.
-//!
-//! Third axis of a two-dimensional body.
+//! The module also defines sums over a body, reactions of walls, the identity of a solver (name and
+//! claimed order), and the state across the plane of a two-dimensional body.
 
 mod checkpoint;
 mod column;
@@ -28,72 +23,70 @@ pub trait Subject {
     /// Advances the state by one step of length `dt` (s).
     ///
     /// # Errors
-    /// [`Failure`] says what broke and where. After a failure the subject is not stepped again.
+    /// [`Failure`] names the failure and its place. After a failure the subject must not be stepped
+    /// again.
     fn step(&mut self, dt: f64) -> Result<(), Failure>;
 
-    /// Writes the present state, seen at the subject's own reference labels, into `samples`.
-    /// The labels and their order do not change during a run.
+    /// Writes the present state at the reference labels of the subject into `samples`. The labels
+    /// and their order do not change during a run.
     fn sample(&self, samples: &mut Samples);
 
     /// Counters of the run so far.
     fn counters(&self) -> RunCounters;
 
-    /// Passes of a step in their order, as reports list them (`P2G(mass, momentum)`); empty from a
-    /// subject that does not say.
+    /// Passes of a step in their order, as in reports (`P2G(mass, momentum)`); empty by default.
     fn passes(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// Fields of each body, for files that viewers read; none from a subject that keeps no more
-    /// than its samples show.
+    /// Fields of each body, for files for viewers; empty if the subject has no fields except its
+    /// samples.
     fn fields(&self) -> Vec<BodyFields> {
         Vec::new()
     }
 
-    /// The sums over the body that a free motion keeps; `None` from a subject that does not say.
+    /// The conserved sums over the body; `None` by default.
     fn totals(&self) -> Option<Totals> {
         None
     }
 
-    /// Reaction of all walls on which the body stands still, or of that on one face (axis of the
-    /// normal, and whether it is the high end); `None` from a subject that does not say, and before
-    /// the first step.
+    /// Reaction of all fixed walls, or of that on one face (axis of the normal, and whether it is
+    /// the high end); `None` by default, and before the first step.
     fn reaction(&self, _face: Option<(usize, bool)>) -> Option<Reaction> {
         None
     }
 
-    /// Shows to `checkpoint` all that the steps to come depend on and that setting up does not give
-    /// again: with it, a subject that was set up alike goes on from here and gives the same bits.
-    /// False from one that cannot.
+    /// Passes to `checkpoint` the complete state that later steps depend on and that the set-up
+    /// does not restore. A subject with an equal set-up can then be resumed, and gives the same
+    /// bits. Returns false if the subject does not support this.
     fn checkpoint(&mut self, _checkpoint: &mut Checkpoint<'_>) -> bool {
         false
     }
 
-    /// Kinetic energy (J) of the part of the velocities that the discretisation cannot see: of
-    /// particles, the part in the null space of their map to the grid. It may take as much as some
-    /// tens of steps, and is asked for only where a figure wants it; `None` from a subject that
-    /// does not say.
+    /// Kinetic energy (J) of the part of the velocities that the discretisation does not resolve:
+    /// for particles, the part in the null space of the map to the grid. It may cost as much as
+    /// some tens of steps, and is computed only if a figure needs it; `None` by default.
     fn null_space_energy(&self) -> Option<f64> {
         None
     }
 }
 
-/// A subject whose step can be looked at as a map from state to state, on a configuration that does
-/// not move: what a theory of small perturbations speaks of.
+/// A subject whose step is a map from state to state on a fixed configuration, as a linear
+/// stability analysis needs.
 pub trait Perturbable: Subject {
-    /// Keeps the configuration (positions and domains) as it is in all steps from now on; all else
-    /// goes on as before.
+    /// Fixes the configuration (positions and domains) in all later steps; all other quantities
+    /// advance as before.
     fn fix_configuration(&mut self);
 
-    /// Writes all that a step reads and changes, but for the configuration, into `state`: always as
-    /// many numbers in the same order.
+    /// Writes all numbers that a step reads and changes, without the configuration, to `state`.
+    /// Their number and order do not change.
     fn state(&self, state: &mut Vec<f64>);
 
-    /// Takes over what [`Perturbable::state`] has written, possibly changed.
+    /// Sets the state from numbers in the order of [`Perturbable::state`].
     fn set_state(&mut self, state: &[f64]);
 
-    /// A natural size for each number of the state, where speeds are of the size `speed` (m/s) and
-    /// stresses of the size `modulus` (Pa).
+    /// Writes a natural scale of each number of the state to `sizes`, for velocities of scale
+    /// `speed` (m/s) and stresses of scale `modulus` (Pa).
     fn sizes(&self, speed: f64, modulus: f64, sizes: &mut Vec<f64>);
 }
 
@@ -101,19 +94,18 @@ named! {
     /// Meaning of the initial velocity `v0` in the first step.
     ///
     /// A step of Euler-Cromer, `v += dt a(u)`, `u += dt v`, is a leapfrog whose velocities are half
-    /// a step behind. So the start alone decides the order in time.
+    /// a step behind. So the start determines the order in time.
     pub enum Start {
-        /// `v0` stands in for `v(-dt/2)`, as in the talk. That is a push of `dt/2 a0` too much:
-        /// first order in time, unless the initial acceleration `a0` is zero.
+        /// `v(-dt/2) = v0`, as in the talk. This is a velocity error of `dt/2 a0`: first order in
+        /// time, unless the initial acceleration `a0` is zero.
         AtZero = "at_zero",
         /// `v(-dt/2) = v0 - dt/2 a0`, the "CD" start of Wallstedt & Guilkey (2008): second order.
         HalfStepBack = "half_step_back",
     }
 }
 
-/// A state seen at reference labels: `n` labels in `dimension` dimensions, point after point. A
-/// subject that has no stress, no F or no temperature leaves that column empty, and cannot be
-/// judged by it.
+/// A state at reference labels: `n` labels in `dimension` dimensions, point after point. A subject
+/// without stress, F or temperature leaves that column empty, and cannot be judged by it.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Samples {
@@ -125,7 +117,7 @@ pub struct Samples {
     pub displacement: Vec<f64>,
     /// Velocities, `n * D` numbers (m/s).
     pub velocity: Vec<f64>,
-    /// Reference volume that each label stands for, `n` numbers (m^D): the weight in L1 and L2.
+    /// Reference volume of each label, `n` numbers (m^D): the weight in L1 and L2.
     pub weight: Vec<f64>,
     /// Cauchy stresses, `n * D * D` numbers, row after row (Pa); may be empty.
     pub stress: Vec<f64>,
@@ -141,19 +133,19 @@ impl Samples {
         self.weight.len()
     }
 
-    /// Whether there is no label.
+    /// Whether there are no labels.
     pub fn is_empty(&self) -> bool {
         self.weight.is_empty()
     }
 
-    /// Begins anew, in so many dimensions.
+    /// Removes all points and sets the number of dimensions.
     pub fn restart(&mut self, dimension: usize) {
         self.clear();
         self.dimension = dimension;
     }
 
     /// Adds a point: reference position (m), displacement (m) and velocity (m/s), D numbers each,
-    /// and the reference volume (m^D) that it stands for.
+    /// and its reference volume (m^D).
     pub fn push(&mut self, label: &[f64], displacement: &[f64], velocity: &[f64], weight: f64) {
         self.dimension = label.len();
         self.label.extend_from_slice(label);
@@ -162,7 +154,7 @@ impl Samples {
         self.weight.push(weight);
     }
 
-    /// Empties the columns and keeps their memory.
+    /// Empties the columns without freeing their memory.
     pub fn clear(&mut self) {
         self.label.clear();
         self.displacement.clear();
@@ -174,8 +166,8 @@ impl Samples {
     }
 }
 
-/// Deterministic figures of a run: what it cost, and what a reader must know beside an error.
-/// `None` where the subject has no such thing.
+/// Deterministic figures of a run: its cost, and figures that explain its error. `None` if the
+/// subject does not have a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunCounters {
@@ -184,23 +176,23 @@ pub struct RunCounters {
     /// Particle-node pairs visited by P2G and G2P so far; for FEM, pairs of quadrature point and
     /// node.
     pub transfers: u64,
-    /// How often a particle has changed its cell so far (MPM).
+    /// Number of cell changes of particles so far (MPM).
     pub crossings: Option<u64>,
     /// Particles outside the grid now (MPM).
     pub left_domain: Option<u64>,
-    /// Smallest J = det F met so far; NaN where it is not known.
+    /// Smallest J = det F so far; NaN if it is unknown.
     pub min_j: f64,
 }
 
 impl RunCounters {
-    /// Counters of a subject that knows no more than its `transfers`.
+    /// Counters of a subject that only counts `transfers`.
     pub fn new(transfers: u64) -> Self {
         let (particles, crossings, left_domain) = (None, None, None);
         Self { particles, transfers, crossings, left_domain, min_j: f64::NAN }
     }
 }
 
-/// Where a failure happened.
+/// Place of a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Site {
@@ -215,7 +207,7 @@ pub enum Site {
     Node(usize),
 }
 
-/// Why a subject could not go on.
+/// Reason why a subject failed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Failure {
@@ -224,18 +216,18 @@ pub enum Failure {
     NonFinite {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Where.
+        /// Place of the failure.
         site: Site,
     },
     /// The deformation gradient lost its orientation.
     #[error("{site} is inverted, J = {j:.3e}")]
     Inverted {
-        /// Where.
+        /// Place of the failure.
         site: Site,
         /// The determinant that was met.
         j: f64,
     },
-    /// A body starts deformed, and its law cannot tell the stress of that.
+    /// A body starts deformed, and its law does not define the stress there.
     #[error("the law has no stress for a body that starts deformed")]
     NotOfDeformation,
     /// A particle has no cell any more.
@@ -254,8 +246,8 @@ pub enum Failure {
     External(String),
 }
 
-/// Sums over the body, p, of what a motion without outer forces keeps; components beyond the
-/// dimension are zero.
+/// Sums over the particles p that are conserved in a motion without external forces; components
+/// beyond the dimension are zero.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Totals {
     /// `sum m_p` (kg).
@@ -264,14 +256,14 @@ pub struct Totals {
     pub momentum: [f64; 3],
     /// `sum m_p |v_p|`, against which a change of the momentum is small or not (kg m/s).
     pub momentum_size: f64,
-    /// `sum m_p x_p x v_p` about the origin, and what particles carry within themselves (kg m2/s).
+    /// `sum m_p x_p x v_p` about the origin, plus the angular momentum within particles (kg m2/s).
     /// In 2-D the third component only; zero in 1-D.
     pub angular_momentum: [f64; 3],
-    /// The sum of the magnitudes of those terms (kg m2/s).
+    /// The sum of the magnitudes of the terms of the angular momentum (kg m2/s).
     pub angular_momentum_size: f64,
     /// `sum m_p v_p^2 / 2` (J).
     pub kinetic_energy: f64,
-    /// Energy that the material stores (J); `None` if its law has none.
+    /// Stored energy of the material (J); `None` if its law has no energy.
     pub strain_energy: Option<f64>,
 }
 
@@ -310,8 +302,8 @@ impl Totals {
     }
 }
 
-/// Force of walls on the body, at the beginning of the last step: those of its end are not known
-/// before another step computes them.
+/// Force of walls on the body at the beginning of the last step: the forces at its end are computed
+/// by the next step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reaction {
     /// Time of the force (s).
@@ -320,13 +312,13 @@ pub struct Reaction {
     pub force: [f64; 3],
 }
 
-/// Longest name of a solver, in bytes.
+/// Maximum length of the name of a solver (bytes).
 pub(crate) const LONGEST_NAME: usize = 64;
 
-/// Largest order that a solver may claim.
+/// Maximum order that a solver may claim.
 pub(crate) const HIGHEST_ORDER: f64 = 20.0;
 
-/// Whether `name` may be that of a solver: it becomes part of the names of cases and files.
+/// Whether `name` is a valid name of a solver: it becomes part of the names of cases and files.
 pub(crate) fn is_solver_name(name: &str) -> bool {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
     !name.is_empty() && name.len() <= LONGEST_NAME && name.chars().all(plain)

@@ -17,7 +17,7 @@ pub fn paths() -> impl Iterator<Item = (&'static str, &'static Path)> {
     FILES.iter().map(|(name, path, _)| (*name, Path::new(*path)))
 }
 
-/// The embedded suite called `name`, if there is one.
+/// The embedded suite named `name`, if there is one.
 pub fn source(name: &str) -> Option<Result<Source, Diagnostic>> {
     let (_, path, text) = FILES.iter().find(|(found, ..)| *found == name)?;
     Some(Source::from_text(*path, *text))

@@ -1,4 +1,4 @@
-//! Suites: the text of a YAML file, read, checked, and turned into plans of studies.
+//! Suites: reads and checks the text of a YAML file, and converts it to plans of studies.
 //!
 //! ```text
 //! yaml      text -> located values, every diagnostic with file:line:column
@@ -9,7 +9,7 @@
 //! compile   grammar -> model: numbers computed, names resolved, the truth checked
 //! ```
 //!
-//! Each of these imports only those above it.
+//! Each of these modules imports only those above it.
 
 pub(crate) mod compile;
 pub mod embedded;

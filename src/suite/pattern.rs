@@ -1,6 +1,6 @@
 //! Patterns of names, of cases and of suites.
 
-/// Whether `glob`, in which `*` stands for any text, fits `name`.
+/// Whether the pattern `glob`, in which `*` matches any text, matches `name`.
 pub fn fits(glob: &str, name: &str) -> bool {
     let mut parts = glob.split('*');
     let Some(rest) = parts.next().and_then(|first| name.strip_prefix(first)) else { return false };

@@ -1,4 +1,4 @@
-//! Tests of a solver in Rust, in the crate that it is of (docs/library.md).
+//! Tests of a solver in its own crate, in Rust (docs/library.md).
 //!
 //! ```text
 //! conformance   whether it keeps the contract of `Subject`

@@ -27,13 +27,13 @@ pub struct CaseJudgement {
     pub reason: String,
     /// Expectations that are not met.
     pub unmet: Vec<String>,
-    /// Why the gate requires nothing of the case, if it does not.
+    /// Why the gate requires nothing of the case; `None` if it does.
     pub exemption: Option<String>,
     /// Levels, orders and figures.
     pub study: Convergence,
 }
 
-/// Judges a case. `reruns` runs levels again where the verdict depends on it.
+/// Judges a case. `reruns` runs levels again if the verdict depends on it.
 pub fn judge_case<R: Reruns>(
     plan: &JudgePlan<'_>,
     mut levels: Vec<LevelOutcome>,
@@ -93,8 +93,8 @@ pub fn judge_case<R: Reruns>(
 }
 
 impl JudgePlan<'_> {
-    /// The verdict and its reason where nothing is expected: the finding of the judge against the
-    /// order of theory, and drifts.
+    /// The verdict and its reason if nothing is expected: the judgement against the theoretical
+    /// order, and drifts.
     fn explore(&self, judgement: &Judgement, measured: &Measured) -> (String, String) {
         let drift = self.sums.iter().map(|sum| (*sum, f64::INFINITY)).collect();
         let drifts = Limits { drift, ..Limits::default() }.found(measured);
@@ -150,8 +150,8 @@ fn measure(levels: &[LevelOutcome]) -> Measured {
     }
 }
 
-/// The verdict and its reason. Where limits alone bind a case, the limited figures come first, and
-/// the finding of the judge follows if the levels are enough for a judgement.
+/// The verdict and its reason. If a case has limits only, the limited figures come first; the
+/// judgement follows if there are enough levels.
 fn headline(
     expectation: &Expectation,
     judgement: &Judgement,
@@ -167,7 +167,7 @@ fn headline(
         return (verdict.to_string(), format!("{reason}; {figures}"));
     }
     let within = if unmet.is_empty() { "within bounds" } else { "out of bounds" };
-    // The judge's reason compares with an expected order, and none is expected here.
+    // The judge's reason compares with an expected order, but this case has none.
     let judged = match (verdict, judgement.order) {
         (Verdict::TooFewLevels, _) => String::new(),
         (Verdict::AtFloor | Verdict::Divergent, _) | (_, None) => format!("; {verdict}: {reason}"),

@@ -1,8 +1,9 @@
 //! Conserved sums of a motion without external forces, over a run.
 //!
-//! A drift is the largest change since t = 0, over the instants, relative to the largest size met:
-//! the total itself for mass and energies, the sum of the magnitudes of its terms for the
-//! momenta (which may themselves be zero). A law without an energy leaves that sum NaN.
+//! A drift is the largest change since t = 0, over the instants, relative to a scale. The scale is
+//! the largest value during the run: of the total itself for mass and energies, of the sum of the
+//! magnitudes of its terms for the momenta (which may be zero). The energy is NaN for a law without
+//! an energy.
 
 use super::error::norm::larger;
 use crate::named::named;
@@ -16,14 +17,14 @@ named! {
         Mass = "mass",
         /// Linear momentum.
         Momentum = "momentum",
-        /// Angular momentum about the origin; there is none in 1-D.
+        /// Angular momentum about the origin; undefined in 1-D.
         AngularMomentum = "angular_momentum",
-        /// Kinetic energy, which only a motion without stress keeps.
+        /// Kinetic energy, which is conserved only in a motion without stress.
         KineticEnergy = "kinetic_energy",
-        /// The kinetic energy; only a gain over the start counts: what a body that stores
-        /// energy in stress and gives it back must not have.
+        /// Gain of kinetic energy over the start. It must be zero for a body that stores energy in
+        /// stress and releases it.
         KineticEnergyGain = "kinetic_energy_gain",
-        /// Kinetic energy and what the material stores, if its law has an energy.
+        /// Kinetic energy plus stored energy, if the law has an energy.
         Energy = "energy",
     }
 }
@@ -34,7 +35,7 @@ impl Conserved {
         self.name().replace('_', " ")
     }
 
-    /// The sum, and the size that a change of it is relative to.
+    /// The sum, and the scale of its changes.
     fn of(self, totals: &Totals) -> ([f64; 3], f64) {
         match self {
             Self::Mass => ([totals.mass, 0.0, 0.0], totals.mass.abs()),
@@ -56,7 +57,7 @@ impl Conserved {
 pub struct ConservationError([f64; Conserved::ALL.len()]);
 
 impl ConservationError {
-    /// Of a run that failed.
+    /// Drifts of a failed run.
     pub const NONE: Self = Self([f64::NAN; Conserved::ALL.len()]);
 
     /// The drift of one sum.
@@ -87,7 +88,8 @@ impl Balance {
         balance
     }
 
-    /// Takes the totals of an instant; a subject that no longer says them has kept nothing.
+    /// Takes the totals of an instant. All drifts become NaN if the subject no longer reports
+    /// totals.
     pub(super) fn look(&mut self, now: Option<&Totals>) {
         for (i, sum) in Conserved::ALL.iter().enumerate() {
             let (before, _) = sum.of(&self.start);
@@ -101,7 +103,7 @@ impl Balance {
         }
     }
 
-    /// No change of nothing is no drift.
+    /// Zero change relative to zero counts as no drift.
     pub(super) fn drift(&self) -> ConservationError {
         let relative = |change: f64, size: f64| if change == 0.0 { 0.0 } else { change / size };
         ConservationError(std::array::from_fn(|i| relative(self.change[i], self.size[i])))

@@ -21,31 +21,31 @@ use super::verdict::name::Verdict;
 pub struct Convergence {
     /// Axis of refinement.
     pub axis: Axis,
-    /// Order that theory gives the method on a smooth solution; for particles per cell, where it
-    /// gives none in general, that of the midpoint rule.
+    /// Theoretical order of the method on a smooth solution. For particles per cell there is none
+    /// in general, and the order of the midpoint rule is used.
     pub formal_order: f64,
-    /// Norm of the error that was judged.
+    /// Norm of the judged error.
     pub norm: NormName,
     /// The judged quantity.
     pub of: Quantity,
     /// Divisor of the error, if any.
     pub scale: Option<f64>,
-    /// Scale that makes its errors and its work comparable with those of other cases.
+    /// Scale that makes errors and work comparable with those of other cases.
     pub error_scale: ErrorScale,
-    /// Whether there is a truth that errors are taken against.
+    /// Whether errors are measured against an exact solution or a reference.
     pub compared: bool,
-    /// Whether bounds on figures are all that binds the case: then no order is asked for, and
-    /// every usable level counts.
+    /// Whether the case has bounds on figures only: then it has no expected order, and every usable
+    /// level counts.
     pub bounded: bool,
     /// Reason for which an external solver meets the requirement of the gate, if it does.
     pub accepted: Option<Acceptance>,
-    /// The totals whose drift was asked for.
+    /// Conserved sums whose drift is reported.
     pub drifts: Vec<Conserved>,
-    /// Whether the rate of the energy was asked for.
+    /// Whether the rate of the energy is reported.
     pub rated: bool,
-    /// The judge's finding.
+    /// The judgement.
     pub judgement: Judgement,
-    /// Whose error the finest level shows, where that was asked.
+    /// Cause of the error floor, if it was determined.
     pub floor: Option<Floor>,
     /// The levels, coarse to fine.
     pub levels: Vec<LevelOutcome>,
@@ -64,7 +64,7 @@ pub struct LevelOutcome {
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
-    /// The spacing that is judged: of cells (m), time (s) or particles (m).
+    /// The spacing on the refined axis: of cells (m), time (s) or particles (m).
     pub spacing: f64,
     /// Time step (s).
     pub dt: f64,
@@ -72,11 +72,11 @@ pub struct LevelOutcome {
     pub ppc: Option<u64>,
     /// Results of the run.
     pub run: RunResult,
-    /// The error that was judged.
+    /// The judged error.
     pub error: f64,
     /// Whether the judge may count the level.
     pub usable: bool,
-    /// Bound of the rounding error of positions (m) in the judged norm, of a solver in single
+    /// Bound of the rounding error of positions (m) in the judged norm, for a solver in single
     /// precision whose displacement is judged.
     pub rounding_bound: Option<f64>,
     /// Whether the displacement error (m) lies below `rounding_bound`.
@@ -86,8 +86,8 @@ pub struct LevelOutcome {
     pub spread: Option<f64>,
     /// Order between the next coarser level and this one.
     pub order: Option<f64>,
-    /// The longest time step (s) that was predicted stable, where a rule asked for it, or where the
-    /// step is longer.
+    /// The largest time step (s) that was predicted stable, if the step is automatic or exceeds
+    /// this value.
     pub stable_time_step: Option<f64>,
 }
 
@@ -100,12 +100,12 @@ impl StudyResults for Convergence {
 }
 
 impl LevelOutcome {
-    /// Whether its step is longer than the stable time step, where that is known.
+    /// Whether its step is longer than the stable time step, if the latter is known.
     pub fn is_too_long(&self) -> bool {
         self.stable_time_step.is_some_and(|stable| self.dt > stable)
     }
 
-    /// The level as the judge takes it, with its failure, whether or not it may count.
+    /// The level as input of the judge, with its failure, whether it counts or not.
     pub(crate) fn to_level(&self) -> Level {
         let judged = Level::new(self.spacing, self.error);
         match &self.run.failure {
@@ -114,7 +114,7 @@ impl LevelOutcome {
         }
     }
 
-    /// Name of the level among those of its study: `64 cells`, `dt = 1e-3 s`.
+    /// Name of the level in its study: `64 cells`, `dt = 1e-3 s`.
     pub fn name(&self, axis: Axis) -> String {
         match (axis, self.ppc) {
             (Axis::Time, _) => format!("dt = {} s", format_number(self.dt)),
@@ -125,8 +125,9 @@ impl LevelOutcome {
 }
 
 impl Convergence {
-    /// True relative error at the observed place of the finest level of a Richardson triple, and
-    /// whether its grid convergence index covers that; absent where there is no index or no truth.
+    /// True relative error at the observed point of the finest level of a Richardson triple, and
+    /// whether its grid convergence index covers this error; `None` without an index or an exact
+    /// solution.
     pub fn covered(&self, (levels, found): &([usize; 3], Richardson)) -> Option<(f64, bool)> {
         let run = &self.levels.get(levels[2])?.run;
         let [u] = run.displacement.as_deref()? else { return None };
@@ -150,7 +151,7 @@ impl Convergence {
         })
     }
 
-    /// The judged error in words, with its unit.
+    /// The judged error as text, with its unit.
     pub fn judged(&self) -> String {
         let (norm, name, unit) =
             (self.norm.name().replace('_', " "), self.of.words(), self.of.unit());

@@ -1,31 +1,31 @@
-//! How fast the energy of a long run grows or decays, with a confidence interval.
+//! Growth or decay rate of the energy over a long run, with a confidence interval.
 //!
-//! The energy of a body that swings goes up and down with the period of the swing, so neighbouring
-//! instants are no independent observations, and the interval of a line through all of them would
-//! be a lie. The run is cut into ten parts of equal length instead, ln E is averaged over each (the
-//! method of batch means; Law, *Simulation Modeling and Analysis*, 5th ed., section 9.5.3), and a
-//! line put through the ten means. Its slope is the rate, d ln E/dt (1/s), and the interval is that
-//! of Student's t. What is claimed: if the parts are long beside a period, and what the line leaves
-//! of the means is independent noise, the interval holds the rate with a probability of 95 %. A
-//! drift that is no straight line counts as noise, and widens it.
+//! The energy of an oscillating body oscillates too. So neighbouring instants are not independent
+//! observations, and the interval of a line through all of them would be too narrow. Instead the
+//! run is divided into ten parts of equal length, ln E is averaged over each (the method of batch
+//! means; Law, *Simulation Modeling and Analysis*, 5th ed., section 9.5.3), and a line is fitted to
+//! the ten means. Its slope is the rate, d ln E/dt (1/s), with the interval of Student's t. If the
+//! parts are much longer than a period, and the deviations of the means from the line are
+//! independent noise, the interval contains the rate with a probability of 95 %. A drift that is
+//! not linear counts as noise and widens the interval.
 
 use super::order::fit::{FittedLine, Interval, LogPoint};
 use crate::subject::Totals;
 
-/// Parts of a run.
+/// Number of parts of a run.
 const PARTS: usize = 10;
 
-/// Least instants in a part.
+/// Minimum number of instants per part.
 const LEAST: usize = 5;
 
-/// The rate of the energy (1/s) of a run, seen at equally spaced instants; `None` if there are
-/// fewer than fifty, or if the energy is not known or not positive throughout.
+/// The rate of the energy (1/s) of a run, from equally spaced instants; `None` if there are fewer
+/// than fifty, or if the energy is unknown or not positive at an instant.
 pub(crate) fn energy_rate(account: &[(f64, Totals)]) -> Option<Interval> {
     let each = account.len() / PARTS;
     if each < LEAST {
         return None;
     }
-    // What does not fill a part is left out at the beginning.
+    // The first instants that do not fill a part are dropped.
     let seen = &account[account.len() - PARTS * each..];
     let means = seen.chunks_exact(each).enumerate().map(|(level, part)| {
         let logarithm = |(t, totals): &(f64, Totals)| {
@@ -47,7 +47,7 @@ mod tests {
     use approx::{assert_abs_diff_eq, assert_relative_eq};
     use rstest::rstest;
 
-    /// `n` instants of an energy, all kinetic at some times and all stored at others.
+    /// `n` instants of an energy, which is kinetic at some times and stored at others.
     fn account(n: usize, energy: impl Fn(f64) -> f64) -> Vec<(f64, Totals)> {
         let at = |i: usize| {
             let (t, share) = (i as f64, (i % 3) as f64 / 2.0);
@@ -67,8 +67,8 @@ mod tests {
         assert_abs_diff_eq!(found.half_width(), 0.0, epsilon = 1e-12);
     }
 
-    /// A swing of a tenth, twenty instants long, moves the rate by next to nothing where parts hold
-    /// whole swings, and widens the interval where they do not.
+    /// An oscillation of 10 % with a period of twenty instants hardly changes the rate if parts
+    /// contain whole periods, and widens the interval otherwise.
     #[test]
     fn a_swing_is_no_drift() {
         let swing = |t: f64| 1.0 + 0.1 * libm::sin(t * std::f64::consts::PI / 10.0);
@@ -76,7 +76,7 @@ mod tests {
         assert_relative_eq!(whole.value, -1e-4, max_relative = 1e-9);
         let torn = energy_rate(&account(1130, |t| swing(t) * libm::exp(-1e-4 * t))).unwrap();
         assert!(torn.low < -1e-4 && -1e-4 < torn.high && torn.half_width() > 1e-7, "{torn:?}");
-        // What a part has beside whole swings is little of its mean.
+        // The incomplete period of a part has little effect on its mean.
         assert!(torn.half_width() < 1e-2 / 1000.0, "{torn:?}");
     }
 

@@ -1,11 +1,11 @@
-//! Levels that the judge does not count because their error is not that of the discretisation.
+//! Levels that the judge does not count because their error is not a discretisation error.
 //!
 //! - *Rounding*: the displacement error of a solver in single precision lies below the bound of the
 //!   accumulated rounding error of positions ([`rounding_bound`]).
 //! - *Spread*: the difference between repeated runs exceeds [`MOST_SPREAD`] of the error.
 //!
 //! Both apply to observed orders only. Bounds on errors are compared with the errors of these
-//! levels too: a small error is within a bound whatever its cause is.
+//! levels too: a small error meets a bound, for any cause.
 
 use super::convergence::LevelOutcome;
 use super::error::norm::NormName;
@@ -19,7 +19,7 @@ use crate::named::named;
 const MOST_SPREAD: f64 = 0.1;
 
 named! {
-    /// Why a level does not count for the observed order.
+    /// Reason why a level does not count for the observed order.
     pub enum Exclusion {
         /// Particles change their cell, which the theory does not cover.
         Crossings = "crossings",
@@ -44,9 +44,9 @@ pub fn single_precision_spacing(largest: f64) -> Option<f64> {
 /// rounded to a lattice of `spacing` (m) in each step.
 ///
 /// One rounding error is uniform in `[-spacing/2, spacing/2]`, with the root mean square
-/// `spacing/sqrt 12`. Increments change little from step to step and round alike, so that errors
-/// are equal at worst: their sum is `N spacing/sqrt 12` in the RMS norm, and `N spacing/2`, which
-/// is `sqrt 3` times as large, in the maximum norm.
+/// `spacing/sqrt 12`. Increments change little from step to step and are rounded alike, so that in
+/// the worst case all errors are equal: their sum is `N spacing/sqrt 12` in the RMS norm, and
+/// `N spacing/2`, larger by `sqrt 3`, in the maximum norm.
 pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
     let most = steps as f64 * spacing;
     match norm {
@@ -56,7 +56,7 @@ pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
 }
 
 impl LevelOutcome {
-    /// Why the level does not count for the observed order, if it does not.
+    /// Why the level does not count for the observed order; `None` if it does.
     pub fn exclusion(&self) -> Option<Exclusion> {
         let is_steady = |spread: f64| spread <= MOST_SPREAD * self.error;
         if !self.usable {
@@ -79,7 +79,7 @@ fn excluded(levels: &[LevelOutcome], by: Exclusion) -> Vec<&LevelOutcome> {
     levels.iter().filter(|level| level.exclusion() == Some(by)).collect()
 }
 
-/// Whether the rounding bound leaves too few levels for an order.
+/// Whether too few levels for an order remain above the rounding bound.
 pub(super) fn leaves_too_few(levels: &[LevelOutcome], judgement: &Judgement) -> bool {
     judgement.verdict == Verdict::TooFewLevels && !excluded(levels, Exclusion::Rounding).is_empty()
 }

@@ -1,9 +1,9 @@
 //! Registry of the figures that suites bound: [`CaseFigure`] for convergence studies, [`RunFigure`]
 //! for stability studies.
 //!
-//! An entry states the key in suites and JSON, the documentation of that key, the text in reports
-//! (with the unit, if there is one) and the value. The grammar of suites and its JSON Schema, the
-//! checks of a suite, the comparison with the bound and the reports follow from the entry. Adding a
+//! An entry states the key in suites and JSON, the documentation of the key, the text in reports
+//! (with the unit, if any) and the value. The grammar of suites and its JSON Schema, the checks of
+//! a suite, the comparison with the bound and the reports are derived from the entry. Adding a
 //! figure: `docs/exercises/figure.md`.
 
 use super::convergence::LevelOutcome;
@@ -16,9 +16,9 @@ use crate::named::named;
 /// `RestBelow = rest_below, "residual speed over the wave speed", Maximum, StateOfRest,`
 /// `residual_speed;`
 ///
-/// gives the member of [`CaseFigure`]; its key in suites; its text in reports; the
-/// [`BoundKind`]; the [`FigureNeed`]; and the function that takes the levels of a case and returns
-/// the value. The documentation of the entry is that of the key in the JSON Schema.
+/// gives the member of [`CaseFigure`]; its key in suites; its text in reports; the [`BoundKind`];
+/// the [`FigureNeed`]; and the function that takes the levels of a case and returns the value. The
+/// documentation of the entry becomes that of the key in the JSON Schema.
 ///
 /// The grammar declares a field for each entry by this macro. `#[serde(flatten)]` over a map of
 /// keys would need no macro, but it excludes `deny_unknown_fields`, and a misspelt key would lose
@@ -44,9 +44,9 @@ pub(crate) use each_case_figure;
 /// Side on which a bound limits a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundKind {
-    /// The figure must not exceed the bound.
+    /// The figure must be at most the bound.
     Maximum,
-    /// The figure must not fall below the bound.
+    /// The figure must be at least the bound.
     Minimum,
 }
 
@@ -129,8 +129,8 @@ fn observed_error(levels: &[LevelOutcome]) -> Option<f64> {
     levels.last().and_then(|level| level.run.observed_error)
 }
 
-/// Largest speed towards the end of the levels that count, over the wave speed; `None` if one
-/// level has none, as the exact solution is no state of rest.
+/// Largest speed towards the end of the levels that count, over the wave speed; `None` if one level
+/// has none, because the exact solution is not a state of rest.
 fn residual_speed(levels: &[LevelOutcome]) -> Option<f64> {
     let speeds: Option<Vec<f64>> = counted(levels).map(|level| level.run.residual_speed).collect();
     speeds.and_then(|speeds| speeds.into_iter().reduce(larger))
@@ -192,16 +192,16 @@ run_figures! {
     /// The largest kinetic energy met in the null space over the largest kinetic energy of the
     /// run.
     LargestNullShare = "largest_null_share", "largest null share", |trial| trial.largest_null_share;
-    /// At the end, the part of the stress that changes from particle to particle and no
-    /// further, over its mean size.
+    /// The part of the stress at the end that alternates between neighbouring particles, over its
+    /// mean size.
     Checkerboard = "checkerboard", "checkerboard", |trial| trial.checkerboard;
-    /// At the end, the largest less the smallest mean normal stress over the largest.
+    /// The largest minus the smallest mean normal stress at the end, over the largest.
     StressSpread = "stress_spread", "stress spread", |trial| trial.stress_spread;
     /// At the end, the largest stress over the modulus.
     Stress = "stress", "stress/M", |trial| trial.stress;
     /// At the end, the largest displacement (m).
     Displacement = "displacement", "displacement", |trial| trial.displacement;
-    /// Steps taken.
+    /// Number of steps.
     Steps = "steps", "steps", |trial| trial.steps as f64;
 }
 

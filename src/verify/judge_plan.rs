@@ -13,14 +13,14 @@ use super::order::hypothesis::OrderHypothesis;
 use super::order::level::{Axis, Level};
 use super::verdict::judge::{Judgement, judge};
 
-/// Everything that the judgement of a case depends on, besides its levels.
+/// All inputs of the judgement of a case, except its levels.
 #[derive(Debug, Clone)]
 pub struct JudgePlan<'a> {
     /// Axis of refinement.
     pub axis: Axis,
-    /// Order that theory gives the method.
+    /// Theoretical order of the method.
     pub formal_order: f64,
-    /// Norm of the error that is judged.
+    /// Norm of the judged error.
     pub norm: NormName,
     /// The judged quantity.
     pub of: Quantity,
@@ -28,16 +28,16 @@ pub struct JudgePlan<'a> {
     pub scale: Option<f64>,
     /// Scale that makes errors and work comparable with those of other cases.
     pub error_scale: ErrorScale,
-    /// Whether errors are taken against an exact solution or a reference.
+    /// Whether errors are measured against an exact solution or a reference.
     pub is_compared: bool,
-    /// Whether levels on which particles change their cell are left out.
+    /// Whether levels on which particles change their cell are excluded.
     pub excludes_crossings: bool,
     /// Distance (m) of neighbouring positions of a solver in single precision, if its displacement
     /// is judged and the exact motion is known.
     pub position_spacing: Option<f64>,
     /// Reference position that is observed (m).
     pub observed_at: Option<&'a [f64]>,
-    /// Sums whose drift is shown if nothing is expected of the case.
+    /// Conserved sums whose drift is shown if the case has no expectation.
     pub sums: Vec<Conserved>,
     /// Expectation of the suite, if it states one.
     pub expectation: Option<&'a Expectation>,
@@ -52,9 +52,9 @@ pub struct LevelSizes {
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
-    /// Time step (s) that is taken.
+    /// Actual time step (s).
     pub dt: f64,
-    /// Particles per cell, if there are particles.
+    /// Particles per cell; `None` without particles.
     pub ppc: Option<u64>,
     /// Distance of neighbouring particles (m).
     pub particle_spacing: f64,
@@ -100,13 +100,13 @@ impl JudgePlan<'_> {
         with_exclusions(judgement, levels, self.axis)
     }
 
-    /// The judgement of a series of errors, whose order is expected within bounds if any are given.
+    /// The judgement of a series of errors, with the expected bounds of the order, if any.
     pub(super) fn judge_series(&self, levels: &[Level], expected: Option<Bounds>) -> Judgement {
         let (formal_order, axis) = (self.formal_order, self.axis);
         judge(levels, &OrderHypothesis { formal_order, expected, axis })
     }
 
-    /// Why the gate requires nothing of a case with these levels, if it does not.
+    /// Why the gate requires nothing of a case with these levels; `None` if it does.
     pub(super) fn exemption(&self, levels: &[LevelOutcome]) -> Option<String> {
         match self.gating {
             Some(Gating::NotGated(reason)) => Some(reason.clone()),
@@ -116,7 +116,7 @@ impl JudgePlan<'_> {
     }
 }
 
-/// The levels as the judge takes them, with those marked that do not count.
+/// The levels as input of the judge, with marks on those that do not count.
 pub(super) fn series(levels: &[LevelOutcome]) -> Vec<Level> {
     let marked = |level: &LevelOutcome| {
         let judged = level.to_level();
@@ -125,8 +125,8 @@ pub(super) fn series(levels: &[LevelOutcome]) -> Vec<Level> {
     levels.iter().map(marked).collect()
 }
 
-/// The levels for a comparison of their errors with a bound: those that rounding or spread exclude
-/// from the order count there.
+/// The levels whose errors are compared with a bound: here levels count that rounding or spread
+/// exclude from the order.
 pub(super) fn usable_series(levels: &[LevelOutcome]) -> Vec<Level> {
     let marked = |level: &LevelOutcome| {
         let judged = level.to_level();

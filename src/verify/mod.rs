@@ -1,23 +1,27 @@
-//! The judge: whether an error falls with the order of theory, and how sure that is.
+//! The judge: whether an error falls with the formal order, and how certain this is.
 //!
-//! | module | holds | |---|---| | [`quantity`](Quantity), [`norm`](Norms) | the error of one level
-//! as a number | | [`conservation`](ConservationError) | conserved sums of a free motion over a run
-//! | | [`level`](Level), [`hypothesis`](OrderHypothesis) | errors, pairwise orders, the order to
-//! test | | [`fit`](Interval), [`t_quantile`](two_sided_95) | the order by regression, its interval
-//! | | `window` | which levels are asymptotic | | `error_trend` | floor, divergence, oscillation |
-//! | [`judge`](judge()) | the questions, and the verdict | | [`case`](judge_case) | the judgement
-//! of a case: all that a report shows about its levels | | [`judge_plan`](JudgePlan),
-//! [`rerun`](Reruns) | what it depends on, and levels that run again | | [`floor`](Floor) | whose
-//! error a floor is | | [`richardson`](Richardson) | order and limit from three values | |
-//! [`cost`](Ranking) | cost of accuracy, in transfers or seconds | | [`stability`](StabilityStudy)
-//! | growth in runs, the step as a matrix, limits by bisection | | [`gradient`](GradientStudy)
-//! | derivatives that a solver reports | | [`expectation`](Expectation),
-//! [`limits`](Limits) | expectations of suites | | [`figure`](CaseFigure) | registry of the figures
-//! that suites bound |
+//! | module | content |
+//! |---|---|
+//! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
+//! | [`conservation`](ConservationError) | conserved sums of a free motion over a run |
+//! | [`level`](Level), [`hypothesis`](OrderHypothesis) | errors, pairwise orders, order to test |
+//! | [`fit`](Interval), [`t_quantile`](two_sided_95) | order by regression, and its interval |
+//! | `window` | the asymptotic levels |
+//! | `error_trend` | floor, divergence, oscillation |
+//! | [`judge`](judge()) | the decision sequence, and the verdict |
+//! | [`case`](judge_case) | judgement of a case: all that a report shows about its levels |
+//! | [`judge_plan`](JudgePlan), [`rerun`](Reruns) | its inputs, and levels that run again |
+//! | [`floor`](Floor) | the cause of an error floor |
+//! | [`richardson`](Richardson) | order and limit from three values |
+//! | [`cost`](Ranking) | cost of accuracy, in transfers or seconds |
+//! | [`stability`](StabilityStudy) | growth in runs, amplification matrix, limits by bisection |
+//! | [`gradient`](GradientStudy) | derivatives that a solver reports |
+//! | [`expectation`](Expectation), [`limits`](Limits) | expectations of suites |
+//! | [`figure`](CaseFigure) | registry of the figures that suites bound |
 //!
-//! Two principles hold throughout. Comparisons are written so that NaN fails: what must hold is
-//! asked (`error <= tolerance`), never its opposite. And shapes are told by ratios, never by
-//! absolute numbers, so that no unit of error or spacing changes a verdict.
+//! Two principles hold throughout. Comparisons are written so that NaN fails: the code tests the
+//! required condition (`error <= tolerance`), never its opposite. Shapes of a series are recognised
+//! by ratios, never by absolute numbers, so that no unit of error or spacing changes a verdict.
 
 mod case;
 mod conservation;

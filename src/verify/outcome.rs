@@ -1,4 +1,4 @@
-//! The results of a suite: all that reports are made of.
+//! The results of a suite: the input of all reports.
 
 use super::case::CaseJudgement;
 use super::convergence::Convergence;
@@ -17,19 +17,19 @@ pub struct SuiteOutcome {
     pub group: String,
     /// Headline.
     pub title: String,
-    /// Where the problem comes from.
+    /// Reference for the problem.
     pub source: String,
     /// Introduction by the author.
     pub about: String,
     /// The problem as rows of name and value: parameters, scene, exact solution, dt rule.
     pub statement: Vec<(String, String)>,
-    /// Fingerprint of the statement: what the suite means, however it is written.
+    /// Fingerprint of the meaning of the statement, independent of its notation.
     pub meaning: u64,
     /// One outcome for each case, in the order of the suite.
     pub cases: Vec<CaseOutcome>,
 }
 
-/// One case, run and judged.
+/// Result of one case.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct CaseOutcome {
@@ -37,33 +37,33 @@ pub struct CaseOutcome {
     pub case: String,
     /// Which subject: `mpm` or `fem`.
     pub subject: &'static str,
-    /// Settings of the method: basis, transfer, mass matrix, start, truth.
+    /// Settings of the method: basis, transfer, mass matrix, start, kind of reference.
     pub settings: Vec<(String, String)>,
     /// Cost of a step on the coarsest level, from a subject that has a profile.
     pub profile: Option<Profile>,
-    /// Expectation, in one line; none of a suite that explores, which is no gate.
+    /// Expectation, in one line; `None` for an exploring suite, which is not a gate.
     pub expected: Option<String>,
-    /// The suite's reason for expecting it; empty if nothing is expected.
+    /// The reason for the expectation in the suite; empty if nothing is expected.
     pub because: String,
-    /// The verdict, in words.
+    /// The verdict, as text.
     pub verdict: String,
     /// The figures that led to the verdict.
     pub reason: String,
     /// Expectations that are not met; empty if the case passed.
     pub unmet: Vec<String>,
-    /// Everything that the case needs and its solver lacks; empty if the case applies.
+    /// Missing capabilities of the solver; empty if the case applies.
     pub lacks: Vec<String>,
-    /// Why `run --gate` requires nothing of the case, if it does not.
+    /// Why `run --gate` requires nothing of the case; `None` if it does.
     pub exemption: Option<Exemption>,
     /// Results of its kind of study; absent if the case could not be set up, for the reason in
     /// `reason`.
     pub study: Option<Arc<dyn StudyResults>>,
 }
 
-/// Why `run --gate` requires nothing of a case; the words are in [`CaseOutcome::reason`].
+/// Why `run --gate` requires nothing of a case; the explanation is in [`CaseOutcome::reason`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exemption {
-    /// The suite cannot test what is required.
+    /// The suite cannot test the requirement.
     NotGated,
     /// The author of the solver excepts the case, which has not run.
     Excepted,
@@ -83,7 +83,7 @@ impl SuiteOutcome {
 }
 
 impl CaseOutcome {
-    /// Whether everything came as expected.
+    /// Whether all expectations are met.
     pub fn passed(&self) -> bool {
         self.unmet.is_empty()
     }
@@ -94,7 +94,7 @@ impl CaseOutcome {
         self.lacks.is_empty() && self.exemption.is_none()
     }
 
-    /// The setting of its method that is called so.
+    /// The setting of its method with this name.
     pub fn setting(&self, name: &str) -> Option<&str> {
         self.settings.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
     }
@@ -108,8 +108,8 @@ impl CaseOutcome {
     pub const RESULTS: [&'static str; 6] =
         ["pass", "FAIL", "explored", "n/a", "not gated", "excepted"];
 
-    /// The result in a word: `pass`, `FAIL`, `explored` where nothing is expected, `n/a` where the
-    /// solver lacks something; under a gate also `not gated` and `excepted`.
+    /// The result in a word: `pass`, `FAIL`, `explored` if nothing is expected, `n/a` if the solver
+    /// lacks a capability; under a gate also `not gated` and `excepted`.
     pub fn result(&self) -> &'static str {
         if !self.lacks.is_empty() {
             return "n/a";
@@ -126,7 +126,8 @@ impl CaseOutcome {
         }
     }
 
-    /// The outcome of a case that its solver cannot be put to: what it lacks, with a verb.
+    /// This outcome for a case that does not apply to its solver: the missing capabilities, with a
+    /// verb.
     #[must_use]
     pub(crate) fn not_applicable(self, lacks: Vec<String>, verb: &str) -> Self {
         let verdict = "not applicable".to_owned();
@@ -134,7 +135,7 @@ impl CaseOutcome {
         Self { verdict, reason, lacks, ..self }
     }
 
-    /// The outcome of a case that the gate does not judge, for this reason.
+    /// This outcome for a case that the gate does not judge, for this reason.
     #[must_use]
     pub(crate) fn not_gated(self, reason: &str) -> Self {
         let reason = format!("{reason}; {}", self.reason);
@@ -168,7 +169,7 @@ impl CaseOutcome {
         }
     }
 
-    /// The convergence study, if the case is one.
+    /// The convergence study; `None` for other kinds of study.
     pub fn convergence(&self) -> Option<&Convergence> {
         self.results()
     }

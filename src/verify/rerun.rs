@@ -1,10 +1,10 @@
 //! Levels that run again because the verdict depends on it.
 //!
 //! - The finest level runs again with the spacing of another axis halved, to find the axis whose
-//!   error is the floor.
-//! - Where a suite keeps its time step on all levels, a solver that is accurate in space shows the
-//!   error of that step: the order falls, or the error stops falling. If an external solver misses
-//!   the requirement of the gate then, its levels run again with shorter steps, and the gate checks
+//!   error causes the floor.
+//! - If a suite has one time step on all levels, a solver that is accurate in space shows the error
+//!   of this step: the order falls, or the error stops falling. If an external solver then misses
+//!   the requirement of the gate, its levels run again with shorter steps, and the gate checks
 //!   whether these restore the order.
 
 use super::convergence::LevelOutcome;
@@ -19,7 +19,7 @@ use std::fmt::Display;
 
 /// Runs levels of a case again.
 pub trait Reruns: Sync {
-    /// Why a level cannot be run.
+    /// Error if a level cannot be run.
     type Error: Display + Send;
 
     /// Whether halving a spacing shows the axis of an error: it does not if the reference is the
@@ -33,7 +33,7 @@ pub trait Reruns: Sync {
         axis: Axis,
     ) -> Option<Result<LevelOutcome, Self::Error>>;
 
-    /// The level with a time step of `dt` (s), run as often as the levels of the case.
+    /// Runs the level with a time step of `dt` (s), as often as the levels of the case.
     ///
     /// # Errors
     /// If the level cannot be set up.
@@ -63,16 +63,16 @@ const MOST_ROUNDING: f64 = 0.01;
 /// Maximum number of times that the steps are halved.
 const HALVINGS: i32 = 3;
 
-/// Halving the step must reduce the finest error by this share, for the levels to run again.
+/// Minimum relative decrease of the finest error by half the step, for which the levels run again.
 const LEAST_FALL: f64 = 0.05;
 
 /// The time step follows the cells if it shrinks with at least this power of h.
 const FOLLOWS: f64 = 0.5;
 
-/// Effect of halving the axes that are not refined on the error of the finest level that counts.
+/// Effect of halving the spacings of the other axes on the error of the finest level that counts.
 /// `None` if it is not needed: the error has not stopped falling, and the suite expects no floor.
 ///
-/// One to three runs, in parallel; the outcome keeps the order of the axes.
+/// Runs one to three probes in parallel; the results are in the order of the axes.
 pub(super) fn floor<R: Reruns>(
     plan: &JudgePlan<'_>,
     judgement: &Judgement,
@@ -117,7 +117,7 @@ pub(super) fn gate<R: Reruns>(
     }
 }
 
-/// How the requirement is met with shorter steps, if it is, and a remark that says so.
+/// How shorter steps meet the requirement, with a remark; `None` if they do not.
 fn shorten<R: Reruns>(
     plan: &JudgePlan<'_>,
     required: &Requirement,
@@ -130,7 +130,7 @@ fn shorten<R: Reruns>(
     for halving in 1..=HALVINGS {
         let share = libm::exp2(-f64::from(halving));
         let shorter = |level: &LevelOutcome| reruns.run_with_step(level, share * level.dt);
-        // The finest level alone shows whether the step has a part in the error.
+        // The finest level alone shows whether the step contributes to the error.
         let finest = shorter(last).ok()?;
         if !(finest.error <= (1.0 - LEAST_FALL) * before) {
             return None;
@@ -161,8 +161,8 @@ fn is_step_fixed(plan: &JudgePlan<'_>, levels: &[LevelOutcome]) -> bool {
         && first.dt < last.dt * libm::pow(first.h / last.h, FOLLOWS)
 }
 
-/// Error that rounding explains, in the norm and over the scale that are judged: a random walk of
-/// roundings of the largest number that the judged quantity is computed from.
+/// Error due to rounding, in the judged norm and over the judged scale: a random walk of roundings
+/// of the largest number from which the judged quantity is computed.
 fn rounding<R: Reruns>(plan: &JudgePlan<'_>, levels: &[LevelOutcome], reruns: &R) -> f64 {
     let Some(RoundingSizes { value, number, unit }) = reruns.rounding() else { return 0.0 };
     let steps = levels.iter().map(|level| level.run.steps).max().unwrap_or(0);

@@ -1,8 +1,9 @@
-//! The seeded defects, `tests/defects/FAMILY.txt`, which `ci/defects` puts behind switches of a copy.
+//! The seeded defects, `tests/defects/FAMILY.txt`, which `ci/defects` puts behind switches of a
+//! copy.
 //!
-//! A first line `# family`, then one block for each defect: `name: what invites it`, the file after
-//! `in`, and what stands there in lines that begin with `-`, once in the file or first after the text
-//! of a line `after`. Lines that begin with `+` are what the defect makes of it.
+//! A first line `# family`, then one block for each defect: `name: likely origin`, the file after
+//! `in`, and the original text in lines that begin with `-`. This text is unique in the file, or
+//! the first one after the text of a line `after`. Lines that begin with `+` are the changed text.
 
 /// One defect.
 #[derive(Debug, Default)]
@@ -20,7 +21,7 @@ pub(crate) struct Defect {
 /// The defects of a file of the registry.
 ///
 /// # Errors
-/// A line that says nothing known.
+/// An unknown line.
 pub(crate) fn parse(file: &str, text: &str) -> Result<Vec<Defect>, String> {
     text.trim().split("\n\n").skip(1).map(|block| defect(file, block)).collect()
 }
@@ -38,7 +39,7 @@ fn defect(file: &str, block: &str) -> Result<Defect, String> {
             "after" => defect.after = Some(rest.to_owned()),
             "-" => join(&mut defect.original, rest),
             "+" => join(&mut defect.changed, rest),
-            // Why theory does not see it.
+            // Reason why theory does not detect it.
             "only" => {}
             _ => return Err(format!("{}: `{line}` says nothing known", defect.site)),
         }
@@ -54,10 +55,10 @@ fn join(lines: &mut String, line: &str) {
 }
 
 impl Defect {
-    /// Whether the defect can be made in a source of this text, and changes it.
+    /// Checks that the defect applies exactly once to the text `source`, and changes it.
     ///
     /// # Errors
-    /// What is in the way.
+    /// The reason why it does not apply.
     pub(crate) fn check(&self, source: &str) -> Result<(), String> {
         let Self { site, file, after, original, changed, .. } = self;
         let mark = after.as_ref().unwrap_or(original);

@@ -1,6 +1,7 @@
-//! The documents, held to the repository: links, paths, names of the crate, commands and JSON.
+//! Checks of the documents against the repository: links, paths, names of the crate, commands and
+//! JSON.
 //!
-//! `tests/it/documents.rs` does what needs the program: it parses its command lines, and loads the
+//! `tests/it/documents.rs` has the checks that need the program: it parses command lines, and loads
 //! suites.
 
 use crate::markdown::{Block, Document, Span};
@@ -21,9 +22,9 @@ const KEYS_IN: &[&str] =
 pub(crate) struct Repository {
     /// Paths of all files.
     pub(crate) files: BTreeSet<String>,
-    /// Words of the code: of sources, tests and benches, with their strings.
+    /// All words in sources, tests and benches, including strings.
     pub(crate) words: BTreeSet<String>,
-    /// Words of `src/report`, with their strings: the keys of the JSON are among them.
+    /// All words in `src/report`, including strings, and so the keys of the JSON.
     pub(crate) keys: BTreeSet<String>,
     /// The text of `Cargo.toml`.
     pub(crate) manifest: String,
@@ -43,7 +44,7 @@ impl Repository {
         }
     }
 
-    /// Whether `path` is a file or a folder; `*`, and words in capitals, stand for any text.
+    /// Whether `path` is a file or a folder; `*`, and words in capitals, match any text.
     fn has(&self, path: &str) -> bool {
         let path = path.trim_end_matches('/');
         self.files.iter().any(|file| {
@@ -52,7 +53,8 @@ impl Repository {
         })
     }
 
-    /// Whether `path` is there from the root, from `src/`, or beside the document `from`.
+    /// Whether `path` exists relative to the root, to `src/`, or to the folder of the document
+    /// `from`.
     fn finds(&self, path: &str, from: &str) -> bool {
         let beside = join(from, path);
         let later = MADE_LATER.iter().any(|(made, _)| *made == path.trim_end_matches('/'));
@@ -73,7 +75,7 @@ impl Repository {
         !first.is_empty() && (folder(first) || folder(&format!("src/{first}")))
     }
 
-    /// Whether `a::b::Name` leads to a module of `src/` and from there to a word of the code.
+    /// Whether `a::b::Name` resolves to a module of `src/` and a word of its code.
     fn resolves(&self, path: &str) -> bool {
         let mut parts: Vec<&str> = path.split("::").collect();
         if matches!(parts[0], "crate" | "mpm_verify") {
@@ -100,7 +102,7 @@ impl Repository {
     }
 }
 
-/// `wanted` may have stars, and be a word in capitals that stands for any.
+/// `wanted` may contain `*`, or be a word in capitals, which matches any text.
 fn like(wanted: &str, part: &str) -> bool {
     let (stem, end) = wanted.split_once('.').unwrap_or((wanted, ""));
     let capitals = stem.len() > 2 && stem.bytes().all(|b| b.is_ascii_uppercase());
@@ -111,7 +113,7 @@ fn like(wanted: &str, part: &str) -> bool {
     }
 }
 
-/// `path` as it is written in the document `from`, from the root; none if it leads out.
+/// `path` in the document `from`, relative to the root; `None` if it leaves the repository.
 fn join(from: &str, path: &str) -> Option<String> {
     let mut parts: Vec<&str> = from.split('/').collect();
     parts.pop();
@@ -131,7 +133,7 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty())
 }
 
-/// All that a document says and the repository does not have.
+/// References in a document that do not exist in the repository.
 pub(crate) fn stale(document: &Document, all: &[Document], has: &Repository) -> Vec<Breach> {
     let mut breaches = Vec::new();
     let mut note = |line, what| {
@@ -155,7 +157,7 @@ pub(crate) fn stale(document: &Document, all: &[Document], has: &Repository) -> 
     breaches
 }
 
-/// Whether a link leads to a file and, behind a `#`, to one of its headings.
+/// Whether a link resolves to a file and, after a `#`, to one of its headings.
 fn leads(from: &str, link: &str, all: &[Document], has: &Repository) -> bool {
     if link.starts_with("https://") || link.starts_with("http://") {
         return true;
@@ -167,7 +169,7 @@ fn leads(from: &str, link: &str, all: &[Document], has: &Repository) -> bool {
     heading.is_empty() || document.is_some_and(|d| d.headings().any(|known| known == heading))
 }
 
-/// Complaints about a span of code in a line of text.
+/// Errors in a span of code in a line of text.
 fn unknown(from: &str, text: &str, has: &Repository) -> Vec<String> {
     if text.starts_with("cargo ") || text.starts_with("bash ") || text.starts_with("ci/") {
         return command(text, has).into_iter().collect();
@@ -266,7 +268,7 @@ fn keys_of(value: &serde_json::Value, keys: &mut Vec<String>) {
     }
 }
 
-/// Complaint about a command that names a script, a target or a subcommand which is not there.
+/// The error in a command that names a script, a target or a subcommand that does not exist.
 fn command(line: &str, has: &Repository) -> Option<String> {
     let line = line.split(" #").next().unwrap_or_default().trim();
     let words: Vec<&str> = line.split_whitespace().skip_while(|word| is_variable(word)).collect();

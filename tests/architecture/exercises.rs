@@ -1,7 +1,7 @@
 //! The exercises, `docs/exercises/FAMILY.md`: pages that add one member to a family.
 //!
-//! Each member is a file of `tests/exercises`, which the tests of its family compile. A page shows it in
-//! a block of Rust after a line `File: tests/exercises/NAME.rs`.
+//! Each member is a file of `tests/exercises`, which the tests of its family compile. A page shows
+//! it in a block of Rust after a line `File: tests/exercises/NAME.rs`.
 
 use crate::markdown::Document;
 use crate::source;
@@ -11,7 +11,7 @@ use std::fs;
 /// Folder of the compiled members.
 const FOLDER: &str = "tests/exercises";
 
-/// Reports members that a page does not show as they are, and members that no page shows.
+/// Reports members whose page differs from the file, and members without a page.
 pub(crate) fn stale(pages: &[Document]) -> Vec<String> {
     let mut shown = BTreeSet::new();
     let mut stale = Vec::new();

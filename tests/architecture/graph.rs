@@ -1,24 +1,25 @@
-//! Who imports whom: the paths of every file, followed to the files that define what they name.
+//! Imports between files: the paths of every file, resolved to the files that define the named
+//! items.
 //!
-//! What counts as an import of a file by another:
+//! Definition of an import of one file by another:
 //! - A path counts for the file that *defines* what it names. `crate::mpm::Grid` is an import of
 //!   `mpm/grid.rs`, found through the `pub use` in `mpm/mod.rs`, and not one of `mpm/mod.rs`. A
-//!   name that leads nowhere further is taken to be defined in the deepest module of its path.
+//!   name that cannot be resolved further counts as defined in the deepest module of its path.
 //! - `mod child;` is no import, and neither is a `pub use` of something below the same folder: a
-//!   `mod.rs` may show what its children make while they import each other through it.
+//!   `mod.rs` may re-export items of its children while they import each other through it.
 //! - `use super::child;` only gives the module a name: `child::thing` is the import.
-//! - A method call names no file, and what a macro writes is not seen.
+//! - Method calls name no file and are ignored, as is code that a macro generates.
 
 use crate::import::{Import, imports};
 use crate::source::{Module, Source};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-/// A file imports something of another.
+/// An import of one file by another.
 #[derive(Debug, Clone)]
 pub(crate) struct Edge {
     pub(crate) from: Module,
     pub(crate) to: Module,
-    /// Where, and the path as it is written.
+    /// Place, and the path as written.
     pub(crate) file: String,
     pub(crate) line: usize,
     pub(crate) path: String,
@@ -28,7 +29,7 @@ struct Graph<'a> {
     files: BTreeMap<&'a [String], (&'a Source, Vec<Import>)>,
 }
 
-/// What a path leads to.
+/// Target of a path.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Target {
     /// A module itself.
@@ -68,7 +69,7 @@ impl Graph<'_> {
         edges
     }
 
-    /// Follows `path` as it is written in `module`; a path to another crate leads to nothing.
+    /// Resolves `path` of `module`; a path to another crate resolves to nothing.
     fn resolve(
         &self,
         module: &[String],
@@ -94,7 +95,8 @@ impl Graph<'_> {
         if targets.is_empty() { vec![Target::Item(base.to_vec())] } else { targets }
     }
 
-    /// Follows `rest` from `module` down, through what it imports; nothing if it has no such name.
+    /// Resolves `rest` downwards from `module`, through its imports; empty if there is no such
+    /// name.
     fn walk(
         &self,
         module: &[String],
@@ -127,7 +129,7 @@ impl Graph<'_> {
     }
 
     fn child(&self, module: &[String], name: &str) -> Option<Module> {
-        // The children of `main.rs` stand beside it.
+        // The children of `main.rs` are in its folder.
         let base = if module == ["main"] { &[] } else { module };
         let child = [base, &[name.to_owned()]].concat();
         self.files.contains_key(&child[..]).then_some(child)

@@ -1,20 +1,20 @@
-//! The paths that code names: what `use` brings in, and what stands in an expression or a type.
+//! The paths in code: of `use` declarations, expressions and types.
 
 use crate::token::Token;
 
-/// One path, as it is written.
+/// One path, as written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Import {
     /// Its segments; the last is `*` if a `use` takes everything.
     pub(crate) path: Vec<String>,
     pub(crate) line: usize,
-    /// The name that a `use` gives it in its file; none for a path outside of `use`.
+    /// The name that a `use` gives it in its file; `None` for a path outside `use`.
     pub(crate) name: Option<String>,
-    /// Whether it is a `pub use`, of whatever visibility.
+    /// Whether it is a `pub use`, with any visibility.
     pub(crate) exported: bool,
 }
 
-/// Every path of `code`, but for the bodies of `macro_rules!`: those are code of their callers.
+/// Every path of `code`, except in the bodies of `macro_rules!`, which are code of their callers.
 pub(crate) fn imports(code: &[Token]) -> Vec<Import> {
     let mut reader = Reader { code, at: 0, found: Vec::new() };
     while reader.at < code.len() {
@@ -39,7 +39,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// The token `ahead` of the present one; nothing beyond the end.
+    /// The token `ahead` of the present one; empty beyond the end.
     fn text(&self, ahead: usize) -> &'a str {
         self.code.get(self.at + ahead).map_or("", |token| token.text.as_str())
     }
@@ -99,13 +99,13 @@ impl<'a> Reader<'a> {
         while !matches!(self.text(0), "}" | "") {
             let before = self.at;
             self.tree(path, exported);
-            // A comma, or something that is no `use` tree: go on in any case.
+            // A comma, or an invalid `use` tree: continue in any case.
             self.at += usize::from(self.text(0) == "," || self.at == before);
         }
         self.at += 1;
     }
 
-    /// `a::b::c` outside of `use`. The place in `pub(in a::b)` is no import.
+    /// `a::b::c` outside `use`. The path in `pub(in a::b)` is not an import.
     fn path(&mut self) {
         let line = self.code[self.at].line;
         let wanted = !matches!(self.before(), "::" | "$" | "in");

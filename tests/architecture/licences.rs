@@ -3,7 +3,7 @@
 use serde_json::Value;
 use std::process::Command;
 
-/// Licences that ask for no more than to be named.
+/// Licences that only require attribution.
 const KNOWN: [&str; 13] = [
     "MIT",
     "Apache-2.0",

@@ -1,22 +1,22 @@
-//! The architecture, held by tests: who may import whom, and what code may not do.
+//! Tests of the architecture: allowed imports, and rules for code, comments and documents.
 //!
 //! ```text
-//! token    text -> words and signs, without comments and strings
-//! source   files -> modules, without what is compiled for tests only
-//! import   words -> the paths that a file names
+//! token    text -> tokens, without comments and strings
+//! source   files -> modules, without code that is compiled for tests only
+//! import   tokens -> the paths that a file names
 //! graph    paths -> which file imports which; cycles
 //! rules    the rules about imports and code, each with its reason
-//! words    old words, names of types, folders, comments
+//! words    former names, names of types, phrases and comments
 //!
 //! markdown   text -> headings, links, spans of code, fenced blocks
-//! documents  what they say that the repository does not have
-//! pages      tables of documents that follow from the suites
+//! documents  stale paths, names, commands and JSON in documents
+//! pages      tables of documents that are generated from the suites
 //! exercises  pages that add a member to a family, compared with the compiled members
-//! licences   of the crates that a build takes in
-//! defects    seeded defects: what they change is still there
+//! licences   licences of the dependencies
+//! defects    seeded defects: their original text still exists
 //! ```
 //!
-//! [`synthetic`] and [`planted`] hold the scanners themselves to small texts with planted breaches.
+//! [`synthetic`] and [`planted`] test the scanners themselves on small texts with planted breaches.
 
 mod defects;
 mod documents;
@@ -37,7 +37,7 @@ use rules::Breach;
 
 const DISPATCH: &str = "src/study/setup/dispatch.rs";
 
-/// Fails with a list of `breaches` that a stranger to the crate understands.
+/// Fails with a list of `breaches`, the rule and its reason.
 fn hold(rule: &str, why: &str, breaches: &[Breach]) {
     let lines: Vec<String> =
         breaches.iter().map(|b| format!("  {}:{}: {}", b.file, b.line, b.what)).collect();
@@ -67,23 +67,23 @@ fn in_words(cycle: &[&graph::Edge]) -> String {
 }
 
 #[test]
-fn imports_stay_within_the_walls() {
+fn modules_import_only_allowed_modules() {
     let edges = graph::edges(&source::of_crate());
-    for wall in rules::WALLS {
-        let rule = match wall.may {
-            [] => format!("`{}` imports no other part of the crate", wall.around),
-            may => format!("`{}` imports only itself and {}", wall.around, may.join(", ")),
+    for import_rule in rules::IMPORT_RULES {
+        let rule = match import_rule.may {
+            [] => format!("`{}` imports no other part of the crate", import_rule.module),
+            may => format!("`{}` imports only itself and {}", import_rule.module, may.join(", ")),
         };
-        hold(&rule, wall.why, &rules::through(wall, &edges));
+        hold(&rule, import_rule.why, &rules::forbidden_imports(import_rule, &edges));
     }
 }
 
 #[test]
-fn walls_and_exceptions_are_about_files_that_exist() {
+fn rules_and_exceptions_concern_existing_files() {
     let sources = source::of_crate();
-    for wall in rules::WALLS {
-        let inside = sources.iter().any(|source| rules::is_in(&source.module, wall.around));
-        assert!(inside, "there is a rule about `{}`, which is not in src/", wall.around);
+    for import_rule in rules::IMPORT_RULES {
+        let inside = sources.iter().any(|source| rules::is_in(&source.module, import_rule.module));
+        assert!(inside, "there is a rule about `{}`, which is not in src/", import_rule.module);
     }
     for (file, reason) in rules::LONGER {
         let found = sources.iter().find(|source| source.file == file);
@@ -116,7 +116,7 @@ fn only_the_ladder_spells_out_the_dimensions() {
 }
 
 #[test]
-fn only_the_front_door_knows_the_yaml_library() {
+fn only_the_yaml_module_names_the_yaml_library() {
     for library in ["serde_yaml", "yaml_serde"] {
         hold(
             "only src/suite/yaml/ names the YAML library",
@@ -204,7 +204,7 @@ fn old_words_of_reports_stay_away() {
     texts.extend(source::texts("tests/it", ".rs"));
     texts.extend([".snap", ".yaml"].iter().flat_map(|end| source::texts("verification", end)));
     let documents = source::texts("", ".md").into_iter();
-    // The list of changes says what they were.
+    // The changelog may quote former phrases.
     texts.extend(documents.filter(|(file, _)| file != "CHANGELOG.md"));
     hold(
         "reports, suites and documents have the words of the field (tests/architecture/words.rs)",
@@ -233,12 +233,27 @@ fn no_two_types_have_one_name() {
     );
 }
 
+/// The sources whose comments follow the rules for prose.
+fn plain_sources() -> Vec<words::Text> {
+    words::PLAIN_SOURCES.iter().flat_map(|folder| source::texts(folder, ".rs")).collect()
+}
+
 #[test]
 fn comments_are_short_and_name_the_thing() {
     hold(
-        "no doc comment begins with \"What\", and no line of a comment is longer than 100 columns",
-        "a noun phrase says what the thing is, and can be searched for",
-        &words::comments(&source::texts("src", ".rs")),
+        "no comment begins with \"What\", \"The same\" or another of UNCLEAR_BEGINNINGS \
+         (tests/architecture/words.rs), and no line of a comment is longer than 100 columns",
+        "a noun phrase that names the thing is understood without its neighbours",
+        &words::comments(&plain_sources()),
+    );
+}
+
+#[test]
+fn comments_have_no_unclear_phrase() {
+    hold(
+        "comments are in plain English (UNCLEAR_PHRASES in tests/architecture/words.rs)",
+        "a reader understands each sentence at the first reading",
+        &words::unclear_phrases(&words::of_comments(&plain_sources())),
     );
 }
 
@@ -260,7 +275,7 @@ fn documents_speak_of_what_is_there() {
     );
 }
 
-/// The page of suites as it is, and as it should be.
+/// The present page of suites, and the generated page.
 fn page_of_suites() -> (String, String) {
     let page = std::fs::read_to_string(source::root().join(pages::SUITES)).expect("a page");
     let (anew, missing) = pages::with_tables(&page, &pages::suites());

@@ -21,7 +21,7 @@ pub(crate) struct Block {
     pub(crate) text: String,
 }
 
-/// Something within a line of text.
+/// A part of a line of text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Span {
     pub(crate) line: usize,
@@ -65,7 +65,7 @@ impl Document {
         })
     }
 
-    /// Spans of code: what stands between two backticks.
+    /// Spans of code between two backticks.
     pub(crate) fn code_spans(&self) -> Vec<Span> {
         self.spans(|text| {
             let pieces: Vec<&str> = text.split('`').collect();

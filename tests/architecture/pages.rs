@@ -1,7 +1,8 @@
-//! Tables of documents that follow from the suites: written by `ci/pages`, held by a test.
+//! Tables of documents that are generated from the suites: written by `ci/pages`, checked by a
+//! test.
 //!
-//! A table stands between `<!-- suites of FOLDER -->` and `<!-- end -->`. What a page quotes of a report
-//! is in a snapshot.
+//! A table is between `<!-- suites of FOLDER -->` and `<!-- end -->`. Quotations of reports must be
+//! in a snapshot.
 
 use crate::markdown::Document;
 use crate::source::texts;
@@ -39,7 +40,7 @@ fn row(file: &str, text: &str) -> Row {
     Row { folder, name, cells }
 }
 
-/// The question of a convergence study, by what it refines.
+/// The kind of a convergence study, by its refined keys.
 fn refined(suite: &Value) -> &'static str {
     let is_list = |key: &str| suite["refine"][key].is_sequence();
     match (is_list("cells"), is_list("dt"), is_list("ppc")) {
@@ -88,7 +89,7 @@ fn words(value: &Value) -> Vec<String> {
     }
 }
 
-/// The page with its tables made anew, and the folders that have none in it.
+/// The page with regenerated tables, and the folders without a table in the page.
 pub(crate) fn with_tables(page: &str, suites: &[Row]) -> (String, Vec<String>) {
     let mut folders: BTreeMap<&str, String> = BTreeMap::new();
     for row in suites {
@@ -115,8 +116,8 @@ pub(crate) fn with_tables(page: &str, suites: &[Row]) -> (String, Vec<String>) {
 /// Pages that quote reports, in blocks of text that are indented as reports are.
 pub(crate) const QUOTING: [&str; 2] = ["docs/judge.md", "docs/cost.md"];
 
-/// Lines at which a page quotes what no snapshot has: the lines of a quotation stand in one of them, in
-/// their order.
+/// Lines of wrong quotations in a page. The lines of a correct quotation are in one snapshot, in
+/// this order.
 pub(crate) fn misquoted(page: &Document) -> (usize, Vec<usize>) {
     let snapshots = texts("verification", ".snap");
     let is_of = |quoted: &str, (_, report): &(String, String)| {
@@ -132,8 +133,8 @@ pub(crate) fn misquoted(page: &Document) -> (usize, Vec<usize>) {
 /// Page that quotes constants of the judge.
 pub(crate) const JUDGE: &str = "docs/judge.md";
 
-/// Rows of a page that quote a constant, and those of them that are wrong:
-/// `| \`src/FILE\` \`NAME\` | \`VALUE\` | ... |`.
+/// Number of rows of a page that quote a constant, and wrong rows: `| \`src/FILE\` \`NAME\` |
+/// \`VALUE\` | ... |`.
 pub(crate) fn constants<'a>(page: &'a str, files: &[(String, String)]) -> (usize, Vec<&'a str>) {
     let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| `src/")).collect();
     let is_right = |row: &&str| {

@@ -1,4 +1,4 @@
-//! The scanners of words and of documents, held to small texts with planted mistakes.
+//! Tests of the scanners of words and of documents, on small texts with planted mistakes.
 
 use crate::documents::{Repository, stale};
 use crate::markdown::Document;
@@ -48,6 +48,16 @@ fn an_unclear_phrase_is_found(#[case] text: &str, #[case] expected: &[&str]) {
 }
 
 #[rstest]
+#[case::in_a_comment("fn f() {} \n// a bar of which the end moves", &["src/a.rs:2"])]
+#[case::across_lines("    /// the error but\n    /// for rounding\n", &["src/a.rs:1"])]
+#[case::in_a_string("let a = \"a bar of which the end moves\";", &[])]
+#[case::across_an_item("/// an error but\nfn f() {}\n/// for rounding\n", &[])]
+fn an_unclear_phrase_of_a_comment_is_found(#[case] text: &str, #[case] expected: &[&str]) {
+    let comments = words::of_comments(&owned(&[("src/a.rs", text)]));
+    assert_eq!(places(&words::unclear_phrases(&comments)), expected);
+}
+
+#[rstest]
 fn an_old_name_of_a_file_is_found() {
     let files = ["src/mpm/spots.rs", "src/pricing/mod.rs", "src/mpm/spotsy.rs"].map(str::to_owned);
     assert_eq!(places(&words::old_files(&files)), ["src/mpm/spots.rs:1", "src/pricing/mod.rs:1"]);
@@ -76,9 +86,14 @@ fn a_name_of_two_types_is_found(#[case] a: &str, #[case] b: &str, #[case] count:
 #[rstest]
 #[case::what("/// What a thing does.", true)]
 #[case::whatever("\n    //! Whatever it is.", true)]
-#[case::no_documentation("// What was measured.", false)]
+#[case::no_documentation("// What was measured.", true)]
+#[case::the_same("/// The same in 2-D.", true)]
+#[case::a_limit("/// Fewest levels.", true)]
+#[case::on_a_second_line("/// Errors.\n/// Those of `f`.", true)]
 #[case::later("/// Says what it is.", false)]
-fn a_comment_that_begins_with_what_is_found(#[case] text: &str, #[case] found: bool) {
+#[case::a_longer_word("/// Mostly harmless.", false)]
+#[case::in_code("const A: &str = \"What\";", false)]
+fn a_comment_with_an_unclear_beginning_is_found(#[case] text: &str, #[case] found: bool) {
     let breaches = words::comments(&owned(&[("src/a.rs", text)]));
     assert_eq!(places(&breaches).len(), usize::from(found));
 }

@@ -1,62 +1,66 @@
-//! The rules of the house, each with its reason; a breach says which file and which line.
+//! Rules for the sources, each with its reason; a breach has a file and a line.
 
 use crate::graph::Edge;
 use crate::source::Source;
 use crate::token::Token;
 
-/// Most lines of a file, without its tests.
+/// Maximum number of lines of a file, without its tests.
 pub(crate) const MOST_LINES: usize = 500;
 
 /// Files that may be longer, each with its reason.
 pub(crate) const LONGER: [(&str, &str); 0] = [];
 
-/// A folder (or file) of `src/` and what it may import besides itself, as paths of modules.
-pub(crate) struct Wall {
-    pub(crate) around: &'static str,
+/// A folder (or file) of `src/`, and the other modules that it may import, as paths.
+pub(crate) struct ImportRule {
+    pub(crate) module: &'static str,
     pub(crate) may: &'static [&'static str],
     pub(crate) why: &'static str,
 }
 
-/// `study` has no wall: it builds and runs whatever a suite asks for.
-pub(crate) const WALLS: &[Wall] = &[
-    Wall { around: "named", may: &[], why: "every part is built on it" },
-    Wall { around: "nearest", may: &[], why: "whatever has names to suggest reads it" },
-    Wall { around: "dimension", may: &[], why: "every part is built on it" },
-    Wall { around: "members", may: &[], why: "rooms on both sides of a wall read it" },
-    Wall { around: "subject", may: &["named"], why: "it is the contract between judge and solver" },
-    Wall {
-        around: "mpm",
+/// `study` may import every module: it builds and runs all that suites describe.
+pub(crate) const IMPORT_RULES: &[ImportRule] = &[
+    ImportRule { module: "named", may: &[], why: "every part is built on it" },
+    ImportRule { module: "nearest", may: &[], why: "every part that suggests names uses it" },
+    ImportRule { module: "dimension", may: &[], why: "every part is built on it" },
+    ImportRule { module: "members", may: &[], why: "both modules of a family use it" },
+    ImportRule {
+        module: "subject",
+        may: &["named"],
+        why: "it is the contract between judge and solver",
+    },
+    ImportRule {
+        module: "mpm",
         may: &["subject", "named", "dimension", "members"],
         why: "a solver that knows how it is judged is no longer the solver that users run",
     },
-    Wall {
-        around: "fem",
+    ImportRule {
+        module: "fem",
         may: &["subject", "named"],
         why: "a solver that knows how it is judged is no longer the solver that users run",
     },
-    Wall { around: "vtk", may: &["subject"], why: "a file shows fields, whoever computed them" },
-    Wall {
-        around: "external",
+    ImportRule { module: "vtk", may: &["subject"], why: "a file shows fields of any solver" },
+    ImportRule {
+        module: "external",
         may: &["subject", "named", "nearest", "members", "vtk"],
-        why: "a solver of another program is handed a problem, and must not see how it is judged",
+        why: "an external solver receives a problem, and must not see how it is judged",
     },
-    Wall {
-        around: "exact",
+    ImportRule {
+        module: "exact",
         may: &["subject", "named", "nearest", "dimension", "members"],
-        why: "a truth that is made with a solver can only agree with it",
+        why: "an exact solution that uses a solver can only agree with it",
     },
-    Wall {
-        around: "verify",
+    ImportRule {
+        module: "verify",
         may: &["exact", "subject", "named"],
-        why: "the judge must take any subject, so it knows none by name",
+        why: "the judge must accept any subject, so it names none",
     },
-    Wall {
-        around: "report",
+    ImportRule {
+        module: "report",
         may: &["verify", "exact", "subject", "named"],
-        why: "a report shows results and must not be able to change how they come about",
+        why: "a report shows results and must not be able to change them",
     },
-    Wall {
-        around: "suite",
+    ImportRule {
+        module: "suite",
         may: &[
             "mpm",
             "fem",
@@ -69,20 +73,20 @@ pub(crate) const WALLS: &[Wall] = &[
             "dimension",
             "members",
         ],
-        why: "it says what is to be run, and must be readable without what runs it",
+        why: "it describes runs, and must be usable without the code that runs them",
     },
-    Wall {
-        around: "suite::yaml",
+    ImportRule {
+        module: "suite::yaml",
         may: &["named", "nearest"],
-        why: "it turns text into values that know their place, whatever they mean",
+        why: "it turns text into values with their place, independent of their meaning",
     },
-    Wall {
-        around: "suite::evaluator",
+    ImportRule {
+        module: "suite::evaluator",
         may: &["suite::yaml", "exact", "nearest"],
         why: "numbers and formulas do not depend on the keys that hold them",
     },
-    Wall {
-        around: "suite::scene",
+    ImportRule {
+        module: "suite::scene",
         may: &[
             "suite::yaml",
             "suite::evaluator",
@@ -96,8 +100,8 @@ pub(crate) const WALLS: &[Wall] = &[
         ],
         why: "a load or condition has its keys and its checked value in one file",
     },
-    Wall {
-        around: "suite::grammar",
+    ImportRule {
+        module: "suite::grammar",
         may: &[
             "suite::yaml",
             "suite::evaluator",
@@ -109,10 +113,10 @@ pub(crate) const WALLS: &[Wall] = &[
             "subject",
             "named",
         ],
-        why: "it says what may stand in a file, and computes nothing",
+        why: "it defines the allowed contents of a file, and computes nothing",
     },
-    Wall {
-        around: "suite::model",
+    ImportRule {
+        module: "suite::model",
         may: &[
             "suite::yaml",
             "suite::scene",
@@ -128,11 +132,11 @@ pub(crate) const WALLS: &[Wall] = &[
     },
 ];
 
-/// Functions of `f64` whose bits the standard library leaves to the platform.
+/// Functions of `f64` whose bits depend on the platform in the standard library.
 const PLATFORM: &str = "sin cos tan sin_cos asin acos atan atan2 sinh cosh tanh asinh acosh atanh \
     exp exp2 exp_m1 ln ln_1p log log2 log10 powf powi cbrt hypot gamma ln_gamma erf erfc";
 
-/// Where methods of `Number` have the names of those of `f64`, and are made of `libm`.
+/// Folder in which methods of `Number` have the names of those of `f64`, and use `libm`.
 const NUMBERS: &str = "src/exact/formula/";
 
 /// Where a rule is broken, and how.
@@ -149,10 +153,10 @@ impl Breach {
     }
 }
 
-/// Imports through `wall`.
-pub(crate) fn through(wall: &Wall, edges: &[Edge]) -> Vec<Breach> {
-    let outward = edges.iter().filter(|edge| is_in(&edge.from, wall.around));
-    let free = wall.may.iter().chain([&wall.around]);
+/// Imports that `rule` does not allow.
+pub(crate) fn forbidden_imports(rule: &ImportRule, edges: &[Edge]) -> Vec<Breach> {
+    let outward = edges.iter().filter(|edge| is_in(&edge.from, rule.module));
+    let free = rule.may.iter().chain([&rule.module]);
     outward
         .filter(|edge| !free.clone().any(|part| is_in(&edge.to, part)))
         .map(|edge| Breach {
@@ -169,8 +173,8 @@ pub(crate) fn is_in(module: &[String], part: &str) -> bool {
     part.split("::").all(|wanted| names.next().is_some_and(|name| name == wanted))
 }
 
-/// Files besides `allowed` (a path, or a folder that ends in `/`) that have all of `wanted`, each
-/// a run of tokens.
+/// Breaches by files outside `allowed` (a file, or a folder that ends in `/`) with all sequences of
+/// tokens in `wanted`.
 pub(crate) fn mentions(sources: &[Source], wanted: &[&[&str]], allowed: &str) -> Vec<Breach> {
     let elsewhere = sources.iter().filter(|source| !source.file.starts_with(allowed));
     elsewhere
@@ -209,7 +213,7 @@ pub(crate) fn long(sources: &[Source], longer: &[(&str, &str)]) -> Vec<Breach> {
         .collect()
 }
 
-/// Modules whose names say nothing.
+/// Breaches by modules with meaningless names.
 pub(crate) fn nameless(sources: &[Source]) -> Vec<Breach> {
     let empty = ["util", "utils", "helper", "helpers", "misc", "common"];
     let bad = |source: &&Source| source.module.iter().any(|name| empty.contains(&name.as_str()));

@@ -1,4 +1,4 @@
-//! The files under `src/` and what of them is code that ships.
+//! The files under `src/`, and their code without tests.
 
 use crate::token::{Token, tokens};
 use std::collections::BTreeSet;
@@ -15,9 +15,9 @@ pub(crate) struct Source {
     /// Path from the root of the repository, with `/`.
     pub(crate) file: String,
     pub(crate) module: Module,
-    /// Without comments, strings and whatever stands under `#[cfg(test)]`.
+    /// Code without comments, strings and items under `#[cfg(test)]`.
     pub(crate) code: Vec<Token>,
-    /// The code that stands there.
+    /// Code under `#[cfg(test)]`.
     pub(crate) tests: Vec<Token>,
     /// Whether all of the file is compiled for tests only.
     pub(crate) for_tests: bool,
@@ -25,13 +25,13 @@ pub(crate) struct Source {
     pub(crate) lines: usize,
 }
 
-/// Reads the crate: every file of `src/` but those that are compiled for tests only.
+/// Reads the crate: every file of `src/` except those that are compiled for tests only.
 pub(crate) fn of_crate() -> Vec<Source> {
     of_files(&texts("src", ".rs"))
 }
 
-/// Paths from the root of the repository and texts of the files below `folder` (`""` for all of it)
-/// whose names end in `end`, without what is built.
+/// Paths (relative to the root of the repository) and texts of the files below `folder` (`""` for
+/// all) whose names end in `end`, without build output.
 pub(crate) fn texts(folder: &str, end: &str) -> Vec<(String, String)> {
     let files = paths(folder).into_iter().filter(|file| file.ends_with(end));
     let read = |file: &String| fs::read_to_string(root().join(file)).expect("a readable text");
@@ -71,7 +71,8 @@ pub(crate) fn of_files(files: &[(String, String)]) -> Vec<Source> {
     sources
 }
 
-/// The same with files that are compiled for tests only, all of whose code is tests.
+/// The sources among `files`, including files that are compiled for tests only. All code of these
+/// counts as tests.
 pub(crate) fn with_tests(files: &[(String, String)]) -> Vec<Source> {
     let mut for_tests = BTreeSet::new();
     let mut sources: Vec<Source> =
@@ -109,7 +110,7 @@ fn module(file: &str) -> Module {
     if path == "lib" { Module::new() } else { path.split('/').map(str::to_owned).collect() }
 }
 
-/// Where the first item under `#[cfg(test)]` stands, from its attribute to its `;` or `}`.
+/// Range of the first item under `#[cfg(test)]`, from its attribute to its `;` or `}`.
 fn test_item(code: &[Token]) -> Option<Range<usize>> {
     let attribute = ["#", "[", "cfg", "(", "test", ")", "]"];
     let texts = |window: &[Token]| window.iter().zip(attribute).all(|(t, a)| t.text == a);

@@ -1,8 +1,8 @@
-//! The scanner, held to small crates with planted breaches.
+//! Tests of the scanner of imports, on small crates with planted breaches.
 
 use crate::graph::{Edge, cycles, edges};
 use crate::rules;
-use crate::rules::WALLS;
+use crate::rules::IMPORT_RULES;
 use crate::source::{Source, of_files, with_tests};
 use crate::token::tokens;
 use rstest::rstest;
@@ -136,7 +136,7 @@ fn a_folder_and_its_child_can_form_a_cycle() {
 #[case("src/suite/model.rs", "use crate::suite::compile::Suite;", 1)]
 #[case("src/suite/grammar/step.rs", "use super::super::yaml::Place;", 0)]
 #[case("src/suite/yaml/read.rs", "use crate::suite::grammar::Spec;", 1)]
-fn a_planted_breach_of_a_wall_is_found(
+fn a_planted_forbidden_import_is_found(
     #[case] file: &str,
     #[case] code: &str,
     #[case] breaches: usize,
@@ -146,7 +146,8 @@ fn a_planted_breach_of_a_wall_is_found(
     let mut files = vec![(file, code)];
     files.extend(folders.iter().map(|folder| (folder.as_str(), "")));
     let edges = edges(&sources(&files));
-    let found: Vec<_> = WALLS.iter().flat_map(|wall| rules::through(wall, &edges)).collect();
+    let found: Vec<_> =
+        IMPORT_RULES.iter().flat_map(|rule| rules::forbidden_imports(rule, &edges)).collect();
     assert_eq!(found.len(), breaches, "{found:?}");
     assert!(found.iter().all(|breach| breach.file == file && breach.line == code.lines().count()));
 }

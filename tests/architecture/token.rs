@@ -1,4 +1,4 @@
-//! Rust text to tokens, without what is not code: comments, strings, characters and lifetimes.
+//! Converts Rust text to tokens, without comments, strings, characters and lifetimes.
 
 /// A word, a number or a sign of the code.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -7,7 +7,7 @@ pub(crate) struct Token {
     pub(crate) line: usize,
 }
 
-/// The tokens of `text`. `::` is one token; every other sign is a token of its own.
+/// The tokens of `text`. `::` is one token; every other sign is a separate token.
 pub(crate) fn tokens(text: &str) -> Vec<Token> {
     let mut rest = text;
     let mut line = 1;

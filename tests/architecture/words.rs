@@ -1,14 +1,14 @@
-//! The words of the source: old ones stay away, and no name of a type means two things.
+//! Rules for words: old names stay away, no two types have one name, and prose is in plain English.
 
 use crate::rules::Breach;
 use crate::source::Source;
 use crate::token::Token;
 use std::collections::BTreeMap;
 
-/// Longest line of a comment, as `.rustfmt.toml` has it for code.
+/// Maximum width of a comment line (columns), as for code in `.rustfmt.toml`.
 pub(crate) const LONGEST_COMMENT: usize = 100;
 
-/// Names that types had and must not have again, each with the word in their place.
+/// Former names of types, each with the name in its place.
 pub(crate) const OLD_TYPES: &[(&str, &str)] = &[
     ("Whereabouts", "CellTracker"),
     ("Touch", "ContactState"),
@@ -49,7 +49,7 @@ pub(crate) const OLD_TYPES: &[(&str, &str)] = &[
     ("Also", "P2gRequest, G2pRequest"),
 ];
 
-/// Names that functions, fields, variables and types had, wherever they stand in code.
+/// Former names of functions, fields, variables and types, each with the name in its place.
 pub(crate) const OLD_NAMES: &[(&str, &str)] = &[
     ("whereabouts", "cell_tracker"),
     ("drive_velocity", "modify_velocity"),
@@ -79,7 +79,8 @@ pub(crate) const OLD_NAMES: &[(&str, &str)] = &[
     ("Four", "F64x4"),
 ];
 
-/// Words that reports and documents had, in any text; those in quotes are heads, keys and columns.
+/// Former phrases of reports and documents, each with the phrase in its place; those in quotes are
+/// heads, keys and columns.
 pub(crate) const OLD_PHRASES: &[(&str, &str)] = &[
     ("\"carried\"", "advected x"),
     ("\"x moved\"", "current x"),
@@ -110,6 +111,24 @@ pub(crate) const OLD_PHRASES: &[(&str, &str)] = &[
 /// Folders whose prose has none of the `UNCLEAR_PHRASES`, with the end of the names of their files.
 pub(crate) const PLAIN_FILES: &[(&str, &str)] =
     &[("verification", ".yaml"), ("verification", ".md")];
+
+/// Folders whose comments have none of the `UNCLEAR_PHRASES` and `UNCLEAR_BEGINNINGS`.
+pub(crate) const PLAIN_SOURCES: &[&str] = &["src", "benches", "tests", "examples"];
+
+/// Beginnings of comments that point at a neighbouring item or name no limit, each with a better
+/// one.
+pub(crate) const UNCLEAR_BEGINNINGS: &[(&str, &str)] = &[
+    ("What", "a noun phrase"),
+    ("Whatever", "a noun phrase"),
+    ("The same", "the name of the item"),
+    ("Those", "the name of the items"),
+    ("That of", "the name of the item"),
+    ("Most", "Maximum number of"),
+    ("Fewest", "Minimum number of"),
+    ("Longest", "Maximum length of"),
+    ("Shortest", "Minimum length of"),
+    ("Least", "Minimum"),
+];
 
 /// Idioms and archaic phrases that a reader must decode, in lower case, each with a plain one.
 pub(crate) const UNCLEAR_PHRASES: &[(&str, &str)] = &[
@@ -152,7 +171,7 @@ pub(crate) const UNCLEAR_PHRASES: &[(&str, &str)] = &[
     ("what is left", "the rest, the remaining error"),
 ];
 
-/// Names that files and folders had, each with the one in its place.
+/// Former names of files and folders, each with the name in its place.
 pub(crate) const OLD_FILES: &[(&str, &str)] = &[
     ("whereabouts", "cell_tracker"),
     ("touch", "contact_state"),
@@ -184,7 +203,7 @@ pub(crate) const OLD_FILES: &[(&str, &str)] = &[
     ("four", "simd"),
 ];
 
-/// Names of types that two files may define, each with its reason.
+/// Names of types that several files may define, each with the reason.
 pub(crate) const TWICE: &[(&str, &str)] = &[
     ("Value", "serde's visitors must call their result so"),
     ("Output", "so must operators"),
@@ -193,10 +212,10 @@ pub(crate) const TWICE: &[(&str, &str)] = &[
     ("F64x4", "each processor level says which register it has: an associated type of that trait"),
 ];
 
-/// A file as it is written, with its comments.
+/// Path and text of a file, with its comments.
 pub(crate) type Text = (String, String);
 
-/// Types with an old name, and old names anywhere in code.
+/// Breaches by types with an old name, and by old names anywhere in code.
 pub(crate) fn old(sources: &[Source]) -> Vec<Breach> {
     let of_source = |source: &Source| -> Vec<Breach> {
         let types = definitions(&source.code).into_iter().map(|token| (token, OLD_TYPES));
@@ -211,7 +230,7 @@ pub(crate) fn old(sources: &[Source]) -> Vec<Breach> {
     sources.iter().flat_map(of_source).collect()
 }
 
-/// Texts with an old word of reports, as a whole word.
+/// Breaches by texts with an old phrase of reports, as whole words.
 pub(crate) fn old_phrases(texts: &[Text]) -> Vec<Breach> {
     let of_text = |(file, text): &Text| -> Vec<Breach> {
         let lines = text.lines().enumerate();
@@ -225,7 +244,7 @@ pub(crate) fn old_phrases(texts: &[Text]) -> Vec<Breach> {
     texts.iter().flat_map(of_text).collect()
 }
 
-/// Texts with an unclear phrase, in any case of letters, also across the end of a line.
+/// Breaches by texts with an unclear phrase, in upper or lower case, also across the end of a line.
 pub(crate) fn unclear_phrases(texts: &[Text]) -> Vec<Breach> {
     let of_text = |(file, text): &Text| -> Vec<Breach> {
         let lowered = text.to_lowercase();
@@ -268,7 +287,7 @@ pub(crate) fn old_files(files: &[String]) -> Vec<Breach> {
     files.iter().filter_map(of_file).collect()
 }
 
-/// Types whose name another file has defined already.
+/// Breaches by types whose name another file defines too.
 pub(crate) fn twice(sources: &[Source], allowed: &[(&str, &str)]) -> Vec<Breach> {
     let mut first: BTreeMap<&str, &str> = BTreeMap::new();
     let mut breaches = Vec::new();
@@ -284,8 +303,8 @@ pub(crate) fn twice(sources: &[Source], allowed: &[(&str, &str)]) -> Vec<Breach>
     breaches
 }
 
-/// The names of the types that `code` defines, and of the associated types that its traits declare
-/// (not those that an `impl` must give: the trait has named them).
+/// The names of the types that `code` defines, and of the associated types that its traits declare.
+/// Associated types in an `impl` are excluded: their trait declares the name.
 fn definitions(code: &[Token]) -> Vec<&Token> {
     let mut found = Vec::new();
     let (mut depth, mut implementation) = (0_usize, None);
@@ -311,24 +330,35 @@ fn is_type(token: &Token) -> bool {
     token.text.starts_with(|c: char| c.is_uppercase())
 }
 
-/// Comments that begin with "What", and those whose lines are too long.
+/// The comments of sources, line by line: a line without a comment is empty.
+pub(crate) fn of_comments(texts: &[Text]) -> Vec<Text> {
+    let comment = |line: &str| line.trim_start().strip_prefix("//").map(str::to_owned);
+    let prose = |line: &str| {
+        comment(line).unwrap_or_default().trim_start_matches(['/', '!']).trim().to_owned() + "\n"
+    };
+    texts.iter().map(|(file, text)| (file.clone(), text.lines().map(prose).collect())).collect()
+}
+
+/// Breaches by lines of comments with an unclear beginning, and by those that are too long.
 pub(crate) fn comments(texts: &[Text]) -> Vec<Breach> {
-    let of_line = |file: &String, at: usize, line: &str| -> Option<Breach> {
-        let bare = line.trim_start();
-        let said = bare.strip_prefix("//")?.trim_start_matches(['/', '!']).trim_start();
-        let documented = bare.starts_with("///") || bare.starts_with("//!");
-        let first = said.split(' ').next().unwrap_or_default();
-        let what = if documented && matches!(first, "What" | "Whatever") {
-            "begins with \"What\"".to_owned()
-        } else if line.chars().count() > LONGEST_COMMENT {
-            format!("is a comment of {} columns", line.chars().count())
-        } else {
-            return None;
+    let of_line = |file: &String, at: usize, (line, prose): (&str, &str)| -> Option<Breach> {
+        let begins = |word: &str| {
+            prose.strip_prefix(word).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
+        };
+        let unclear = UNCLEAR_BEGINNINGS.iter().find(|(word, _)| begins(word));
+        let columns = line.chars().count();
+        let what = match unclear {
+            Some((word, better)) => format!("begins with \"{word}\": write `{better}`"),
+            None if !prose.is_empty() && columns > LONGEST_COMMENT => {
+                format!("is a comment of {columns} columns")
+            }
+            None => return None,
         };
         Some(Breach { file: file.clone(), line: at + 1, what })
     };
-    let of_text = |(file, text): &Text| -> Vec<Breach> {
-        text.lines().enumerate().filter_map(|(at, line)| of_line(file, at, line)).collect()
+    let of_text = |((file, text), (_, prose)): (&Text, &Text)| -> Vec<Breach> {
+        let lines = text.lines().zip(prose.lines()).enumerate();
+        lines.filter_map(|(at, line)| of_line(file, at, line)).collect()
     };
-    texts.iter().flat_map(of_text).collect()
+    texts.iter().zip(&of_comments(texts)).flat_map(of_text).collect()
 }

@@ -779,7 +779,7 @@ GRID = [
           [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"], {"where=mass > 0": "where=mass > 1e-3"}),
     Fault("mass-threshold-relative",
           "Ignores nodes whose mass is below 1e-12 of the largest.",
-          "nodes with a small mass are ignored, and linear functions have a gradient beside them",
+          "nodes with a small mass are ignored, but the gradients of linear functions are not small there",
           [f"{LINEAR} {MUSL}", f"{LINEAR} {USL} {HALF_BACK}"], {"where=mass > 0": "where=mass > 1e-12 * mass.max()"},
           source="a reader of the guide"),
     Fault("mass-regularised",
@@ -1249,7 +1249,7 @@ UNDETECTED = {
     "volume-updated-twice":
         "classical MPM with linear functions passes the suites that show this by a bound, which is above this error",
     "f-not-updated-by-rate-law": "no suite judges F with a law in rate form",
-    "j-limited": "strains of these suites are within the limits, but for one that classical MPM passes by a bound",
+    "j-limited": "strains of these suites are within the limits, except for one that classical MPM passes by a bound",
     "mass-from-deformed-volume": "bodies that start deformed have small strains in these suites",
     "initial-f-transposed": "no body of these suites starts with an F that is not symmetric",
     "reference-volume-of-deformed-body": "bodies that start deformed have small strains in these suites",

@@ -87,7 +87,7 @@ PROBLEMS = {
     "bar": problem("linear_elastic", ["fixed", "free"], (6,), 2, "asked", -5.0),
     "block": problem("linear_elastic", FREE, (2, 3, 2), 2, "none", 0.5, -0.05, 5.0),
     # Particles reach beyond a face by a distance that leaves a node nearly without mass.
-    "bar beside faces": problem("neo_hookean", FREE[:2], (6,), 2, "none", 3.0, shift=0.25 + 1e-13),
+    "bar next to faces": problem("neo_hookean", FREE[:2], (6,), 2, "none", 3.0, shift=0.25 + 1e-13),
     "fast bar": problem("neo_hookean", PERIODIC[:2], (6,), 3, "constant", 30.0),
 }
 

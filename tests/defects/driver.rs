@@ -1,9 +1,9 @@
-//! Runs one suite as the gate does and prints what each gate says: `ci/defects` builds this program in a
-//! scratch copy of the repository, with the defects of this folder behind switches.
+//! Runs one suite like the gate and prints the result of each gate. `ci/defects` builds this
+//! program in a scratch copy of the repository, with the defects of this folder behind switches.
 //!
-//! Arguments: the file of a suite, and the folder of snapshots. One line of JSON, as in
-//! `{"suite": "oedometer", "load": null, "cases": [["mpm-linear-flip-musl", "order", "expected ..."]],
-//! "drift": false}`.
+//! Arguments: the file of a suite, and the folder of snapshots. Output: one line of JSON with the
+//! keys `suite`, `load` (null, or why the suite is refused), `cases` (case, gate and message of
+//! each failure) and `drift` (whether the report has changed).
 
 mod gate;
 

@@ -1,8 +1,8 @@
-//! Which gate says that an expectation is not met.
+//! Name of the gate that reports an unmet expectation.
 
 use mpm_verify::verify::{CaseOutcome, InternalForce, StabilityStudy};
 
-/// Gates of convergence studies by the first words of what they say; the first that fits.
+/// Gates of convergence studies by the beginning of their messages; the first match applies.
 const GATES: [(&str, &str); 12] = [
     ("expected the order within", "order"),
     ("expected the finest pair's order", "order"),
@@ -18,7 +18,7 @@ const GATES: [(&str, &str); 12] = [
     ("expected ", "bound"),
 ];
 
-/// The gate that says `line`. A wrong order is a gate of its own, whatever the verdict is called.
+/// The gate that reports `line`. A wrong order is a separate gate, for any verdict.
 pub(crate) fn gate(case: &CaseOutcome, line: &str) -> &'static str {
     if case.study.is_none() {
         return "verdict";

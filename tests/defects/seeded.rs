@@ -1,7 +1,7 @@
 //! Switches of seeded defects, in the scratch copy that `ci/defects` builds only.
 //!
-//! The variable `SEEDED` has the number of the defect that is on; with `SEEDED_REACHED` every switch that
-//! is come to is noted in that file.
+//! The variable `SEEDED` has the number of the active defect. With `SEEDED_REACHED`, the number of
+//! every executed switch is written to that file.
 
 use std::env;
 use std::fs::OpenOptions;
@@ -32,7 +32,7 @@ fn first(active: usize, number: usize) -> bool {
         ACTIVE.store(active, Ordering::Relaxed);
         return on(number);
     }
-    // Most calls are not the first.
+    // The load before the swap keeps repeated calls cheap.
     if !NOTED[number].load(Ordering::Relaxed) && !NOTED[number].swap(true, Ordering::Relaxed) {
         let file = env::var_os("SEEDED_REACHED").expect("a file to note in");
         let mut file = OpenOptions::new().append(true).open(file).expect("the file can be opened");

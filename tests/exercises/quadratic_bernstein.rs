@@ -1,9 +1,10 @@
 //! Quadratic Bernstein polynomials in every cell (Farin, Curves and Surfaces for CAGD, chapter on
 //! the Bernstein form; in MPM: Karamelo, `Bernstein-quadratic`).
 //!
-//! With xi from 0 to 1 across the cell: `(1 - xi)^2`, `2 xi (1 - xi)`, `xi^2`. The first and the last
-//! belong to the cell's nodes, shared with the neighbouring cells, the second to its centre. They
-//! are nowhere negative and the same at walls; gradients jump at nodes, as for the linear basis.
+//! With xi from 0 to 1 across the cell: `(1 - xi)^2`, `2 xi (1 - xi)`, `xi^2`. The first and the
+//! last function belong to nodes of the grid, which neighbouring cells share, the second to the
+//! centre of the cell. They are non-negative and do not change at walls. Gradients jump at nodes,
+//! as for the linear basis.
 
 use super::contract::{Basis, Domain};
 use super::product::Product;

@@ -250,7 +250,8 @@ fn kept<const D: usize>(
 }
 
 fn says_what_it_keeps<const D: usize>() {
-    // Taylor least squares has columns for points of cells, of which no solver knows the number.
+    // Taylor least squares is excluded: the number of its points in cells does not follow from the
+    // number of particles.
     for method in methods().filter(|(_, transfer)| *transfer != TransferName::Tls) {
         for effects in [false, true] {
             let (few, many) = (kept::<D>(method, 20, effects), kept::<D>(method, 100, effects));

@@ -1,5 +1,5 @@
-//! The same set-up gives the same bits, whoever computes it, what else runs meanwhile, and if it is
-//! interrupted on the way.
+//! Equal set-ups give equal bits for any number of threads, with other runs at the same time, and
+//! after an interruption.
 
 use crate::common::columns::columns;
 use crate::common::interrupted::goes_on;
@@ -114,8 +114,8 @@ fn an_interrupted_run_gives_the_bits_of_a_whole_one(#[values(1, 2, 3)] dimension
     in_dimension!(dimension, every_method_goes_on());
 }
 
-/// Whatever goes together, in one dimension. Particles that see little of a node are inverted by a
-/// consistent mass matrix: such a run fails in the same step.
+/// All valid combinations, in one dimension. A consistent mass matrix inverts particles with little
+/// weight on a node: such a run fails in the same step.
 #[test]
 fn an_interrupted_run_of_any_combination_gives_the_bits_of_a_whole_one() {
     let mut ends = Vec::new();

@@ -123,7 +123,7 @@ fn added<T: PartialEq + Copy>(all: &[T], some: &[T]) -> Vec<T> {
     all.iter().filter(|one| !some.contains(one)).copied().collect()
 }
 
-/// Walls by the words of suites, each on the low face of the second axis.
+/// Names of walls in suites; each is on the low face of the second axis.
 const WALLS: [&str; 4] = ["fixed", "roller", "velocity", "friction"];
 
 fn wall(name: &str, grid: &Grid<2>) -> Box<dyn Boundary<2>> {
@@ -193,7 +193,8 @@ fn has_wall(suite: &str, name: &str) -> bool {
     plan.scene.faces.iter().any(|face| face.condition() == name)
 }
 
-/// The rows of docs/effects.md begin as `rows` say, and end with suites of which each `verifies`.
+/// Asserts that docs/effects.md has the `rows`, and that `verifies` returns true for every suite at
+/// the end of a row.
 fn are_on_the_page(rows: &[(&str, String)], verifies: impl Fn(&str, &str) -> bool) {
     let page = include_str!("../../docs/effects.md");
     for (name, row) in rows {
@@ -303,7 +304,7 @@ fn an_interrupted_run_at_any_wall_gives_the_bits_of_a_whole_one(
     assert!(goes_on(make, DT, &format!("{name} {scheme:?} {transfer:?}")));
 }
 
-/// Two bodies, of which one moves into the other.
+/// Two bodies that collide.
 #[rstest]
 fn an_interrupted_run_of_two_bodies_gives_the_bits_of_a_whole_one(
     #[values(None, Some(0.0), Some(0.3))] friction: Option<f64>,

@@ -1,5 +1,5 @@
-//! The corpora of the fuzzer, `tests/fuzz/corpus`, of what is neither a suite nor a step: inputs that
-//! reach new code or once failed.
+//! Runs the corpora of the fuzzer, `tests/fuzz/corpus`, except those of suites and steps: inputs
+//! that reach new code or failed in the past.
 
 #[path = "fuzz_input/compare_input.rs"]
 mod compare_input;

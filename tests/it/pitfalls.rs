@@ -61,8 +61,8 @@ fn p02_what_is_not_finite_fails(#[case] bad: f64) {
     }
 }
 
-/// Also the ninth: closeness to what was stored yesterday. The theory gate has no access to any
-/// stored figure: it judges the run at hand, whatever a snapshot beside it says.
+/// Pitfalls 3 and 9 (9: agreement with stored results is not correctness). The theory gate does not
+/// read stored figures: it judges the present run, independently of any snapshot.
 #[test]
 fn p03_p09_the_order_of_this_run_is_judged_and_no_stored_one() {
     let unmet = unmet("{order: [2.9, 3.1], because: a snapshot said so}");

@@ -1,4 +1,4 @@
-//! The schemas that the program prints, held to suites, good and bad.
+//! Tests of the printed schemas on valid and invalid suites.
 
 use crate::common::json_schema::JsonSchema;
 use mpm_verify::suite::yaml::{self, Diagnostic, Source};
@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 
 static SUITE: LazyLock<JsonSchema> = LazyLock::new(|| JsonSchema::new(&suite_schema()));
 
-/// Starts of complaints about a matter of shape, keys, types and names, and words of their labels.
+/// Beginnings of diagnostics about shape, keys, types and names, and parts of their labels.
 const SHAPE: [(&str, &str); 8] = [
     ("unknown key `", ""),
     ("unknown name `", "no name that is known here"),

@@ -1,10 +1,10 @@
-"""A second opinion on the solver in src/mpm: the method once more, from its equations.
+"""Independent implementation of the solver in src/mpm, written from the equations of the method.
 
     python3 tests/second_opinion/mpm.py [PROBLEM ...]
 
-runs the problems of problems.py and writes a file of numbers for each beside this one, to which
-tests/it/mpm/second_opinion.rs holds the solver. Functions are matrices of all particles by all nodes,
-so that a step is a few products: slow, and short enough to be read against the papers.
+runs the problems of problems.py and writes a file of numbers for each into this folder.
+tests/it/mpm/second_opinion.rs compares the solver with these files. Basis functions are matrices of all
+particles by all nodes, so that a step is a few products: slow, and short enough for comparison with the papers.
 
 FLIP with a lumped mass matrix: Sulsky, Chen & Schreyer (1994); Wobbes & Tielen (2015). GIMP:
 Bardenhagen & Kober (2004), with the domains of Wallstedt & Guilkey (2008). B-splines: Steffen,

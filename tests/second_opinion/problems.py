@@ -14,7 +14,7 @@ Array = npt.NDArray[np.float64]
 
 @dataclass
 class Problem:
-    """A body [0, body]^d (m) on a grid [0, grid]^d (m), and `room` in cells beyond its end."""
+    """A body [0, body]^d (m) on a grid [0, grid]^d (m), with `room` more cells at its end."""
 
     name: str
     levels: list[int]

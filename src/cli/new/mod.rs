@@ -23,10 +23,10 @@ pub(super) struct NewArgs {
     /// Dimension of space [default: 1]
     #[arg(long, value_name = "D", value_parser = ["1", "2", "3"])]
     dimension: Option<String>,
-    /// Material of the body [default: neo_hookean, or the one that goes with the truth]
+    /// Material of the body [default: neo_hookean, or the one for the exact solution]
     #[arg(long, value_enum)]
     material: Option<LawChoice>,
-    /// Exact solution [default: the one that goes with the material]
+    /// Exact solution [default: the one for the material]
     #[arg(long, value_enum)]
     truth: Option<TruthChoice>,
     /// Basis functions [default: quadratic_bspline]
@@ -38,14 +38,14 @@ pub(super) struct NewArgs {
     /// Time scheme [default: musl]
     #[arg(long)]
     scheme: Option<String>,
-    /// File to write; one that is there is left alone [default: NAME.yaml]
+    /// File to write; an existing file is not changed [default: NAME.yaml]
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
     format: FormatArgs,
 }
 
-/// Writes a suite, and says where it is and what comes next.
+/// Writes a suite, and prints its path and the next steps.
 pub(super) fn new(args: &NewArgs) -> Result<Status, CommandError> {
     let path = written(args)?.display().to_string();
     output::print(&if args.format.is_json() {
@@ -58,7 +58,7 @@ pub(super) fn new(args: &NewArgs) -> Result<Status, CommandError> {
 
 fn written(args: &NewArgs) -> Result<PathBuf, CommandError> {
     let path = args.output.clone().unwrap_or_else(|| format!("{}.yaml", args.name).into());
-    // Before any question; `save` makes sure.
+    // Checked before any question; `save` checks again.
     if path.exists() {
         return Err(in_the_way(&path));
     }
@@ -69,7 +69,7 @@ fn written(args: &NewArgs) -> Result<PathBuf, CommandError> {
     Ok(path)
 }
 
-/// All choices: those of the options, and the answers or defaults.
+/// All choices: options, and answers or defaults.
 fn choices(args: &NewArgs) -> Result<Choices, CommandError> {
     let law = law(args)?;
     let dimension = setting("dimension", args.dimension.as_ref(), vec!["1", "2", "3"], "1");
@@ -97,7 +97,7 @@ fn setting(
     NamedChoice { value, known }
 }
 
-/// The material, which settles the truth.
+/// The material, which determines the exact solution.
 fn law(args: &NewArgs) -> Result<LawChoice, CommandError> {
     if let (Some(law), Some(truth)) = (args.material, args.truth)
         && law.truth() != truth
@@ -126,8 +126,8 @@ fn law(args: &NewArgs) -> Result<LawChoice, CommandError> {
     LawChoice::from_str(&answer, false).map_err(CommandError::Message)
 }
 
-/// Loads the suite. Where an option is to blame, the diagnostic shows that, not a file that is not
-/// there.
+/// Loads the suite. If an option causes the error, the diagnostic shows the option, not a file that
+/// does not exist.
 fn load(choices: &Choices, path: &Path, text: &str) -> Result<Suite, Diagnostic> {
     let name = format!("{} (not written)", path.display());
     let loaded = Source::from_text(name, text).and_then(|source| Suite::load(&source));
@@ -152,7 +152,7 @@ fn at_its_option(choices: &Choices, text: &str, diagnostic: &Diagnostic) -> Opti
     Some(moved.with_label(label.unwrap_or_default()).with_help(help.unwrap_or_default()))
 }
 
-/// Writes a new file; one that has come meanwhile stays as it is.
+/// Writes a new file; a file that was created in the meantime is not changed.
 fn save(path: &Path, text: &str) -> Result<(), CommandError> {
     let written = File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
     written.map_err(|error| match error.kind() {
@@ -168,18 +168,18 @@ fn in_the_way(path: &Path) -> CommandError {
     ))
 }
 
-/// A choice that no option has made.
+/// A choice without an option.
 struct Question<'a> {
     /// Subject of the question.
     what: &'a str,
     choices: &'a [&'a str],
-    /// The choice that an empty answer stands for.
+    /// The choice for an empty answer.
     default: &'a str,
 }
 
 impl Question<'_> {
-    /// The answer on standard input if that is a terminal; the default otherwise, and where there
-    /// is nothing to choose.
+    /// The answer on standard input, if it is a terminal; otherwise, or without alternatives, the
+    /// default.
     fn ask(&self) -> String {
         let input = std::io::stdin();
         if self.choices.len() < 2 || !input.is_terminal() {
@@ -188,7 +188,7 @@ impl Question<'_> {
         self.ask_on(&mut input.lock(), &mut std::io::stderr())
     }
 
-    /// Asks until one of the choices is named; an empty line, or the end of input, takes the
+    /// Asks until an answer is one of the choices; an empty line, or the end of input, selects the
     /// default.
     fn ask_on(&self, input: &mut impl BufRead, out: &mut impl Write) -> String {
         let Self { what, choices, default } = self;

@@ -21,7 +21,7 @@ pub(in crate::cli) enum LawChoice {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 #[value(rename_all = "snake_case")]
 pub(in crate::cli) enum TruthChoice {
-    /// A stated motion along the axes, and the body force that it takes
+    /// A stated motion along the axes, with its manufactured body force
     Manufactured,
     /// A standing wave of small strain
     StandingWave,
@@ -82,7 +82,7 @@ pub(super) struct NamedChoice {
 }
 
 /// Variables of the templates that depend on the dimension. Levels run within seconds, in 3-D the
-/// coarse ones only; steps divide the time between instants. The motion has another phase along
+/// coarse ones only; steps divide the time between instants. The motion has a different phase along
 /// each axis, so that some parts are stretched while others are compressed.
 const SHAPES: [[(&str, &str); 9]; 3] = [
     [
@@ -126,7 +126,7 @@ const SHAPES: [[(&str, &str); 9]; 3] = [
     ],
 ];
 
-/// The suite, with a comment for each key; `path` is where it will be.
+/// The suite, with a comment for each key; `path` is its file.
 pub(super) fn text(choices: &Choices, path: &Path) -> String {
     let Choices { name, dimension, law, basis, transfer, scheme } = choices;
     let [bar, square, cube] = &SHAPES;
@@ -157,7 +157,7 @@ pub(super) fn text(choices: &Choices, path: &Path) -> String {
     substitute(&[problem, METHOD].concat(), &[&chosen, shape.as_slice()].concat())
 }
 
-/// The template with the value of each `$variable` in its place. Values may contain `$`.
+/// The template with the value of each `$variable` inserted. Values may contain `$`.
 fn substitute(template: &str, values: &[(&str, &str)]) -> String {
     let mut parts = template.split('$');
     let mut text = parts.next().unwrap_or_default().to_owned();

@@ -13,12 +13,12 @@ pub(in crate::cli) struct RunArgs {
     /// Cases whose name contains this
     #[arg(long, value_name = "TEXT")]
     pub(super) case: Option<String>,
-    /// One of N parts of the cases, of about the same predicted cost; `merge` reports the folders
-    /// that the parts keep with `--resume`
+    /// Run one of N parts of the cases, of about equal predicted cost; `merge` reports the results
+    /// that the parts store with `--resume`
     #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
     pub(super) shard: Option<Shard>,
-    /// Keep finished levels in this folder, and take from it those that are there: an interrupted
-    /// run goes on with the levels that are not done
+    /// Store finished levels in this folder, and reuse stored levels: an interrupted run continues
+    /// with the remaining levels
     #[arg(long, value_name = "DIR")]
     pub(super) resume: Option<PathBuf>,
     /// Run each level N times (2 or more), in a new process if a solver of `--solver` runs it, and
@@ -26,9 +26,9 @@ pub(in crate::cli) struct RunArgs {
     /// not count for the order
     #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
     pub(super) repeat: Option<usize>,
-    /// Write particles and grid over time into this folder, as files for ParaView, of the cases
-    /// that did not come as expected, or of those that `--case` chooses: on the first level that
-    /// broke, or on the finest
+    /// Write particles and grid over time into this folder, as files for ParaView: for cases with
+    /// unexpected results, or for those that `--case` selects, on the first level that failed, or
+    /// on the finest
     #[arg(long, value_name = "DIR")]
     pub(super) vtu: Option<PathBuf>,
     #[command(flatten)]
@@ -45,8 +45,7 @@ pub(in crate::cli) struct ReportArgs {
     pub(super) format: RunFormat,
     #[command(flatten)]
     pub(super) print: PrintArgs,
-    /// Run the finer levels too that suites list under `full`: takes hours where the others take
-    /// seconds
+    /// Also run the finer levels that suites list under `full`: hours instead of seconds
     #[arg(long)]
     pub(super) full: bool,
     /// Write reports, JSON, CSV, LaTeX tables and figures (SVG, and source for PGFPlots) into this
@@ -56,7 +55,7 @@ pub(in crate::cli) struct ReportArgs {
     /// Title of the suite in figures and LaTeX tables
     #[arg(long, value_name = "TEXT")]
     pub(super) title: Option<String>,
-    /// Text for a case in figures and LaTeX tables in place of its name; once for each case
+    /// Text for a case in figures and LaTeX tables in place of its name; repeatable
     #[arg(long, value_name = "CASE=TEXT")]
     pub(super) label: Vec<CaseLabel>,
     /// Write the results as JUnit XML into this file, one test for each case
@@ -87,21 +86,21 @@ pub(super) enum RunFormat {
 /// Arguments for the extent of the printed text.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct PrintArgs {
-    /// Print every report. Without this: the reports of up to five suites that are named; of more,
-    /// or of all, an overview and the cases that did not come as expected
+    /// Print every report [default: the reports of up to five named suites; otherwise an overview
+    /// and the cases with unexpected results]
     #[arg(long, conflicts_with_all = ["brief", "quiet"])]
     pub(super) reports: bool,
     /// Print one line for each case only, not the reports
     #[arg(long, conflicts_with = "quiet")]
     pub(super) brief: bool,
-    /// Print only the cases that did not come as expected, and no progress
+    /// Print only the cases with unexpected results, and no progress
     #[arg(long, short)]
     pub(super) quiet: bool,
 }
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct MergeArgs {
-    /// A folder that a part of the run kept with `--resume`; once for each
+    /// A folder of one part of the run, from `--resume`; repeatable
     #[arg(long, value_name = "DIR", required = true)]
     pub(super) from: Vec<PathBuf>,
     #[command(flatten)]
@@ -120,8 +119,8 @@ pub(in crate::cli) struct JudgedSolverArgs {
     pub(super) with_methods: bool,
     #[command(flatten)]
     pub(super) limits: SolverLimitArgs,
-    /// Require of each case of the solver of `--solver` the order that theory gives it, or errors
-    /// within the bounds of the suite; exit status 1 unless every case passes or is excepted
+    /// Require the theoretical order, or errors within the bounds of the suite, of each case of the
+    /// solver of `--solver`; exit status 1 unless every case passes or is excepted
     #[arg(long, requires = "solver")]
     pub(super) gate: bool,
     /// Formal order of the solver, and orders, bounds and exceptions for single suites (YAML)

@@ -16,7 +16,7 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// Makes the folder of `--out`, before hours are spent on what cannot be written.
+/// Creates the folder of `--out` before the run, so that an invalid path fails early.
 pub(super) fn prepare_out(folder: &Path) -> Result<(), CommandError> {
     fs::create_dir_all(folder).map_err(|error| unwritable("--out", folder, &error))
 }
@@ -48,8 +48,7 @@ pub(super) fn write_out(
     every_file().map_err(|error| unwritable("--out", folder, &error))
 }
 
-/// Makes the folder of a file that `option` names, before hours are spent on what cannot be
-/// written.
+/// Creates the folder of the file of `option` before the run, so that an invalid path fails early.
 pub(super) fn prepare_file(option: &str, file: &Path) -> Result<(), CommandError> {
     if file.is_dir() {
         return Err(unwritable(option, file, &"this is a folder"));
@@ -59,7 +58,7 @@ pub(super) fn prepare_file(option: &str, file: &Path) -> Result<(), CommandError
     made.map_err(|error| unwritable(option, file, &error))
 }
 
-/// Writes the results as JUnit XML; suites of `required` fail where they are not tested.
+/// Writes the results as JUnit XML; untested suites of `required` fail.
 pub(super) fn write_junit(
     file: &Path,
     outcomes: &[SuiteOutcome],
@@ -69,8 +68,8 @@ pub(super) fn write_junit(
     fs::write(file, text).map_err(|error| unwritable("--junit", file, &error))
 }
 
-/// Writes the page; suites and outcomes are in the order of their sources, without those that were
-/// refused or left out.
+/// Writes the page; suites and outcomes are in the order of their sources, without refused or
+/// skipped ones.
 pub(super) fn write_page(
     file: &Path,
     sources: &[Source],
@@ -96,22 +95,22 @@ pub(super) fn write_page(
     fs::write(file, page::page(&parts, refused)).map_err(|error| unwritable("--html", file, &error))
 }
 
-/// Cases that are shown, and where.
+/// Cases for output, and its folder.
 pub(super) struct Series {
     folder: PathBuf,
-    /// Whether all cases of the run are shown, and not only those that are not as expected.
+    /// Whether all cases of the run are shown, or only unexpected ones.
     all: bool,
 }
 
 impl Series {
-    /// Makes the folder, before hours are spent on what cannot be written.
+    /// Creates the folder before the run, so that an invalid path fails early.
     pub(super) fn prepare(folder: &Path, all: bool) -> Result<Self, CommandError> {
         let folder = folder.to_owned();
         fs::create_dir_all(&folder).map_err(|error| unwritable("--vtu", &folder, &error))?;
         Ok(Self { folder, all })
     }
 
-    /// Writes the time series of the cases of a suite that are shown, and says where they are.
+    /// Writes the time series of the shown cases of a suite, and prints their paths.
     pub(super) fn write(
         &self,
         runner: &Runner<'_>,

@@ -1,4 +1,4 @@
-//! `run --gate` and `--solver-config`: the terms that a solver must meet, and whether it passes.
+//! `run --gate` and `--solver-config`: the requirements of a solver, and whether it passes.
 
 use super::args::JudgedSolverArgs;
 use crate::cli::{output, select, solver};
@@ -13,18 +13,18 @@ use std::path::Path;
 
 /// The gate of a run.
 pub(super) struct SolverGate {
-    /// Suites that the command line names one by one.
+    /// Suites that the command line names individually.
     named: BTreeSet<String>,
     /// Whether these may be not applicable.
     allows_not_applicable: bool,
-    /// Suites that no external solver can take.
+    /// Suites that no external solver can run.
     left_out: Vec<String>,
 }
 
-/// The suites with the solver in place of their methods, and the gate if there is one.
+/// The suites with the solver in place of their methods, and the gate, if any.
 ///
 /// # Errors
-/// The first mistake in the configuration file.
+/// The first error in the configuration file.
 pub(super) fn prepare(
     suites: Vec<Suite>,
     program: &SolverProgram,
@@ -47,8 +47,8 @@ impl SolverGate {
         if self.allows_not_applicable { BTreeSet::new() } else { self.named.clone() }
     }
 
-    /// Prints the exceptions, and what keeps the solver from passing besides cases that fail;
-    /// returns whether nothing does.
+    /// Prints the exceptions, and reasons other than failed cases why the solver does not pass.
+    /// Returns whether there are no such reasons.
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {
         for (suite, case) in cases(outcomes) {
             if case.exemption == Some(Exemption::Excepted) {
@@ -122,7 +122,7 @@ impl SolverConfig {
     /// Reads the file, for a run of `suites`.
     ///
     /// # Errors
-    /// The first mistake in it, with its place.
+    /// The first error in the file, with its place.
     fn read(file: &Path, suites: &[Suite]) -> Result<Self, Diagnostic> {
         let source = Source::read(file)?;
         let spec: ConfigSpec = read(&source)?;
@@ -140,7 +140,7 @@ impl SolverConfig {
         Ok(Self { formal_order: spec.formal_order, suites: checked })
     }
 
-    /// The terms for a suite: those of the first entry that fits its name or its group.
+    /// The terms for a suite: those of the first entry that matches its name or its group.
     fn terms(&self, suite: &Suite) -> GateTerms {
         let in_group = format!("{}/{}", suite.group, suite.name);
         let names = [&suite.name, &suite.group, &in_group];

@@ -30,7 +30,7 @@ pub(super) fn run(args: &RunArgs) -> Result<Status, CommandError> {
     report(&args.report, |suites| chosen(args, suites))
 }
 
-/// Reports what the parts of a run have found, as one run of all would.
+/// Reports the results of the parts of a run like those of a single run.
 pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
     let parts = ResultCache::of_parts(&args.from)
@@ -74,8 +74,8 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
     Ok((runs, Judging { kept, solvers, repeat, series, at_interrupt }))
 }
 
-/// Runs suites one after the other, each in parallel; whatever has been finished is printed, also
-/// if something later cannot be used.
+/// Runs suites one after the other, each in parallel. Reports of finished suites are printed, also
+/// if a later file cannot be used.
 fn report(
     args: &ReportArgs,
     choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError>,
@@ -92,7 +92,7 @@ fn report(
     let (runs, judging) = choose(suites)?;
     labels::check(args, &runs)?;
     let suites: Vec<Suite> = runs.iter().map(|runs| runs.suite().clone()).collect();
-    // Suites without a selected case are left out, and the others keep their order.
+    // Suites without a selected case are skipped; the order of the others does not change.
     let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);
     let sources = names.into_iter().zip(sources).filter(is_chosen);
     let sources: Vec<Source> = sources.map(|(_, source)| source).collect();
@@ -211,14 +211,14 @@ struct Judging {
     solvers: Vec<JudgedSolver>,
     /// Number of runs of each level.
     repeat: usize,
-    /// Cases to be shown as files for ParaView.
+    /// Cases to be written as files for ParaView.
     series: Option<Series>,
-    /// Note to who ends it by Ctrl-C.
+    /// Hint printed on Ctrl-C.
     at_interrupt: Option<String>,
 }
 
 impl Judging {
-    /// Results that are there.
+    /// Results from the cache.
     fn of_kept(kept: ResultCache) -> Self {
         let (solvers, repeat) = (Vec::new(), 1);
         Self { kept: Some(kept), solvers, repeat, series: None, at_interrupt: None }
@@ -250,7 +250,7 @@ fn one(
     let warn = |warning: &StepWarning| {
         bar.suspend(|| output::complain(&format!("warning: {}", warning.text)));
     };
-    // Steps that are too long may be what a suite is about: then what comes is expected of them.
+    // A suite may study steps that are too long: then its expectations cover the result.
     let (later, now): (Vec<_>, Vec<_>) =
         runner.warnings().into_iter().partition(|one| one.is_too_long && !suite.explores());
     for warning in &now {

@@ -1,4 +1,4 @@
-//! Printed text of a run, and when it is printed.
+//! Printed text of a run, and the time of printing.
 
 use super::args::{ReportArgs, RunFormat};
 use super::labels::labelled;
@@ -24,14 +24,14 @@ pub(super) enum Printing {
     Reports,
     /// One line for each case.
     Verdicts,
-    /// The overview, and the cases that did not come as expected.
+    /// The overview, and the cases with unexpected results.
     Overview,
-    /// The cases that did not come as expected.
+    /// The cases with unexpected results.
     Unexpected,
 }
 
 impl Printing {
-    /// The extent that the options ask for, of so many suites.
+    /// The extent that the options request, for `suites` suites.
     pub(super) fn of(args: &ReportArgs, suites: usize) -> Self {
         let few_are_named = !args.targets.targets.is_empty() && suites <= FEW;
         match args.format {
@@ -45,14 +45,14 @@ impl Printing {
         }
     }
 
-    /// Prints what there is to say of a suite as soon as it has ended.
+    /// Prints the output for a suite as soon as it has ended.
     pub(super) fn of_suite(self, outcome: &SuiteOutcome) {
         if self == Self::Reports {
             output::print(&format!("{}\n", report::text(outcome)));
         }
     }
 
-    /// Prints what there is to say in the end.
+    /// Prints the output at the end.
     pub(super) fn of_all(self, args: &ReportArgs, sources: &[Source], outcomes: &[SuiteOutcome]) {
         match self {
             Self::Json => output::print(&report::json(outcomes)),
@@ -69,7 +69,7 @@ impl Printing {
     }
 }
 
-/// The cases that did not come as expected, in full, below the names of their suites.
+/// The full reports of cases with unexpected results, below the names of their suites.
 fn unexpected(outcomes: &[SuiteOutcome]) -> String {
     let mut text = String::new();
     for outcome in outcomes.iter().filter(|outcome| !outcome.passed()) {
@@ -81,7 +81,7 @@ fn unexpected(outcomes: &[SuiteOutcome]) -> String {
     text
 }
 
-/// One line that says where the reports are.
+/// One line with the places of the reports.
 fn place(args: &ReportArgs, sources: &[Source]) -> String {
     if let Some(folder) = &args.out {
         return format!("reports: {}", folder.join("SUITE.txt").display());

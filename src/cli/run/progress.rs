@@ -1,5 +1,5 @@
-//! The progress of a run on standard error, where that is a terminal: levels, and the time left by
-//! the cost model.
+//! The progress of a run on standard error, if this is a terminal: levels, and the remaining time
+//! by the cost model.
 
 use crate::cli::output;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -12,10 +12,10 @@ use std::time::Instant;
 /// Exit status of a program that Ctrl-C ends.
 const INTERRUPTED: i32 = 130;
 
-/// Share of the predicted time after which there is a time left.
+/// Share of the predicted time after which a remaining time is shown.
 const ENOUGH: f64 = 0.02;
 
-/// Progress of the suites of a run, one after the other.
+/// Progress of the suites of a run, in order.
 pub(super) struct RunProgress {
     bar: ProgressBar,
     state: Mutex<ProgressState>,
@@ -23,7 +23,7 @@ pub(super) struct RunProgress {
 
 struct ProgressState {
     suite: String,
-    /// Predicted seconds of the units of this suite that are left, the longest first.
+    /// Predicted seconds of the remaining units of this suite, in decreasing order.
     units: Vec<f64>,
     /// Predicted seconds of the units that are done, and of all.
     done: f64,
@@ -32,7 +32,7 @@ struct ProgressState {
 }
 
 impl RunProgress {
-    /// A bar for all levels of `suites`, hidden if it is to be quiet.
+    /// A bar for all levels of `suites`, hidden in quiet mode.
     pub(super) fn over<'a>(
         suites: impl Iterator<Item = &'a Suite> + Clone,
         extent: Extent,
@@ -101,8 +101,8 @@ impl ProgressState {
     }
 }
 
-/// The time left after so many `seconds`, in which `done` of `all` predicted ones were done; none
-/// as long as there is little to tell it from.
+/// The remaining time after `seconds`, in which `done` of `all` predicted seconds were completed;
+/// `None` as long as the estimate is unreliable.
 fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
     if !(done > ENOUGH * all && seconds > 1.0) {
         return None;
@@ -115,7 +115,7 @@ fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
     })
 }
 
-/// How to go on with the run of this command line, whose results are kept or not.
+/// Text on how to resume the run of this command line, with or without stored results.
 pub(super) fn interrupt_note(kept: bool) -> String {
     let words: Vec<String> = std::env::args().skip(1).collect();
     note_of(&words, kept)
@@ -137,7 +137,7 @@ fn note_of(words: &[String], kept: bool) -> String {
     }
 }
 
-/// The word as a shell reads it.
+/// The argument, quoted for a shell.
 fn quoted(word: &str) -> Cow<'_, str> {
     shlex::try_quote(word).unwrap_or(word.into())
 }

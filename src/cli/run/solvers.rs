@@ -9,7 +9,7 @@ use mpm_verify::study::Shard;
 use mpm_verify::suite::{Extent, Suite};
 use std::collections::BTreeSet;
 
-/// A solver that has been greeted, and what is required of it.
+/// A started solver, and its requirements.
 pub(super) struct JudgedSolver {
     pub(super) program: SolverProgram,
     pub(super) gate: Option<SolverGate>,
@@ -18,7 +18,7 @@ pub(super) struct JudgedSolver {
 /// Starts all solvers of the command line.
 ///
 /// # Errors
-/// One cannot be used, or their names do not tell them apart.
+/// If a solver cannot be used, or if their names are not unique.
 pub(super) fn greeted(args: &JudgedSolverArgs) -> Result<Vec<JudgedSolver>, CommandError> {
     let mut names = BTreeSet::new();
     for one in &args.solver {
@@ -44,14 +44,14 @@ pub(super) fn greeted(args: &JudgedSolverArgs) -> Result<Vec<JudgedSolver>, Comm
 
 /// A suite as it runs: with its own methods, with each solver, or both.
 pub(super) struct SuiteRuns {
-    /// The suite, and the number of the solver that runs it, if it is not run by its methods.
+    /// The suite, and the index of the solver that runs it, if it is not run by its methods.
     parts: Vec<SuitePart>,
 }
 
 /// A suite with the methods, or the solver, that run it.
 pub(super) struct SuitePart {
     pub(super) suite: Suite,
-    /// Number of the solver; none for the suite's own methods.
+    /// Index of the solver; `None` for the methods of the suite.
     pub(super) solver: Option<usize>,
 }
 
@@ -62,11 +62,10 @@ impl SuiteRuns {
         suites.into_iter().map(|suite| Self { parts: vec![part(suite)] }).collect()
     }
 
-    /// The suites with each solver, gated if the command line says so. Suites that no solver can
-    /// take are left out.
+    /// The suites with each solver, gated if requested. Suites that no solver can run are skipped.
     ///
     /// # Errors
-    /// A mistake in the configuration of the gate.
+    /// An error in the configuration of the gate.
     pub(super) fn of_solvers(
         suites: &[Suite],
         solvers: &mut [JudgedSolver],
@@ -76,7 +75,7 @@ impl SuiteRuns {
         let mut all: Vec<(String, Vec<SuitePart>)> =
             suites.iter().map(|suite| (suite.name.clone(), Vec::new())).collect();
         let mut put = |suite: Suite, solver: Option<usize>| {
-            // Two suites may have the same name; they come in their order.
+            // Two suites may have the same name; they are matched in order.
             let is_free = |(name, parts): &&mut (String, Vec<SuitePart>)| {
                 *name == suite.name && parts.last().is_none_or(|part| part.solver != solver)
             };
@@ -100,7 +99,7 @@ impl SuiteRuns {
         Ok(all.into_iter().filter(has_parts).map(|(_, parts)| Self { parts }).collect())
     }
 
-    /// The cases with a name that `is_chosen`; nothing if there is none.
+    /// The cases with a name for which `is_chosen` returns true; `None` if there is no such case.
     pub(super) fn only(self, is_chosen: impl Fn(&str) -> bool) -> Option<Self> {
         let part = |SuitePart { suite, solver }: SuitePart| {
             let names = suite.case_names();
@@ -112,7 +111,7 @@ impl SuiteRuns {
         (!parts.is_empty()).then_some(Self { parts })
     }
 
-    /// The part of the cases that `shard` has, where each suite runs in one way only.
+    /// The cases in `shard`; each suite must run in one way only.
     pub(super) fn shard(runs: Vec<Self>, shard: Shard, extent: Extent) -> Vec<Self> {
         let solver = runs.iter().find_map(|runs| runs.parts[0].solver);
         let suites: Vec<Suite> = runs.into_iter().map(|runs| runs.suite().clone()).collect();

@@ -12,8 +12,8 @@ use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 use std::cell::Cell;
 
-/// Every face of the body, at random points and times: returns what is left of its tractions, the
-/// largest relative to the stress.
+/// Checks every face of the body at random points and times. Returns the largest residual of the
+/// tractions, relative to the stress.
 pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     let left = Cell::new(0.0);
     let mut random = Random::new(3);

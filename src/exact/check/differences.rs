@@ -6,8 +6,8 @@ use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::violation::Violation;
 
-/// Relative agreement asked of automatic differentiation and finite differences. Differences of
-/// second order with the steps below reach about 1e-6.
+/// Maximum relative difference between automatic differentiation and finite differences.
+/// Differences of second order with the steps below reach about 1e-6.
 pub(crate) const DIFFERENCE_TOLERANCE: f64 = 1e-4;
 
 /// Number of places at which derivatives are compared.
@@ -26,8 +26,8 @@ pub(crate) fn step(extent: f64, largest: &[f64]) -> f64 {
     scales.filter(|scale| *scale > 0.0).fold(STEP * extent, f64::min)
 }
 
-/// Runs `check` at some of `events`. A kink (a wave front) within a step of an event is no error:
-/// a violation counts only if it occurs at three events in succession.
+/// Runs `check` at some of `events`. A kink (a wave front) within a step of an event is not an
+/// error: a violation counts only if it occurs at three successive events.
 pub(crate) fn away_from_kinks<'a>(
     events: impl ExactSizeIterator<Item = &'a Event>,
     check: impl Fn(&Event) -> Result<(), Violation>,
@@ -65,8 +65,8 @@ fn differences(problem: &Problem, event: &Event, sizes: &Magnitudes) -> Result<(
         let allowed = DIFFERENCE_TOLERANCE * speed;
         let slope = (high - low) / (2.0 * step);
         event.judge(allowed, name.clone(), (slope, all.velocity[i]), "m/s")?;
-        // The second difference loses digits: u is divided by step^2, and is known to 1e-16 of its
-        // own terms, such as the coordinates in X*(cos(w*t) - 1).
+        // The second difference loses digits: u is divided by step^2, and its rounding error is
+        // 1e-16 of its own terms, such as the coordinates in X*(cos(w*t) - 1).
         let known = 1e-13 * (low.abs() + mid.abs() + high.abs()) + 1e-15 * largest_coordinate;
         let rounding = known / (step * step);
         let allowed = DIFFERENCE_TOLERANCE * acceleration + rounding;

@@ -29,7 +29,7 @@ impl Event {
         Err(self.violation(condition, Some(expected), found, Some(allowed), unit))
     }
 
-    /// Whether `found` is at most `most`, but for what is allowed.
+    /// Whether `found` exceeds `most` by at most `allowed`.
     pub(crate) fn judge_most(
         &self,
         allowed: f64,
@@ -87,8 +87,8 @@ pub(crate) struct SpaceTimeBox<'a> {
 }
 
 impl SpaceTimeBox<'_> {
-    /// At most `count` events, each at a random place of one cell of a regular raster. Axes of no
-    /// extent, and axes along which nothing `varies`, are not divided.
+    /// At most `count` events, each at a random place of one cell of a regular raster. Axes of zero
+    /// length, and axes along which nothing `varies`, are not divided.
     pub(crate) fn spread(
         &self,
         count: usize,

@@ -1,7 +1,7 @@
-//! Coulomb friction on a face, checked at a point: the wall presses and does not pull, the face
-//! keeps to it, and what slides is resisted by mu times the pressure.
+//! Coulomb friction on a face, checked at a point: the wall exerts pressure but no tension, the
+//! face does not penetrate it, and sliding is resisted by mu times the pressure.
 //!
-//! Forces are those on the reference area, which is the same on both sides of Coulomb's law.
+//! Forces are per reference area, which cancels in Coulomb's law.
 
 use super::event::{AXES, Event};
 use crate::exact::condition::Face;
@@ -9,8 +9,8 @@ use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::violation::Violation;
 
-/// Holds the motion `now` of a point of `face` against a wall with a coefficient of friction.
-/// Residuals are compared with the sizes of displacement (m), velocity (m/s) and stress (Pa).
+/// Checks the motion `now` of a point of `face` at a wall with a coefficient of friction. Residuals
+/// are compared with the sizes of displacement (m), velocity (m/s) and stress (Pa).
 ///
 /// # Errors
 /// The first violation.
@@ -43,19 +43,19 @@ pub(crate) fn at_wall(
 pub(crate) struct InterfaceTraction {
     /// On the surface in question (Pa).
     pub(crate) traction: [f64; 3],
-    /// Of that surface, relative to the other (m/s).
+    /// Velocity of this surface relative to the other (m/s).
     pub(crate) velocity: [f64; 3],
     /// Between them (Pa).
     pub(crate) pressure: f64,
-    /// Of friction.
+    /// Coefficient of friction.
     pub(crate) coefficient: f64,
 }
 
-/// Coulomb's law on a surface with its normal along `axis`, up to the residuals that are allowed of
-/// stress (Pa) and velocity (m/s).
+/// Checks Coulomb's law on a surface with its normal along `axis`, up to tolerances of stress (Pa)
+/// and velocity (m/s).
 ///
 /// # Errors
-/// Where the traction along the surface is not that of friction.
+/// If the traction along the surface does not follow Coulomb's law.
 pub(crate) fn coulomb(
     event: &Event,
     axis: usize,
@@ -93,7 +93,7 @@ mod tests {
     use std::sync::Arc;
 
     /// A layer of height 1 under gravity (3, -4), with shear modulus 100, density 1 and lambda = 0,
-    /// that the wall holds or slows by friction: shear and pressure grow towards it.
+    /// which sticks to the wall or is slowed by friction: shear and pressure grow towards it.
     fn layer(coefficient: f64, [x, y]: [&str; 2]) -> Problem {
         let bind = |text: &str, names: &[&str]| {
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), names).unwrap()
@@ -127,7 +127,7 @@ mod tests {
 
     /// Under its own weight: the pressure at the wall is 4.
     const SETTLED: &str = "4/200*(Y^2/2 - Y)";
-    /// mu = 1/2 takes 2 of the 3 that pull it along.
+    /// Friction with mu = 1/2 compensates 2 of the 3 that act along the wall.
     const SLIDES: &str = "t^2/2 - 2/100*(Y^2/2 - Y)";
     const STAYS: &str = "-3/100*(Y^2/2 - Y)";
 

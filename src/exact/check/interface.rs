@@ -1,8 +1,8 @@
 //! Two bodies face to face, checked at points of the faces.
 //!
-//! Bodies that share one velocity field are one: displacement and traction go on across the faces.
-//! Bodies in contact do not enter each other and do not pull; they push only where they touch, with
-//! equal and opposite tractions, and what slides is resisted by friction.
+//! Bodies with one velocity field are bonded: displacement and traction are continuous across
+//! common faces. Bodies in contact do not penetrate each other and have no tension; pressure acts
+//! only where they touch, with equal and opposite tractions, and sliding is resisted by friction.
 //!
 //! One formula may describe several bodies and jump where they meet. The motion at the face is
 //! therefore a one-sided limit: its expansion about a point a billionth of the length inside.
@@ -16,7 +16,7 @@ use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
-/// The condition on a face where another body is; [`meets`] holds the two against each other.
+/// The condition on a face next to another body, which [`meets`] checks on both bodies.
 #[derive(Debug)]
 pub struct Interface;
 

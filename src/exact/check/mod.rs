@@ -26,7 +26,7 @@ impl Problem {
         self.check_with(&Survey::new(self))
     }
 
-    /// Checks the motion as [`check`](Self::check) does, with a `survey` that shares its magnitudes
+    /// Checks the motion like [`check`](Self::check), with a `survey` that shares its magnitudes
     /// with those of other bodies.
     ///
     /// # Errors
@@ -36,16 +36,16 @@ impl Problem {
         pointwise::initial(self, survey)?;
         boundary::boundary(self, survey)?;
         boundary::driven(self, survey)?;
-        pointwise::traction_free_rims(self, survey)?;
+        pointwise::tractions_on_rims(self, survey)?;
         pointwise::monotone_loading(self, survey)?;
         differences::differentiation(self, survey)?;
         pointwise::equation(self, survey)?;
         weak::momentum(self, survey)
     }
 
-    /// Residual of the conditions that the law enters, relative to their terms: the equation of
-    /// motion, tractions on faces and rims. NaN where another condition is violated, or this is no
-    /// number.
+    /// Residual of the conditions with the law, relative to their terms: the equation of motion,
+    /// tractions on faces and rims. NaN if another condition is violated, or if the residual is not
+    /// finite.
     pub fn residual(&self) -> f64 {
         let problems =
             if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies };
@@ -53,7 +53,7 @@ impl Problem {
         let each = problems.iter().zip(&surveys).map(|(problem, survey)| {
             let any = Linearised { tolerance: f64::INFINITY, because: String::new() };
             let loose = Self { linearised: Some(any), ..problem.clone() };
-            let left = [boundary::boundary, pointwise::traction_free_rims, pointwise::equation]
+            let left = [boundary::boundary, pointwise::tractions_on_rims, pointwise::equation]
                 .map(|left| left(&loose, survey));
             greatest(left.into_iter().map(|left| left.unwrap_or(f64::NAN)))
         });

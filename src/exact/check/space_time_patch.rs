@@ -5,11 +5,11 @@ use crate::exact::random::Random;
 
 /// The largest densities of the terms of a balance.
 pub(crate) struct Densities {
-    /// Of what is stored.
+    /// Density of the stored quantity.
     pub(crate) stored: f64,
-    /// Of what flows.
+    /// Density of the flux.
     pub(crate) flow: f64,
-    /// Of what is supplied.
+    /// Density of the supply.
     pub(crate) supply: f64,
 }
 
@@ -29,7 +29,7 @@ impl SpaceTimePatch {
         self.centre.len() - 1
     }
 
-    /// A patch in a box, of a run until `until` (s), none longer than `longest` (s).
+    /// A patch in a box, for a run until `until` (s), with a duration of at most `longest` (s).
     pub(crate) fn in_box(
         random: &mut Random,
         from: &[f64],
@@ -43,8 +43,8 @@ impl SpaceTimePatch {
         Self::over(random, centre, half, until, longest)
     }
 
-    /// A patch over a place, its middle and its half-lengths (m), of a run until `until` (s), none
-    /// longer than `longest` (s).
+    /// A patch around a place, with its middle and half-lengths (m), for a run until `until` (s),
+    /// with a duration of at most `longest` (s).
     pub(super) fn over(
         random: &mut Random,
         mut centre: Vec<f64>,
@@ -138,13 +138,13 @@ impl SpaceTimePatch {
 
 /// Points of the midpoint rule on a patch.
 pub(crate) struct Raster {
-    /// Those in space, the first axis running fastest.
+    /// Points in space, one coordinate per axis, with the first axis varying fastest.
     pub(crate) points: Vec<Vec<AxisPoint>>,
-    /// Those in time, for each of them.
+    /// Points in time, the same for each point in space.
     pub(crate) times: Vec<AxisPoint>,
 }
 
-/// A point on one axis of a patch: where, and the factor of phi that belongs to this axis, with its
+/// A point on one axis of a patch: its position, and the factor of phi for this axis with its
 /// derivative.
 #[derive(Clone, Copy)]
 pub(crate) struct AxisPoint {
@@ -171,7 +171,7 @@ pub(crate) fn bump(points: &[AxisPoint]) -> (f64, [f64; 4]) {
     (factors(points.len()), slope)
 }
 
-/// Middle and half-length of a random part of an interval, none longer than `longest`.
+/// Middle and half-length of a random part of an interval, at most `longest` long.
 fn interval(random: &mut Random, low: f64, high: f64, longest: f64) -> (f64, f64) {
     let width = (high - low).min(longest) * random.between(0.2, 1.0);
     let start = low + (high - low - width) * random.unit();

@@ -1,16 +1,16 @@
-//! Places and times at which a problem is checked, and the largest terms that occur there.
+//! Places and times of the checks of a problem, and the largest terms there.
 //!
 //! Events are spread evenly over the body and the run. If terms are large in a small part of them,
 //! there are more events, and others close to those with the largest terms, so that a pulse much
 //! narrower than the body is resolved. A residual is compared with the largest term of the whole
-//! survey: far away from a pulse all terms are rounding.
+//! survey: far from a pulse all terms are rounding errors.
 
 use super::event::{BROAD, EVENTS, Event, FACE_EVENTS, SpaceTimeBox, greatest, largest};
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 
-/// Rounds in which events are added close to those with the largest terms.
+/// Number of rounds in which events are added close to those with the largest terms.
 const ROUNDS: usize = 8;
 
 /// Events that a round adds.
@@ -59,7 +59,7 @@ impl Magnitudes {
     ) -> Self {
         let initial = problem.initial_stress.at(&event.label);
         let gradient = greatest(now.grad.iter().map(largest));
-        // In a tube at rest the hoops balance the rest of Div P.
+        // In a tube at rest the hoop term balances the other terms of Div P.
         let hoops = largest(&problem.hoop_force(&event.label, event.t, now));
         let terms = (0..problem.dimension()).map(|i| {
             let inertia = problem.density * now.acceleration[i];
@@ -122,7 +122,7 @@ pub(crate) struct SurveyPoint {
 pub struct Survey {
     /// Events spread over the body and the run, then those close to the largest terms.
     pub(crate) points: Vec<SurveyPoint>,
-    /// The largest magnitudes: those of all bodies of a scene.
+    /// The largest magnitudes over all bodies of a scene.
     pub(crate) largest: Magnitudes,
     /// Number of events at which conditions on a face are checked.
     pub(crate) face_events: usize,
@@ -217,8 +217,8 @@ fn is_broad(points: &[SurveyPoint], quantity: usize) -> bool {
     active as f64 >= RESOLVED * points.len() as f64
 }
 
-/// Adds events close to those at which a quantity is at least half of its maximum, closer in each
-/// round.
+/// Adds events close to those at which a quantity is at least half of its maximum, at smaller
+/// distances in each round.
 fn concentrate(
     problem: &Problem,
     points: &mut Vec<SurveyPoint>,

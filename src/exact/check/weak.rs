@@ -1,12 +1,13 @@
 //! The equation in weak form, on random patches of space and time.
 //!
-//! Waves behind a sudden load carry kinks: `u_X` jumps, and the equation holds point by point on
-//! both sides whatever the speed of the front. The weak form sees the front: for any smooth `phi`
-//! that vanishes on the rim of a patch,
-//! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`; of a body of revolution with
-//! `R dX` in the place of dX, and less `P_tT phi` in the radial component.
+//! Waves behind a sudden load have kinks: `u_X` jumps, and the equation holds point by point on
+//! both sides for any speed of the front. Only the weak form constrains the speed: for any smooth
+//! `phi` that vanishes on the boundary of a patch,
+//! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`. For a body of revolution, dX
+//! is replaced by `R dX`, and `P_tT phi` is subtracted in the radial component.
 //!
-//! Points of a raster at which a motion is the same, since it does not vary along some axis.
+//! The motion is evaluated once for all points of a raster that differ only along an axis on which
+//! the motion does not vary.
 
 use super::space_time_patch::{AxisPoint, Densities, Raster, SpaceTimePatch, bump, labels};
 use super::survey::{Magnitudes, Survey};
@@ -15,26 +16,27 @@ use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
 
-/// Patches of a problem whose fields may have kinks, at places that nobody states.
+/// Number of patches for a problem whose fields may have kinks, at unknown places.
 const PATCHES: usize = 12;
 
-/// Patches of a problem whose fields are smooth: what the equation demands point by point, it
-/// demands in weak form then, but for a front that is so steep that no random point meets it.
+/// Number of patches for a problem with smooth fields. There the pointwise equation implies the
+/// weak form; the patches only detect a front so steep that no random point lies on it.
 const PATCHES_OF_SMOOTH_FIELDS: usize = 2;
 
-/// How many patches a problem is held to.
+/// Number of patches on which a problem is checked.
 pub(crate) fn patches(smooth: bool) -> usize {
     if smooth { PATCHES_OF_SMOOTH_FIELDS } else { PATCHES }
 }
 
 /// Largest imbalance, relative to the sum of the magnitudes of the terms. The quadrature of a jump
-/// that runs obliquely through the grid of points below is good to about a thousandth.
+/// that runs obliquely through the grid of points below has an error of about 0.001.
 const TOLERANCE: f64 = 0.005;
 
-/// Longest patch, in times that a wave takes through the body: the points below must resolve it.
+/// Maximum duration of a patch, in wave transit times through the body: the points below must
+/// resolve it.
 const WAVES: f64 = 4.0;
 
-/// Time that a wave takes through the body, on its longest axis.
+/// Transit time (s) of a wave along the longest axis of the body.
 fn crossing(problem: &Problem) -> f64 {
     let lengths = problem.from.iter().zip(&problem.to).map(|(from, to)| to - from);
     let longest = lengths.fold(0.0, f64::max);
@@ -54,7 +56,7 @@ fn draw(random: &mut Random, problem: &Problem) -> SpaceTimePatch {
     }
 }
 
-/// Smallest share of the largest terms that counts: what is smaller, as next to a narrow pulse, is
+/// Minimum scale, as a share of the largest terms: smaller terms, as next to a narrow pulse, are
 /// compared with this share.
 const SMALLEST: f64 = 1e-3;
 
@@ -82,9 +84,9 @@ pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violati
     Ok(())
 }
 
-/// Compares gain and loss over a patch by the midpoint rule. An imbalance counts if it is about the
-/// same with twice as many points per axis, and with four times as many. Otherwise the points do
-/// not resolve the fields: the half of the patch about its largest term is compared instead.
+/// Compares gain and loss over a patch by the midpoint rule. An imbalance counts if it hardly
+/// changes with twice and four times as many points per axis. Otherwise the points do not resolve
+/// the fields, and the half of the patch around its largest term is compared instead.
 ///
 /// `condition` ends with the name of the equation.
 pub(crate) fn balances<const N: usize>(
@@ -143,7 +145,7 @@ impl Sums {
         Self { smallest, ..Self::default() }
     }
 
-    /// Adds what is gained and lost at a point, the `size` of the terms there.
+    /// Adds gain and loss at a point, where the terms have the magnitude `size`.
     pub(crate) fn add(&mut self, gain: f64, loss: f64, size: f64, at: &[AxisPoint]) {
         self.gain += gain;
         self.loss += loss;
@@ -166,8 +168,8 @@ impl Sums {
         (self.gain - self.loss).abs() <= share * self.size.max(self.smallest)
     }
 
-    /// Whether there is an imbalance that is about the same on half of the points per axis, `share`
-    /// of as many points, as are the terms.
+    /// Whether imbalance and terms hardly differ from those of the coarse raster, with half of the
+    /// points per axis and `share` of the points.
     fn has_settled(&self, coarse: &Self, share: f64) -> bool {
         let (fine, before) = (self.imbalance(), coarse.imbalance());
         let same_size = (coarse.size - share * self.size).abs() <= 0.05 * coarse.size;
@@ -207,14 +209,14 @@ fn balance(
     };
     balances(patch, condition, &densities, |raster, smallest| {
         let all = sums(problem, raster, smallest, only_first);
-        // What is constant where a root has an infinite slope has a derivative in jets only.
+        // Where a root of a constant has an infinite slope, only jets give a finite derivative.
         let is_finite = all.iter().all(|sums| sums.size.is_finite());
         if is_finite { all } else { sums(problem, raster, smallest, false) }
     })
 }
 
-/// The balance of every component on a raster of a patch, with first derivatives of the motion only
-/// if they are all that the forces take.
+/// The balance of every component on a raster of a patch. With `only_first`, only first derivatives
+/// of the motion are computed.
 fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> [Sums; 3] {
     let d = problem.dimension();
     let Raster { points, times } = raster;
@@ -253,7 +255,8 @@ fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> 
     all
 }
 
-/// The places of a raster at which a motion differs.
+/// Distinct places of a raster: points that differ only along an axis on which the motion does not
+/// vary share a place.
 pub(super) struct DistinctPlaces {
     /// The first point of the raster at each place.
     pub(super) first: Vec<usize>,
@@ -262,8 +265,8 @@ pub(super) struct DistinctPlaces {
 }
 
 impl DistinctPlaces {
-    /// Those of a raster of `count` points, `per_axis` of them along each axis, the first axis
-    /// running fastest.
+    /// Distinct places of a raster of `count` points, `per_axis` along each axis, with the first
+    /// axis varying fastest.
     pub(super) fn new(motion: &Motion, count: usize, per_axis: usize) -> Self {
         let varying: Vec<bool> =
             (0..motion.dimension()).map(|axis| motion.varies_along(axis)).collect();

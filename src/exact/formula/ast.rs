@@ -9,8 +9,8 @@ use super::unary::Unary;
 #[derive(Debug, Clone)]
 pub struct Expr {
     source: String,
-    /// Children precede their parents and the root comes last. A flat list, unlike a tree of
-    /// boxes, is dropped and cloned without recursion, however long a chain of `+` is.
+    /// Children precede their parents and the root is last. A flat list, unlike a tree of boxes, is
+    /// dropped and cloned without recursion, also for a long chain of `+`.
     nodes: Vec<Node>,
 }
 
@@ -82,7 +82,7 @@ impl Expr {
         &self.nodes[at]
     }
 
-    /// The sums of the formula, wherever they stand.
+    /// All sums of the formula.
     pub(super) fn sums(&self) -> impl Iterator<Item = &Sum> {
         self.nodes.iter().filter_map(|node| match &node.kind {
             NodeKind::Sum(sum) => Some(sum),

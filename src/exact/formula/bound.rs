@@ -9,12 +9,12 @@ use super::number::Number;
 use super::program::{Instruction, Operand, read, run};
 use super::scope::Scope;
 
-/// Registers kept on the stack, in one of two sizes lest a short formula pay for clearing many.
-/// A formula that needs more of them allocates.
+/// Number of registers on the stack, in one of two sizes so that a short formula does not clear
+/// many. A formula with more registers allocates.
 const FEW: usize = 8;
 const MANY: usize = 32;
 
-/// A formula whose names have been resolved, ready to be evaluated.
+/// A formula with resolved names, ready for evaluation.
 #[derive(Debug, Clone)]
 pub struct Formula {
     source: String,
@@ -53,7 +53,7 @@ impl Formula {
         })
     }
 
-    /// The value at `variables`, which come in the order given to [`Formula::bind`].
+    /// The value at `variables`, in the order given to [`Formula::bind`].
     ///
     /// # Panics
     /// If the number of variables is not the one that the formula was bound to.
@@ -69,7 +69,7 @@ impl Formula {
         }
     }
 
-    /// Operations of one evaluation, those in sums as often as they run.
+    /// Number of operations of one evaluation; those in sums count for every term.
     pub fn operations(&self) -> u64 {
         self.operations
     }
@@ -113,7 +113,7 @@ impl Formula {
         self.registers
     }
 
-    /// Where the code leaves the value.
+    /// Location of the value after the code has run.
     pub(super) fn result(&self) -> Operand {
         self.result
     }

@@ -1,5 +1,4 @@
-//! Functions of two arguments (operators, and those called by name), and the names that every
-//! formula knows.
+//! Functions of two arguments (operators and named functions), and the built-in names of formulas.
 
 use super::number::Number;
 use super::unary::Unary;
@@ -19,9 +18,9 @@ pub enum Binary {
     Power,
     /// `atan2(y, x)`, the angle of the point (x, y).
     Atan2,
-    /// `min(a, b)`; of two equal arguments the first, with its derivatives.
+    /// `min(a, b)`; the first of two equal arguments, with its derivatives.
     Min,
-    /// `max(a, b)`; of two equal arguments the first, with its derivatives.
+    /// `max(a, b)`; the first of two equal arguments, with its derivatives.
     Max,
 }
 
@@ -73,7 +72,7 @@ impl Builtin {
     }
 }
 
-/// Whether `name` belongs to the language, so that nothing else may be called so.
+/// Whether `name` is reserved by the language.
 pub(super) fn is_reserved(name: &str) -> bool {
     name == PI || Builtin::find(name).is_some()
 }

@@ -1,12 +1,11 @@
 //! Formulas of place and time at many places and many times.
 //!
-//! A program taken apart by what its steps depend on: the place, the time, or both.
+//! The steps of a program are split by their dependence: on the place, on the time, or on both.
 //!
-//! Sums are written out and registers named anew, so that each step is a node that is computed once
+//! Sums are unrolled and registers renamed, so that each step is a node that is computed once
 //! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node depends on the place or
-//! the time if one of its arguments does. Each part of the split keeps its nodes in their old
-//! order, so that every number is computed by the operations that would compute it without the
-//! split: it has the same bits.
+//! the time if one of its arguments does. Each part of the split keeps the order of its nodes. So
+//! every number is computed by the same operations as without the split, and has the same bits.
 
 use super::bound::Formula;
 use super::builtin::Binary;
@@ -14,26 +13,26 @@ use super::number::Number;
 use super::program::{Action, Instruction, Operand, read, run};
 use std::collections::BTreeMap;
 
-/// Formulas of the same variables, the last of which is the time, evaluated at the same places
-/// again and again.
+/// Formulas of the same variables (coordinates, then time), evaluated at the same places for many
+/// times.
 ///
 /// Terms of the place only are computed once for each place, terms of the time only once for each
-/// time. The values have the bits that [`Formula::eval`] gives.
+/// time. The values are bit-identical to those of [`Formula::eval`].
 #[derive(Debug, Clone)]
 pub struct Hoisted<T> {
     split: Split,
     /// The variables: the coordinates last added, and the present time.
     variables: Vec<T>,
     registers: Vec<T>,
-    /// Inputs of the remaining steps: values kept for the time, then those of one place.
+    /// Inputs of the remaining steps: values stored for the time, then those of one place.
     inputs: Vec<T>,
-    /// Values kept for each place, place after place.
+    /// Values stored for each place, place after place.
     kept: Vec<T>,
 }
 
 impl<T: Number> Hoisted<T> {
-    /// Takes formulas of `variables` variables apart. Their sums are written out: see
-    /// [`Formula::operations`] for how long that will be.
+    /// Splits formulas of `variables` variables. Their sums are unrolled: see
+    /// [`Formula::operations`] for the resulting length.
     ///
     /// # Panics
     /// If a formula is bound to another number of variables.
@@ -55,7 +54,7 @@ impl<T: Number> Hoisted<T> {
     /// Adds a place; the first has the number 0.
     ///
     /// # Panics
-    /// If `coordinates` are not all variables but the last.
+    /// If `coordinates` are not all variables except the last.
     pub fn add(&mut self, coordinates: &[T]) {
         let last = self.variables.len() - 1;
         self.variables[..last].copy_from_slice(coordinates);
@@ -73,7 +72,7 @@ impl<T: Number> Hoisted<T> {
         self.inputs[..time.kept].copy_from_slice(&self.registers[..time.kept]);
     }
 
-    /// The values of the formulas at a place, at the present time. Allocates nothing.
+    /// The values of the formulas at a place, at the present time. Does not allocate.
     ///
     /// # Panics
     /// If there is no such place.
@@ -85,7 +84,7 @@ impl<T: Number> Hoisted<T> {
         self.split.results.iter().map(|result| read(*result, &self.inputs, &self.registers))
     }
 
-    /// Operations that are left for each evaluation.
+    /// Number of remaining operations for each evaluation.
     pub fn operations(&self) -> usize {
         self.split.rest.code.len()
     }
@@ -98,11 +97,11 @@ const PLACE: Dependence = 1;
 const TIME: Dependence = 2;
 const BOTH: Dependence = 3;
 
-/// The steps of some formulas. One that is taken twice, be it in two formulas, is one node.
+/// The steps of some formulas. Equal steps, also of two formulas, share one node.
 #[derive(Default)]
 struct Nodes {
     list: Vec<SsaNode>,
-    /// The number of each node under its text, which tells 0 from -0 as `==` does not.
+    /// The number of each node by its text, which distinguishes 0 from -0 (`==` does not).
     known: BTreeMap<String, usize>,
 }
 
@@ -112,12 +111,12 @@ struct SsaNode {
     dependence: Dependence,
 }
 
-/// A program that leaves what others need of it in its first registers.
+/// A program whose first registers contain the values that other programs need.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PartProgram {
     pub(super) code: Vec<Instruction>,
     pub(super) registers: usize,
-    /// Number of values that are left for the rest.
+    /// Number of these values.
     pub(super) kept: usize,
 }
 
@@ -126,11 +125,12 @@ pub(super) struct PartProgram {
 pub(super) struct Split {
     /// Steps that depend on the place only, over the variables.
     pub(super) place: PartProgram,
-    /// Steps that depend on the time at most, over the variables.
+    /// Steps that depend at most on the time; its variables include the time.
     pub(super) time: PartProgram,
-    /// The rest. Its variables are the values kept by `time`, followed by those kept by `place`.
+    /// The remaining steps. Their variables are the values stored by `time`, followed by those
+    /// stored by `place`.
     pub(super) rest: PartProgram,
-    /// Where the rest leaves the values of the formulas.
+    /// Locations of the values of the formulas after the rest.
     pub(super) results: Vec<Operand>,
 }
 
@@ -171,9 +171,9 @@ impl Nodes {
     }
 }
 
-/// Appends the steps of a formula, sums written out, and returns where its value is.
+/// Appends the steps of a formula, with sums unrolled, and returns the operand of its value.
 fn unroll(formula: &Formula, nodes: &mut Nodes) -> Operand {
-    // What each register holds: a constant, or the value of a node.
+    // The content of each register: a constant, or the value of a node.
     let mut held = vec![Operand::Constant(0.0); formula.registers()];
     let now = |held: &[Operand], operand| match operand {
         Operand::Register(register) => held[register],
@@ -210,7 +210,7 @@ struct Homes {
 }
 
 impl Homes {
-    /// From the results back: whatever is needed, where it is computed.
+    /// Assigns a home to every node that `results` need, from the results backwards.
     fn new(nodes: &[SsaNode], results: &[Operand]) -> Self {
         let mut homes = Self {
             dependence: nodes.iter().map(|node| node.dependence).collect(),
@@ -276,8 +276,8 @@ impl Homes {
     }
 }
 
-/// The part that computes what `reader` reads. What depends on nothing is computed where it is
-/// read; for the rest, which runs most often, it is computed with what depends on the time.
+/// The part that computes the inputs of `reader`. Constants are computed where they are read. For
+/// the rest, which runs most often, they are computed with the part that depends on the time.
 fn home(dependence: Dependence, reader: Dependence) -> Dependence {
     match (dependence, reader) {
         (NOTHING, BOTH) => TIME,

@@ -8,9 +8,9 @@ use super::unary::Unary;
 /// A value with its first and second derivatives with respect to `N` variables, for instance the
 /// coordinates of a point and the time.
 ///
-/// The chain rule is applied exactly; there are no differences. `max`, `min`, `abs`, `sign`, `step`
-/// and `floor` are differentiated on the branch that was chosen, as if there were no kink or jump.
-/// Where a derivative does not exist otherwise, as that of `sqrt` at 0, it is infinite or NaN.
+/// The chain rule is applied exactly, without differences. `max`, `min`, `abs`, `sign`, `step` and
+/// `floor` are differentiated on the selected branch, as if there were no kink or jump. Other
+/// derivatives that do not exist, like that of `sqrt` at 0, are infinite or NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jet<const N: usize> {
     value: f64,
@@ -88,8 +88,8 @@ impl<const N: usize> Jet<N> {
         self.gradient[i] == 0.0 && self.hessian[i].iter().all(|&second| second == 0.0)
     }
 
-    /// Clears the derivatives with respect to those variables that have no part in the argument.
-    /// An infinite derivative of the function, times 0, would make them NaN.
+    /// Clears the derivatives with respect to variables on which the argument does not depend. An
+    /// infinite derivative of the function, times 0, would make them NaN.
     fn flattened(&self, flat: impl Fn(usize) -> bool) -> Self {
         Self::build(
             self.value,
@@ -166,7 +166,7 @@ impl<const N: usize> Div for Jet<N> {
     type Output = Self;
 
     /// The quotient q satisfies q*b = a, which is differentiated and solved for q' and q''. Far
-    /// away from a pulse such as `1/cosh(x)^2` it is constant, see `is_overflow`.
+    /// from a pulse such as `1/cosh(x)^2` the quotient is constant, see `is_overflow`.
     #[inline]
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
@@ -202,7 +202,7 @@ impl<const N: usize> Number for Jet<N> {
     }
 
     fn atan2(self, x: Self) -> Self {
-        // The derivatives are those of atan(y/x), or of -atan(x/y) where that is safer.
+        // The derivatives are those of atan(y/x), or of -atan(x/y) if this is numerically safer.
         let quotient = if libm::fabs(x.value) >= libm::fabs(self.value) {
             (self / x).unary(Unary::Atan)
         } else {
@@ -218,7 +218,7 @@ impl<const N: usize> Number for Jet<N> {
         if exponent < 0 && value.abs() < TINY {
             return Self::from(value);
         }
-        // x^0 and x^1 have vanishing derivatives, where the general rule says 0 * infinity at 0.
+        // x^0 and x^1 have vanishing derivatives, where the general rule gives 0 * infinity at 0.
         let first = if exponent == 0 { 0.0 } else { n * power(self.value, n - 1.0) };
         let second = match exponent {
             0 | 1 => 0.0,

@@ -3,9 +3,9 @@
 use std::ops::Range;
 use thiserror::Error;
 
-/// Longest source that is read, in bytes.
+/// Maximum length of a formula (bytes).
 const MAX_BYTES: usize = 16 * 1024;
-/// Most tokens in one formula.
+/// Maximum number of tokens in a formula.
 const MAX_TOKENS: usize = 4096;
 const SYMBOLS: &[u8] = b"+-*/^(),";
 
@@ -91,7 +91,7 @@ impl<'a> Lexer<'a> {
         self.peek(ahead).is_some_and(|byte| byte.is_ascii_digit())
     }
 
-    /// Moves over the bytes that satisfy `accept` and returns how many they are.
+    /// Skips the bytes that satisfy `accept`, and returns their number.
     fn skip(&mut self, accept: impl Fn(u8) -> bool) -> usize {
         let start = self.at;
         while self.peek(0).is_some_and(&accept) {
@@ -141,7 +141,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// Refuses `2E` and `1.2.3`: nothing that could belong to a number may follow one.
+    /// Refuses `2E` and `1.2.3`: a number must not be followed by a character of a number.
     fn refuse_tail(&mut self, start: usize, number: &str) -> Result<(), FormulaError> {
         let name = self.name();
         if !name.is_empty() {
@@ -206,13 +206,13 @@ impl FormulaError {
         Self { unknown: Some(name.to_owned()), ..Self::new(span, message) }
     }
 
-    /// Adds what to write instead.
+    /// Adds advice.
     pub(super) fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// Says that the span counts in the body of `function`. The innermost function is kept.
+    /// Marks the span as one in the body of `function`. The innermost function is kept.
     pub(super) fn within(mut self, function: &str) -> Self {
         self.within.get_or_insert_with(|| function.to_owned());
         self

@@ -3,12 +3,12 @@
 //! A suite writes its numbers and its exact solutions as formulas: `pi/(2*L)*sqrt(E/rho)`,
 //! `v0/omega*sin(pi*X/(2*L))*sin(omega*t)`. A formula passes three stages:
 //!
-//! 1. [`Expr::parse`] turns text into a syntax tree and knows nothing of declared names.
-//! 2. [`Formula::bind`] resolves every name against a [`Scope`] and a list of variables, puts the
-//!    bodies of user functions in place, folds what is constant and leaves a flat program.
+//! 1. [`Expr::parse`] turns text into a syntax tree, without resolving names.
+//! 2. [`Formula::bind`] resolves every name in a [`Scope`] and a list of variables, inlines user
+//!    functions, folds constants and returns a flat program.
 //! 3. [`Formula::eval`] runs the program over any [`Number`]: `f64`, or a [`Jet`] that carries
-//!    first and second derivatives along. [`NumberBatch`] does so at some places at once, and
-//!    [`Hoisted`] at many places and times, at less cost.
+//!    first and second derivatives along. [`NumberBatch`] evaluates several places at once, and
+//!    [`Hoisted`] many places and times at lower cost.
 //!
 //! # Language
 //!
@@ -18,18 +18,19 @@
 //!   minus: `-2^2` is -4. There is no implicit multiplication.
 //! - The functions of [`Unary`] and [`Binary`], and `sum(n, from, to, body)`, whose bounds are
 //!   whole numbers known when the formula is bound.
-//! - User functions, declared with [`Scope::function`] in any order. They see constants, other
-//!   functions and their own parameters, never the variables of the formula that calls them.
+//! - User functions, declared with [`Scope::function`] in any order. They may use constants, other
+//!   functions and their own parameters, but not the variables of the calling formula.
 //!
 //! # Reproducibility
 //!
-//! Everything transcendental comes from `libm`, so that a formula has the same bits on every
+//! Transcendental functions come from `libm`, so that a formula has the same bits on every
 //! platform. The value of a [`Jet`] has the same bits as the evaluation over `f64`.
 //!
 //! # Hostile input
 //!
-//! Length, number of tokens, depth, size after inlining and number of operations are all limited;
-//! beyond a limit stands a [`FormulaError`], never an overflow of the stack or an endless loop.
+//! Length, number of tokens, depth, size after inlining and number of operations are all limited; a
+//! formula beyond a limit is a [`FormulaError`], and never causes a stack overflow or an endless
+//! loop.
 //!
 //! ```
 //! use mpm_verify::exact::formula::{Expr, Formula, Jet, Scope};

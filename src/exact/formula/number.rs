@@ -18,9 +18,9 @@ macro_rules! elementary {
 
 /// A number that a formula can be evaluated over.
 ///
-/// `f64` has inherent methods of the same names, which call the platform's mathematical library
-/// and win over those of this trait. Call them in code generic over `Number`, or as
-/// `Number::sin(x)`, if the bits have to be the same everywhere.
+/// `f64` has inherent methods with these names, which call the mathematical library of the platform
+/// and take precedence over those of this trait. Call them in code generic over `Number`, or as
+/// `Number::sin(x)`, if results must be bit-identical everywhere.
 pub trait Number:
     Copy
     + PartialEq
@@ -143,17 +143,18 @@ fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     }
 }
 
-/// So many numbers: enough that reading an instruction costs little beside what it does with them.
+/// Numbers per batch: enough that decoding an instruction costs little compared with its
+/// operations.
 const MANY: usize = 8;
 
-/// The values of one formula at some places and times. A formula that is evaluated over them reads
-/// each of its instructions once for all, and the compiler does sums and products two at a time or
-/// more. The operations on each number, and so its bits, are those of `f64`.
+/// The values of one formula at some places and times. An evaluation decodes each instruction once
+/// for the batch, and the compiler vectorises sums and products. Each number has the bits of an
+/// evaluation in `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NumberBatch([f64; MANY]);
 
 impl NumberBatch {
-    /// How many.
+    /// Numbers per batch.
     pub const LEN: usize = MANY;
 
     /// Takes the number of each lane from `number`.
@@ -230,7 +231,8 @@ impl Div for NumberBatch {
 }
 
 impl Number for NumberBatch {
-    /// That of the first lane: what formulas branch on, the index of a sum, is the same in all.
+    /// The value of the first lane. Formulas only branch on the index of a sum, which is equal in
+    /// all lanes.
     #[inline]
     fn value(&self) -> f64 {
         self.0[0]

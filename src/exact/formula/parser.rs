@@ -1,6 +1,4 @@
-//! Tokens to a syntax tree, by operator precedence (Pratt).
-//!
-//! Terms that begin with a name: constants, variables and calls.
+//! Parser from tokens to a syntax tree, by operator precedence (Pratt).
 
 use super::ast::{Expr, Node, NodeKind, Sum};
 use super::builtin;
@@ -8,9 +6,9 @@ use super::builtin::{Binary, Builtin, PI};
 use super::lexer::{FormulaError, Lexeme, Token, tokens};
 use std::ops::Range;
 
-/// Deepest nesting of parentheses, arguments, signs and right operands.
+/// Maximum nesting depth of parentheses, arguments, signs and right operands.
 const MAX_DEPTH: usize = 128;
-/// How tightly the unary minus holds its operand: tighter than `*`, looser than `^`.
+/// Binding power of the unary minus: above `*`, below `^`.
 const MINUS: u8 = 5;
 
 impl Expr {
@@ -35,7 +33,7 @@ fn parse(source: &str) -> Result<Vec<Node>, FormulaError> {
     }
 }
 
-/// An operator and how tightly it holds its left and its right operand.
+/// An operator with its left and its right binding power.
 fn operator(token: Token) -> Option<(Binary, u8, u8)> {
     match token {
         Token::Symbol('+') => Some((Binary::Add, 1, 2)),
@@ -58,7 +56,7 @@ struct Parser<'a> {
 }
 
 impl<'a> Parser<'a> {
-    /// Reads operands as long as operators hold them at least as tightly as `hold`.
+    /// Parses operators whose left binding power is at least `hold`, with their operands.
     fn expression(&mut self, hold: u8) -> Result<usize, FormulaError> {
         if self.depth == MAX_DEPTH {
             let message = format!("the formula is nested more than {MAX_DEPTH} levels deep");
@@ -149,7 +147,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// The number around a comma between two numbers, with a point in its place.
+    /// Suggestion for a decimal comma: the number with a decimal point.
     fn decimal_comma(&self) -> Option<String> {
         let (before, after) =
             (self.lexemes.get(self.at.checked_sub(1)?)?, self.lexemes.get(self.at + 1)?);
@@ -208,7 +206,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// A name that is a value and so cannot be called.
+    /// A name of a value, which cannot be called.
     fn plain(
         &mut self,
         kind: NodeKind,

@@ -1,13 +1,13 @@
-//! A bound formula as a list of instructions, and the machine that runs it.
+//! A bound formula as a list of instructions, and their interpreter.
 //!
-//! There is no recursion here: sums jump back, and user functions have been put in place. The
-//! depth of a formula therefore costs no stack.
+//! There is no recursion: sums are loops, and user functions are inlined. So the stack does not
+//! grow with the depth of a formula.
 
 use super::builtin::Binary;
 use super::number::Number;
 use super::unary::Unary;
 
-/// Where an instruction finds an argument.
+/// Location of an argument of an instruction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Operand {
     Constant(f64),
@@ -32,8 +32,8 @@ pub(super) enum Action {
     Next(Loop),
 }
 
-/// The end of a sum's body: adds the term to the register `to`, and unless the index, in the
-/// register after it, is the last, increments it and goes back to the instruction `body`.
+/// The end of the body of a sum: adds the term to the register `to`. The next register has the
+/// index; unless it is the last, it is incremented and the program jumps to the instruction `body`.
 #[derive(Debug, Clone)]
 pub(super) struct Loop {
     pub(super) term: Operand,
@@ -52,7 +52,7 @@ impl Action {
         std::iter::once(first).chain(second)
     }
 
-    /// The same action on other arguments.
+    /// This action, with each argument replaced by `to(argument)`.
     pub(super) fn map(&self, to: impl Fn(Operand) -> Operand) -> Self {
         match self {
             Self::Copy(a) => Self::Copy(to(*a)),
@@ -72,7 +72,7 @@ pub(super) fn run<T: Number>(
     variables: &[T],
     registers: &mut [T],
 ) {
-    // An operand where it is. A jet is long: to copy it takes longer than many an action.
+    // A reference to an operand: copying a jet takes longer than many actions.
     macro_rules! operand {
         ($operand:expr, $constant:ident) => {
             match *$operand {
@@ -95,7 +95,7 @@ pub(super) fn run<T: Number>(
             Action::Unary(function, a) => registers[*to] = operand!(a, one).unary(*function),
             Action::Binary(function, a, b) => {
                 let (a, b) = (operand!(a, one), operand!(b, other));
-                // No common place for the results: each is written where it belongs.
+                // Each branch writes its result directly, without a common temporary.
                 match function {
                     Binary::Add => registers[*to] = *a + *b,
                     Binary::Subtract => registers[*to] = *a - *b,

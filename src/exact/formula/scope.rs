@@ -26,7 +26,7 @@ pub(super) struct Function {
     pub(super) body: Expr,
 }
 
-/// An expression that a name stands for, and the one name that it reads.
+/// Expression of a table, and the name of its argument.
 #[derive(Debug, Clone)]
 pub(super) struct Tabulated {
     pub(super) by: String,
@@ -34,7 +34,7 @@ pub(super) struct Tabulated {
 }
 
 impl Scope {
-    /// A scope that declares nothing.
+    /// An empty scope.
     pub fn new() -> Self {
         Self::default()
     }
@@ -75,7 +75,7 @@ impl Scope {
         Ok(())
     }
 
-    /// The same scope, with another value for a constant that it declares.
+    /// This scope with another value for a constant that it declares.
     #[must_use]
     pub fn with(&self, name: &str, value: f64) -> Self {
         let mut scope = self.clone();
@@ -114,9 +114,9 @@ impl Scope {
         Ok(())
     }
 
-    /// Declares a table: `name` stands for a piecewise linear function of `by`, a constant or a
-    /// variable, through `rows` of ascending values of `by` and the value there, constant before
-    /// the first and after the last.
+    /// Declares a table: `name` is a piecewise linear function of `by`, a constant or a variable,
+    /// through `rows` of ascending values of `by` and the value there, constant before the first
+    /// and after the last row.
     ///
     /// # Errors
     /// When `name` or `by` is not a name, or when `name` is taken.

@@ -6,12 +6,12 @@ use super::jet::{TINY, is_overflow};
 use super::number::{Number, whole};
 use super::unary::Unary;
 
-/// A value with its first derivatives along `N` directions: what a [`Jet`](super::Jet) is without
-/// its second derivatives, at a third of the cost.
+/// A value with its first derivatives along `N` directions: a [`Jet`](super::Jet) without second
+/// derivatives, at a third of the cost.
 ///
-/// Its bits are those of the jet. Only where the derivative of a function is infinite, a direction
-/// in which nothing varies is not told from one in which the slope happens to vanish: the
-/// derivative is NaN.
+/// Its bits are those of the jet, with one exception: where the derivative of a function is
+/// infinite, a slope that is zero everywhere cannot be distinguished from one that vanishes at this
+/// point, and the derivative is NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slope<const N: usize> {
     value: f64,
@@ -19,7 +19,7 @@ pub struct Slope<const N: usize> {
 }
 
 impl<const N: usize> Slope<N> {
-    /// A value that varies as `gradient` says.
+    /// A value with the given `gradient`.
     #[inline]
     pub fn new(value: f64, gradient: [f64; N]) -> Self {
         Self { value, gradient }
@@ -136,7 +136,7 @@ impl<const N: usize> Number for Slope<N> {
     }
 
     fn atan2(self, x: Self) -> Self {
-        // The derivatives are those of atan(y/x), or of -atan(x/y) where that is safer.
+        // The derivatives are those of atan(y/x), or of -atan(x/y) if this is numerically safer.
         let quotient = if libm::fabs(x.value) >= libm::fabs(self.value) {
             (self / x).unary(Unary::Atan)
         } else {

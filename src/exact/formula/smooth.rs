@@ -9,8 +9,9 @@ impl Formula {
     /// Whether the value is an analytic function of all real variables, for which neither a kink
     /// nor a jump exists: a composition of functions that are.
     ///
-    /// A quotient is none unless it divides by a constant: `tanh(1/x)` jumps, and so do others
-    /// behind a pole. For the same reason `exp(ln(x^2)/2)`, which is `abs(x)`, is none.
+    /// A quotient counts as smooth only if it divides by a constant: `tanh(1/x)` jumps, and so do
+    /// other functions of a pole. For the same reason `exp(ln(x^2)/2)`, which is `abs(x)`, does not
+    /// count as smooth.
     pub fn is_smooth(&self) -> bool {
         let varying = self.varying();
         let varies = |operand: &Operand| varies(*operand, &varying);
@@ -26,10 +27,10 @@ impl Formula {
         })
     }
 
-    /// The registers that hold what depends on a variable, at some step.
+    /// The registers that depend on a variable, at some step.
     fn varying(&self) -> Vec<bool> {
         let mut varying = vec![false; self.registers()];
-        // A sum reads in its next turn what it wrote in the last.
+        // A sum reads in its next iteration what it wrote in the previous one.
         loop {
             let before = varying.clone();
             for step in self.code() {

@@ -155,7 +155,8 @@ pub(super) fn lambert_w(x: f64) -> f64 {
     w
 }
 
-/// Halley's step for w*exp(w) - x. The equation is divided by exp(w), lest large `x` overflow.
+/// Halley's step for w*exp(w) - x. The equation is divided by exp(w) to avoid overflow for large
+/// `x`.
 fn halley(w: f64, x: f64) -> f64 {
     let residual = w - x * exp(-w);
     residual / (w + 1.0 - 0.5 * residual * (w + 2.0) / (w + 1.0))

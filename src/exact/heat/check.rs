@@ -1,7 +1,7 @@
 //! Every condition that a heat problem puts on its temperature.
 //!
-//! The heat equation in weak form, on random patches of space and time: it sees what a kink in the
-//! temperature hides from the equation point by point, a source of heat on a surface.
+//! The heat equation in weak form, on random patches of space and time. It detects a source of heat
+//! on a surface, which is a kink in the temperature that pointwise checks miss.
 //!
 //! For any smooth `phi` that vanishes on the rim of a patch,
 //! `int int (rho0 c T phi_t - k J C^-1 Grad T . Grad phi + rho0 s phi) dX dt = 0`.
@@ -68,7 +68,7 @@ fn initial(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violati
     let mut worst = LargestViolation::default();
     for event in start.spread(FACE_EVENTS, |_| true, &mut Random::new(2)) {
         let found = problem.temperature.at(&event.label, 0.0);
-        // Where nothing is stated, the start must be a number: nothing is near to NaN.
+        // Without a stated value, the start must be finite.
         let start = problem.initial.as_ref().map_or(found, |formula| at(formula, &event));
         let name = "initial condition T(X, 0) = T0(X)".to_owned();
         worst.add(event.judge(problem.tolerance * largest.value, name, (start, found), "K"));
@@ -223,7 +223,8 @@ pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<
         let (from, to) = (&problem.from[..], &problem.to[..]);
         let patch = SpaceTimePatch::in_box(&mut random, from, to, problem.until, f64::INFINITY);
         let d = problem.dimension();
-        // A constant temperature stores nothing: without it the terms are those that matter.
+        // A constant temperature stores no heat: it is subtracted so that it does not enlarge the
+        // scale.
         let middle = problem.temperature.at(&patch.centre[..d], patch.centre[d]);
         let condition = "heat balance across kinks (the heat equation";
         balances(patch, condition, &densities, |raster, smallest| {

@@ -1,10 +1,10 @@
-//! A temperature T(X, t) given by a formula, with its derivatives, and the flow of heat in a
-//! deformed body.
+//! A temperature T(X, t) given by a formula, with its derivatives, and the heat flux in a deformed
+//! body.
 //!
-//! The flow is seen from the reference configuration. Fourier's law holds for the present shape,
-//! `q = -k grad T` per current area. Per reference area it is `Q = -k J C^-1 Grad T`, `C = F^T F`
-//! (Holzapfel 2000, *Nonlinear Solid Mechanics*, section 7.1), and the balance is `rho0 c T_t =
-//! -Div Q + rho0 s`. A body at rest has F = I.
+//! The heat flux refers to the reference configuration. Fourier's law holds in the current
+//! configuration, `q = -k grad T` per current area. Per reference area it is
+//! `Q = -k J C^-1 Grad T`, `C = F^T F` (Holzapfel 2000, *Nonlinear Solid Mechanics*, section 7.1),
+//! and the balance is `rho0 c T_t = -Div Q + rho0 s`. A body at rest has F = I.
 
 use crate::dimension::with_dimension;
 use crate::exact::formula::{Formula, Hoisted, Jet, Number, Slope};
@@ -37,7 +37,7 @@ impl Temperature {
         Self { formula, dimension }
     }
 
-    /// The formula, as the suite gives it.
+    /// The formula of the suite.
     pub fn source(&self) -> &str {
         self.formula.source()
     }
@@ -57,7 +57,7 @@ impl Temperature {
         with_dimension!(self.dimension, D => self.over_jets::<{ D + 1 }>(label, t))
     }
 
-    /// The field at `labels`, for which what does not depend on time is computed here and now.
+    /// The field at `labels`. Terms that do not depend on time are computed in this call.
     pub(super) fn at_places<'a>(
         &self,
         labels: impl Iterator<Item = &'a [f64]>,
@@ -85,12 +85,12 @@ impl Temperature {
     }
 }
 
-/// A temperature at places that have been given once, at one time after another.
+/// A temperature at fixed places, for many times.
 pub(super) trait TemperaturePlaces: Send {
-    /// Moves on to the time `t` (s).
+    /// Sets the time `t` (s).
     fn set_time(&mut self, t: f64);
 
-    /// The derivatives at a place, in the order in which they were given. Allocates nothing.
+    /// The derivatives at a place, by its index in `labels`. Does not allocate.
     fn derivatives(&mut self, place: usize) -> TemperatureDerivatives;
 }
 
@@ -131,12 +131,12 @@ fn pulled_back<T: Number, const D: usize>(grad_u: &Tensor<T, D>, grad: &[T; D]) 
     std::array::from_fn(|a| sum::<T, D>(|b| metric(a, b) * grad[b]))
 }
 
-/// `J C^-1 Grad T` (K/m), what flows in through a reference area is k times it along the normal.
+/// `J C^-1 Grad T` (K/m): the inflow through a reference area is k times its normal component.
 pub(super) fn slope(motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; 3] {
     pulled_back::<f64, 3>(&motion.grad, &now.grad)
 }
 
-/// `Div (J C^-1 Grad T)` (K/m2), where nothing varies beyond the first `dimension` axes.
+/// `Div (J C^-1 Grad T)` (K/m2), for fields that vary along the first `dimension` axes only.
 pub(super) fn divergence(
     dimension: usize,
     motion: &Derivatives,

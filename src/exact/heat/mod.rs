@@ -1,4 +1,4 @@
-//! The truth about heat: a temperature given by a formula, held against the heat equation.
+//! Exact temperature given by a formula, and its check against the heat equation.
 
 mod check;
 mod field;

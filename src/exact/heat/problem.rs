@@ -1,10 +1,5 @@
-//! The heat problem that a temperature is held to.
-//!
-//! Thermal conditions on the faces of a body.
-//!
-//! The source of heat as a suite states it.
-//!
-//! The manufactured source of a run: at the same places, step after step.
+//! Heat problem of an exact temperature: the body, the thermal conditions on its faces, and the
+//! source of heat, stated or manufactured.
 
 use super::field::{Temperature, TemperatureDerivatives, TemperaturePlaces, divergence, slope};
 use crate::exact::formula::Formula;
@@ -43,15 +38,15 @@ pub struct Conduction {
     pub capacity: f64,
     /// Heat that arises, per unit mass (W/kg), a formula for [`source_at`].
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates; not stated, it is that of the claim.
+    /// Initial temperature (K), a formula of the coordinates; default: that of the exact solution.
     pub initial: Option<Formula>,
     /// Every face of the body.
     pub faces: Vec<HeatFace>,
     /// The claimed solution.
     pub temperature: Temperature,
-    /// How the body deforms; none where it is at rest, or strains count as none.
+    /// Deformation of the body; `None` if it is at rest, or if strains are neglected.
     pub motion: Option<Motion>,
-    /// Whether the source is the one that makes the temperature a solution; none is stated then.
+    /// Whether the source is manufactured; then none is stated.
     pub manufactured: bool,
     /// End of the run (s).
     pub until: f64,
@@ -78,7 +73,7 @@ impl Conduction {
             - self.conductivity * divergence(self.dimension(), motion, now) / self.density
     }
 
-    /// The manufactured source (W/kg): what the temperature needs.
+    /// The manufactured source (W/kg) of the exact temperature.
     pub fn manufactured_source(&self, label: &[f64], t: f64) -> f64 {
         let (motion, now) = self.now(label, t);
         self.balance(&motion, &now)
@@ -125,7 +120,7 @@ impl Truth for Conduction {
     }
 }
 
-/// A thermal condition on one face of the body, to which the temperature is held point by point.
+/// A thermal condition on one face of the body, checked point by point.
 pub trait ThermalCondition: Debug + Send + Sync {
     /// Holds the temperature at `point` to the condition.
     ///
@@ -134,8 +129,8 @@ pub trait ThermalCondition: Debug + Send + Sync {
     fn check(&self, point: &dyn HeatFacePoint) -> Result<(), Violation>;
 }
 
-/// A point of a face at a time of the run, and what can be demanded of the temperature there: that
-/// it has a value, that heat enters, or that it goes on behind the face.
+/// A point of a face at a time of the run, with the elementary requirements on the temperature: a
+/// value, an inflow of heat, or continuity with the opposite face.
 pub trait HeatFacePoint {
     /// A formula of the coordinates and t, here and now.
     fn value(&self, formula: &Formula) -> f64;
@@ -152,14 +147,14 @@ pub trait HeatFacePoint {
     /// The violation.
     fn has_temperature(&self, given: f64) -> Result<(), Violation>;
 
-    /// Heat that enters, per reference area (W/m^(D-1)), is `given`: on a face that is `what`,
-    /// where `size` is that of the terms that `given` is made of.
+    /// The inflow of heat per reference area (W/m^(D-1)) is `given`, on a face that is `what`;
+    /// `size` is the scale of the terms in `given`.
     ///
     /// # Errors
     /// The violation.
     fn lets_in(&self, what: &str, given: f64, size: f64) -> Result<(), Violation>;
 
-    /// Temperature and flow of heat are those on the opposite face.
+    /// Temperature and heat flux equal those on the opposite face.
     ///
     /// # Errors
     /// The first violation.
@@ -194,8 +189,8 @@ impl HeatForcing {
         }
     }
 
-    /// Fills in the source (W/kg) at each place at time `t` (s), as
-    /// [`Conduction::manufactured_source`] gives it for one. Allocates nothing.
+    /// Writes the source (W/kg) at each place at time `t` (s), as given by
+    /// [`Conduction::manufactured_source`]. Does not allocate.
     pub fn at(&mut self, t: f64, into: &mut [f64]) {
         self.warm.set_time(t);
         if let Some(motion) = &mut self.motion {

@@ -184,7 +184,7 @@ fn heat_goes_on_beyond_a_periodic_face(#[values("1e-6", "1", "1e6")] size: &str)
     refused(&bar("cos(pi*(X - 1/2))*exp(-pi^2*t/2)"), "left is periodic, the flow of heat");
 }
 
-/// The root is 0.86033...: the fourth digit is enough to be refused.
+/// The root is 0.86033...: an error in the fourth digit is refused.
 #[test]
 fn a_root_of_the_eigenvalue_equation_is_verified() {
     let cooled = |mu: &str| {

@@ -129,8 +129,8 @@ impl CamClayLaw {
         2.0 * self.ratio * (1.0 - self.initial_pressure / self.yields[0])
     }
 
-    /// `ln(p/p_y)` and the compaction beyond yield at the ratio that has come nearer to the K0 line
-    /// by the factor `exp(-u)`, and that ratio.
+    /// `ln(p/p_y)` and the compaction beyond yield at the ratio whose distance from the K0 line has
+    /// decreased by the factor `exp(-u)`, and this ratio.
     fn beyond_yield(&self, u: f64) -> [f64; 3] {
         let (start, m2, [limit, weight]) =
             (self.ratio_at_yield(), self.slope * self.slope, self.poles[0]);
@@ -287,7 +287,7 @@ mod tests {
         assert_relative_eq!(plastic_shear, flow * plastic_volume, max_relative = 1e-5);
     }
 
-    /// Elastic up to yield, continuous there, and without a stress where the clay would soften.
+    /// Elastic up to yield, continuous there, and undefined where the clay would soften.
     #[test]
     fn yield_is_on_the_elastic_path() {
         let law = clay(150.0);

@@ -1,4 +1,4 @@
-//! Interface of the truth's constitutive laws.
+//! Interface of the constitutive laws of exact solutions.
 
 use crate::exact::formula::Number;
 use crate::exact::tensor::Tensor;
@@ -18,8 +18,8 @@ pub(super) trait ConstitutiveLaw {
     /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`.
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D>;
 
-    /// The energy W (J/m3) that P is the derivative of, `P = dW/dF`, zero at rest; none of a law
-    /// that has none or depends on the history of the motion.
+    /// The energy W (J/m3) with `P = dW/dF`, zero at rest; `None` for a law without energy, or with
+    /// a history.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let _ = grad;
         None
@@ -29,14 +29,14 @@ pub(super) trait ConstitutiveLaw {
     /// strain.
     fn modulus(&self) -> f64;
 
-    /// `3 lambda + 2 mu` (Pa) of a theory of small strains, which resists equal strain on all axes;
-    /// none of a law of finite strains.
+    /// `3 lambda + 2 mu` (Pa), the stiffness against equal strain on all axes, for a law of small
+    /// strains; `None` for a law of finite strains.
     fn small_strain_modulus(&self) -> Option<f64> {
         None
     }
 
-    /// `F_33 - 1` of a plate that is free across, sigma_33 = 0, for the displacement gradient in
-    /// its plane; none of a law that is not known there.
+    /// `F_33 - 1` of a plate in plane stress, sigma_33 = 0, for the displacement gradient in its
+    /// plane; `None` if the law is not implemented there.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let _ = grad;
         None
@@ -51,7 +51,7 @@ pub(super) trait ConstitutiveLaw {
     /// Whether P holds of a motion in `dimension` dimensions, or of a state `at_rest`.
     ///
     /// # Errors
-    /// Why it does not, and what a suite can state instead.
+    /// The reason why not, and what a suite can state instead.
     fn admits(&self, dimension: usize, at_rest: bool) -> Result<(), [&'static str; 2]> {
         let _ = (dimension, at_rest);
         Ok(())
@@ -77,8 +77,7 @@ impl Lame {
         self.lambda + 2.0 * self.mu
     }
 
-    /// `nu/(1 - nu)`: strain across a plate that is free there, over that of its area, but for
-    /// the sign.
+    /// `nu/(1 - nu)`: minus the strain across a plate in plane stress over its area strain.
     pub(super) fn thinning(&self) -> f64 {
         self.lambda / self.modulus()
     }

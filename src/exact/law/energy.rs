@@ -26,8 +26,8 @@ pub(super) fn assert_stress_is_derivative(law: &impl ConstitutiveLaw) {
     }
 }
 
-/// Asserts that P of `stretches` along the axes is `along` them, and turned by `angle` about the
-/// third: `P(Q F) = Q P(F)`.
+/// Asserts that P of `stretches` along the axes is `along` them, and after a rotation by `angle`
+/// about the third: `P(Q F) = Q P(F)`.
 pub(super) fn assert_stress_along_axes(
     law: &impl ConstitutiveLaw,
     stretches: [f64; 3],

@@ -1,7 +1,7 @@
 //! Linear elasticity with the rate of Green and Naghdi, in simple shear.
 //!
-//! With `tan(beta) = gamma/2`, the angle by which the rotation of `F = R U` turns, the rate
-//! integrates to (Dienes 1979)
+//! With `tan(beta) = gamma/2`, the rotation angle of `F = R U`, the rate integrates to (Dienes
+//! 1979)
 //!
 //! ```text
 //! tau12 = 2 mu cos(2 beta) (2 beta - 2 tan(2 beta) ln(cos(beta)) - tan(beta))

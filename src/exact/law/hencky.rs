@@ -45,7 +45,7 @@ impl ConstitutiveLaw for HenckyLaw {
         self.0.modulus()
     }
 
-    /// `eps_33 = -lambda/(lambda + 2 mu) ln J` with the J of the plane.
+    /// `eps_33 = -lambda/(lambda + 2 mu) ln J`, where J is that of the plane.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let strain = T::from(-self.0.thinning()) * Number::ln(area(grad));
         Some(Number::exp(strain) - T::from(1.0))
@@ -60,7 +60,8 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Along the axes, also where stretches coincide, and turned: `P(Q F) = Q P(F)`.
+    /// The closed form holds along the axes, also for equal stretches, and after a rotation:
+    /// `P(Q F) = Q P(F)`.
     #[rstest]
     fn stress_has_its_closed_form_along_the_axes(
         #[values([1.3, 0.6, 1.0], [1.2; 3], [4.0, 0.2, 1.0], [1.0 + 1e-9, 1.0, 1.0])]
@@ -74,7 +75,7 @@ mod tests {
         assert_stress_along_axes(&solid, stretches, angle, along, 1e-11);
     }
 
-    /// Nothing shears at this point, but it does beside it: the derivative must not be lost.
+    /// The shear vanishes at this point, but its derivative does not.
     #[test]
     fn shear_that_vanishes_at_a_point_still_has_its_derivative() {
         let mut second = [[[0.0; 3]; 3]; 3];
@@ -84,7 +85,7 @@ mod tests {
         assert_relative_eq!(found[0], law.0.mu, max_relative = 1e-12);
     }
 
-    /// A stretch that the series does not reach is no number, rather than a wrong one.
+    /// The stress is NaN for a stretch at which the series does not converge.
     #[test]
     fn an_extreme_stretch_with_shear_has_no_stress() {
         let mut grad = [[0.0; 3]; 3];

@@ -1,11 +1,11 @@
 //! J2 plasticity with linear hardening, under loading that never reverses.
 //!
-//! As long as the logarithmic strain `eps` grows along one direction, what has flowed is a function
-//! of it, and the law is one of the whole deformation (Hencky 1924; it is the flow theory's
-//! integral for proportional loading): the Kirchhoff stress is `tau = K tr(eps) I + s dev(eps)`, `s
-//! = 2 mu` up to `q = sqrt(3/2) |2 mu dev(eps)| = Y`, and beyond such that `q = Y + H alpha`, `3 mu
-//! alpha = q_elastic - q`. In uniaxial strain, where this is used, all loading is along one
-//! direction; that it never reverses is checked (`loading`).
+//! As long as the logarithmic strain `eps` grows along one direction, the plastic strain is a
+//! function of it, and the law is one of the total deformation (Hencky 1924; the integral of the
+//! flow theory for proportional loading): the Kirchhoff stress is `tau = K tr(eps) I + s dev(eps)`,
+//! with `s = 2 mu` up to `q = sqrt(3/2) |2 mu dev(eps)| = Y`, and beyond such that
+//! `q = Y + H alpha`, `3 mu alpha = q_elastic - q`. The law is used in uniaxial strain, where all
+//! loading is along one direction; `loading` checks that it never reverses.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
@@ -80,11 +80,11 @@ fn kirchhoff<T: Number, const D: usize>(
     tensor(|i, j| bulk * third * unit(i, j) + shear * deviator[i][j])
 }
 
-/// `sqrt(3/2) |2 mu dev(eps)|`; along the axes that are left out the deviator is `-third`.
+/// `sqrt(3/2) |2 mu dev(eps)|`; along the missing axes the deviator is `-third`.
 fn mises<T: Number, const D: usize>(deviator: &Tensor<T, D>, third: T, mu: f64) -> T {
     let inside = sum::<T, D>(|i| sum::<T, D>(|j| deviator[i][j] * deviator[i][j]));
     let square = inside + third * third * T::from((3 - D) as f64);
-    // Where nothing is strained the root has no slope, and nothing flows.
+    // At zero strain the root has no derivative, and there is no flow.
     if square.value() == 0.0 { square } else { Number::sqrt(square * T::from(6.0 * mu * mu)) }
 }
 
@@ -94,8 +94,8 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// In uniaxial strain eps the elastic q is 2 mu |eps|, and `tau = K eps -+ 2/3 q` of the q that
-    /// is left, `Y + H alpha` with `alpha = (2 mu |eps| - Y)/(3 mu + H)`.
+    /// In uniaxial strain eps the elastic q is 2 mu |eps|, and `tau = K eps -+ 2/3 q` with the
+    /// returned q, `Y + H alpha` with `alpha = (2 mu |eps| - Y)/(3 mu + H)`.
     #[rstest]
     fn beyond_yield_the_stress_is_that_of_the_hardened_yield_stress(
         #[values(-0.2, -0.02, -0.001, 0.001, 0.02, 0.2)] strain: f64,

@@ -1,5 +1,5 @@
-//! Constitutive laws as the truth knows them, written apart from those of the solvers: the family.
-//! A member is one file and one line of `members`.
+//! Family of the constitutive laws of exact solutions, written separately from those of the
+//! solvers. A member is one file and one line of `members`.
 
 mod contract;
 #[cfg(test)]

@@ -28,8 +28,8 @@ impl MohrCoulombLaw {
         let (s, t) = (libm::sin(phi), libm::sin(psi));
         let (Lame { lambda, mu }, elastic) = (lame, lame.modulus());
         let strength = 2.0 * cohesion * libm::cos(phi);
-        // Weights of the axial and of the lateral stress in the yield function, and what the two
-        // planes take from these stresses.
+        // Weights of the axial and of the lateral stress in the yield function, and the changes of
+        // these stresses by the flow on the two planes.
         let in_compression = [-(1.0 - s), 1.0 + s];
         let relief_in_compression =
             [4.0 * lambda * t - 4.0 * mu * (1.0 - t), 4.0 * lambda * t + 2.0 * mu * (1.0 + t)];
@@ -45,7 +45,7 @@ impl MohrCoulombLaw {
             }
             let (strain, flow) = (strength / towards, towards / dot(relief));
             let [axial, lateral] = [rates[0] - flow * relief[0], rates[1] - flow * relief[1]];
-            // The difference of the stresses at yield, and what a unit of strain takes from it.
+            // The difference of the stresses at yield, and its decrease per unit of strain.
             let (gap, closing) = (2.0 * mu * strain, sign * (lateral - axial));
             UniaxialFlow {
                 strain,

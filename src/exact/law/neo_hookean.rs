@@ -16,10 +16,11 @@ impl NeoHookeanLaw {
     }
 }
 
-/// Most steps to the stretch across a plate; strains of 100 % take about five.
+/// Maximum number of Newton steps for the stretch across a plate; strains of 100 % take about five.
 const MOST_STEPS: usize = 100;
 
-/// Newton's step to the logarithmic strain across a plate, from `eps`; `log` is that of its area.
+/// One Newton step from `eps` towards the logarithmic strain across a plate whose logarithmic area
+/// strain is `log`.
 fn newton<T: Number>(Lame { lambda, mu }: Lame, log: T, eps: T) -> T {
     let (lambda, mu, square) = (T::from(lambda), T::from(mu), Number::exp(eps + eps));
     let force = lambda * (log + eps) + mu * (square - T::from(1.0));
@@ -54,9 +55,9 @@ impl ConstitutiveLaw for NeoHookeanLaw {
     }
 
     /// `lambda (ln J + eps) + mu (exp(2 eps) - 1) = 0` with the J of the plane and `eps = ln F_33`,
-    /// by Newton's method. The left side is convex, and not negative where its tangent at rest
-    /// vanishes: from there each step goes down to the root, until rounding stops it. Two more
-    /// carry the derivatives.
+    /// by Newton's method. The left side is convex, and not negative at the zero of its tangent at
+    /// rest: from there each step decreases monotonically to the root, until rounding stops it. Two
+    /// more steps carry the derivatives.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let log = Number::ln(area(grad));
         let mut eps = -self.0.thinning() * log.value();

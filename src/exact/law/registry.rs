@@ -1,4 +1,4 @@
-//! Registration: one line makes a law the truth's law of a material.
+//! Registration: one line assigns a law of exact solutions to a material.
 
 /// Declares the family of laws, from the lines of [`each_material`](crate::members) that have one.
 macro_rules! laws {
@@ -31,11 +31,11 @@ macro_rules! laws {
         })?)+
 
         impl Equation {
-            /// Names of all laws, as suites spell them.
+            /// Names of all laws, as in suites.
             pub const NAMES: &[&'static str] = &[$($($law::NAME,)?)+];
 
-            /// The equation of a body of a material, from the material's name and the values of
-            /// its parameters by key; none if the truth knows no law of it.
+            /// The equation of a body of a material, from the name of the material and its
+            /// parameters by key; `None` if there is no law for it.
             pub fn of_material(
                 material: &str,
                 parameter: impl Fn(&str) -> Option<f64>,
@@ -48,7 +48,7 @@ macro_rules! laws {
                 })
             }
 
-            /// Name of the law, as suites spell it.
+            /// Name of the law, as in suites.
             pub fn name(&self) -> &'static str {
                 match self {
                     $($(Self::$law(_) => $law::NAME,)?)+
@@ -77,8 +77,8 @@ macro_rules! laws {
                 }
             }
 
-            /// The energy W (J/m3) that P is the derivative of, zero at rest; none of a law that
-            /// has none.
+            /// The energy W (J/m3) whose derivative is P, zero at rest; `None` for a law without
+            /// energy.
             pub fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
                 match self {
                     $($(Self::$law(law) => law.energy(grad),)?)+
@@ -92,15 +92,15 @@ macro_rules! laws {
                 }
             }
 
-            /// `3 lambda + 2 mu` (Pa) of a theory of small strains; none of a law of finite ones.
+            /// `3 lambda + 2 mu` (Pa) of a law of small strains; `None` for finite strains.
             pub(super) fn small_strain_modulus(&self) -> Option<f64> {
                 match self {
                     $($(Self::$law(law) => law.small_strain_modulus(),)?)+
                 }
             }
 
-            /// `F_33 - 1` of a plate that is free across, sigma_33 = 0, for the displacement
-            /// gradient in its plane; none of a law that is not known there.
+            /// `F_33 - 1` of a plate in plane stress, sigma_33 = 0, for the displacement gradient
+            /// in its plane; `None` if the law is not implemented there.
             pub(super) fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
                 match self {
                     $($(Self::$law(law) => law.free_gradient(grad),)?)+
@@ -119,7 +119,7 @@ macro_rules! laws {
             /// `at_rest`.
             ///
             /// # Errors
-            /// Why it does not, and what a suite can state instead.
+            /// The reason why not, and what a suite can state instead.
             pub fn admits(&self, dimension: usize, at_rest: bool) -> Result<(), [&'static str; 2]> {
                 match self {
                     $($(Self::$law(law) => law.admits(dimension, at_rest),)?)+

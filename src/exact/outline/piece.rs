@@ -1,10 +1,11 @@
-//! Parts of a body that one particle stands for, and small ones joined to their neighbours.
+//! Parts of a body that become particles, and merging of small parts with their neighbours.
 
 use super::ROUNDING;
 use std::collections::BTreeMap;
 
-/// Share of a share of the lattice below which a piece joins a neighbour. A sliver alone may be all
-/// that a node sees, and limit the time step like a cell of its own width.
+/// Minimum size of a piece, as a share of a lattice cell: a smaller one is merged with a neighbour.
+/// A sliver may be the only particle in the support of a node, and limit the time step like a cell
+/// of its own width.
 const LEAST: f64 = 0.25;
 
 /// Part of a share of a lattice that belongs to a body.
@@ -18,7 +19,7 @@ pub enum Cut {
     Pieces(Vec<Piece>),
 }
 
-/// Part of a body in the plane that one particle stands for.
+/// Part of a body in the plane that becomes one particle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
     /// Its volume (m2).
@@ -27,7 +28,7 @@ pub struct Piece {
     pub place: [f64; 2],
     /// Mean products of coordinates about the centroid: xx, xy, yy (m2).
     pub(super) spread: [f64; 3],
-    /// Lengths (m) along which it touches the shares on the left, the right, below and above.
+    /// Lengths (m) of common lines with the lattice cells on the left, the right, below and above.
     pub(super) joints: [f64; 4],
 }
 
@@ -39,11 +40,11 @@ impl Piece {
         Self { volume: width * height, place, spread, joints: [height, height, width, width] }
     }
 
-    /// Half-lengths (m) of a parallelogram of its volume, row after row, in the shape of the one
-    /// with its mean products of coordinates: the columns are those of the symmetric root of Q,
-    /// three times the matrix of these, `(Q + s I)/t` with `s = sqrt(det Q)` and
-    /// `t = sqrt(tr Q + 2 s)` (Higham 2008, *Functions of Matrices*, problem 6.2). Of a rectangle
-    /// along the axes it is that rectangle.
+    /// Half-lengths (m) of a parallelogram of its volume, row after row, with the same mean
+    /// products of coordinates in shape: the columns are those of the symmetric root of Q, three
+    /// times the matrix of these products, `(Q + s I)/t` with `s = sqrt(det Q)` and
+    /// `t = sqrt(tr Q + 2 s)` (Higham 2008, *Functions of Matrices*, problem 6.2). For a rectangle
+    /// along the axes it is this rectangle.
     pub fn domain(&self) -> [f64; 4] {
         let [xx, xy, yy] = self.spread.map(|product| 3.0 * product);
         let root = (xx * yy - xy * xy).sqrt();
@@ -74,10 +75,10 @@ impl Piece {
     }
 }
 
-/// Joins pieces of less than a quarter of a share to the neighbours that they touch along the
-/// longest lines, the smallest first, where the common centroid is one that the body `holds`.
-/// `cuts` are those of all shares of a lattice, `along` of them in a row, of half-lengths `half`
-/// (m) about their `centres` (m). Volumes and first moments stay.
+/// Merges pieces of less than a quarter of a lattice cell with the neighbours that they touch along
+/// the longest lines, the smallest first, if the body contains the common centroid (`holds`).
+/// `cuts` are those of all lattice cells, `along` of them in a row, of half-lengths `half` (m)
+/// about their `centres` (m). Volumes and first moments do not change.
 pub fn join_small(
     cuts: &mut [Cut],
     along: usize,

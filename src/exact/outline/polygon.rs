@@ -16,8 +16,7 @@ pub struct Polygon {
 }
 
 impl Polygon {
-    /// The polygon of these corners (m), in either order around it; `kind` is the name that suites
-    /// have for it.
+    /// The polygon with these corners (m), in either orientation; `kind` is its name in suites.
     ///
     /// # Errors
     /// The numbers of two sides that cross or touch other than at the end of one and the start of
@@ -70,7 +69,7 @@ impl Polygon {
         self.sides().map(|(a, b)| distance(a, b, p)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The piece that convex `parts` make of a share; none where there is next to nothing.
+    /// The piece that consists of convex `parts` of a lattice cell; `None` if it is negligible.
     fn piece(parts: &[Vec<Point>], centre: &Point, half: &Point) -> Option<Piece> {
         let AreaMoments { area, first, .. } = AreaMoments::from_pieces(parts, centre);
         if !(area > ROUNDING * 4.0 * half[0] * half[1]) {
@@ -124,10 +123,10 @@ impl Outline for Polygon {
         if self.holds(label) { 0.0 } else { self.depth(&[label[0], label[1]]) }
     }
 
-    /// The exact part of the share, at its centroid: volume and first moment of the body are those
-    /// of its particles, but for rounding. The sum of V f(X) over the particles is the integral of
-    /// f with an error of second order in their spacing, at the rim as inside. Where the centroid
-    /// of a part lies outside, in a notch, there is a particle for each convex piece.
+    /// The exact intersection of cell and body, at its centroid: volume and first moment of the
+    /// body equal those of its particles, up to rounding. The sum of V f(X) over the particles is
+    /// the integral of f with an error of second order in their spacing, also at the rim. If the
+    /// centroid lies outside the body, as in a notch, each convex piece becomes a particle.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut {
         let (centre, half) = ([centre[0], centre[1]], [half[0], half[1]]);
         let is_near = |corners: &&TriangleCorners| {
@@ -206,7 +205,7 @@ impl Outline for Polygon {
         (centre, half)
     }
 
-    /// Each triangle is a square, one side of which is collapsed to the first corner.
+    /// One chart per triangle: a unit square with one side collapsed to the first corner.
     fn charts(&self) -> Vec<Vec<(f64, f64)>> {
         self.triangles.iter().map(|_| vec![(0.0, 1.0); 2]).collect()
     }
@@ -249,8 +248,8 @@ impl AreaMoments {
         all
     }
 
-    /// Adds a triangle: the mean of the product of linear functions over it is a twelfth of the
-    /// sum of their products at the corners and of the product of their sums.
+    /// Adds a triangle: the mean of the product of linear functions over it is 1/12 of the sum of
+    /// their products at the corners plus the product of their sums.
     fn add(&mut self, corners: TriangleCorners) {
         let [a, b, c] = &corners;
         let area = 0.5 * turn(a, b, c);
@@ -274,7 +273,7 @@ pub(super) fn side(a: &Point, b: &Point) -> Point {
     [b[0] - a[0], b[1] - a[1]]
 }
 
-/// Third component of the cross product, positive where `b` is to the left of `a`.
+/// Third component of the cross product, positive if `b` is to the left of `a`.
 pub(super) fn cross(a: &Point, b: &Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
@@ -289,7 +288,7 @@ pub(super) fn meet(corners: &[Point], first: usize, second: usize) -> bool {
     let n = corners.len();
     let ends = |i: usize| (&corners[i], &corners[(i + 1) % n]);
     let ((a, b), (c, d)) = (ends(first), ends(second));
-    // A side that turns back lies on the one before.
+    // A side that reverses direction lies on the previous one.
     let back = |from: &Point, corner: &Point, to: &Point| {
         let (before, after) = (side(from, corner), side(corner, to));
         turn(from, corner, to) == 0.0 && before[0] * after[0] + before[1] * after[1] < 0.0
@@ -337,8 +336,8 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
             };
             turn(&a, &b, &c) > 0.0 && left.iter().all(|k| own.contains(k) || !inside(&corners[*k]))
         };
-        // A corner on a straight line takes no area with it. Where rounding hides all ears, the
-        // largest goes: areas with their signs add up all the same.
+        // A corner on a straight line removes no area. If rounding hides all ears, the largest one
+        // is removed: the sum of signed areas is still correct.
         let area = |i: &usize| at(*i).map(|p| side(&at(*i)[0], &p));
         let area = |i: &usize| cross(&area(i)[1], &area(i)[2]);
         let flat = (0..n).find(|i| area(i) == 0.0);

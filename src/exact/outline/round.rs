@@ -22,8 +22,26 @@ pub struct Round {
     pub outer: f64,
 }
 
+/// A rim of a body in the plane that is a circle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Circle {
+    /// Name that suites give it.
+    pub name: &'static str,
+    /// Its number in [`Outline::rims`].
+    pub number: usize,
+    /// Centre (m).
+    pub centre: [f64; 2],
+    /// Radius (m).
+    pub radius: f64,
+    /// Sign of the outward normal of the body along the radius.
+    pub outwards: f64,
+}
+
 /// A rim of a round body.
 struct Rim {
+    /// Name in messages.
+    title: &'static str,
+    /// Name in suites.
     name: &'static str,
     radius: f64,
     /// Sign of the outward normal along the radius.
@@ -33,8 +51,9 @@ struct Rim {
 impl Round {
     /// The rims with a radius, the inner first.
     fn each_rim(&self) -> impl Iterator<Item = Rim> {
-        let inner = Rim { name: "the inner rim", radius: self.inner, outwards: -1.0 };
-        let outer = Rim { name: "the outer rim", radius: self.outer, outwards: 1.0 };
+        let rim = |title, name, radius, outwards| Rim { title, name, radius, outwards };
+        let inner = rim("the inner rim", "inner", self.inner, -1.0);
+        let outer = rim("the outer rim", "outer", self.outer, 1.0);
         [inner, outer].into_iter().filter(|rim| rim.radius > 0.0)
     }
 
@@ -92,8 +111,20 @@ impl Outline for Round {
         self.inner
     }
 
-    /// The whole share, if its centre lies inside: the rim is a stair, and volume and mass differ
-    /// from those of the body by a part that falls with the spacing.
+    fn circles(&self) -> Vec<Circle> {
+        let [x, y] = self.centre[..] else { return Vec::new() };
+        let circle = |(number, Rim { name, radius, outwards, .. })| Circle {
+            name,
+            number,
+            centre: [x, y],
+            radius,
+            outwards,
+        };
+        self.each_rim().enumerate().map(circle).collect()
+    }
+
+    /// The whole lattice cell, if its centre is inside: the rim is a staircase, and volume and mass
+    /// differ from those of the body by a share that decreases with the spacing.
     fn cut(&self, centre: &[f64], _: &[f64]) -> Cut {
         if self.holds(centre) { Cut::Whole } else { Cut::Nothing }
     }
@@ -118,7 +149,7 @@ impl Outline for Round {
     }
 
     fn rims(&self) -> Vec<String> {
-        self.each_rim().map(|rim| rim.name.to_owned()).collect()
+        self.each_rim().map(|rim| rim.title.to_owned()).collect()
     }
 
     fn on_rim(&self, rim: usize, random: &mut Random) -> (Vec<f64>, [f64; 3]) {
@@ -148,7 +179,7 @@ impl Outline for Round {
         (self.along(&direction, radius), half)
     }
 
-    /// Of the radius, the angle and, in space, the height over the radius.
+    /// Coordinates: the radius, the angle and, in 3-D, the height over the radius.
     fn charts(&self) -> Vec<Vec<(f64, f64)>> {
         let all = [(self.inner, self.outer), (-PI, PI), (-1.0, 1.0)];
         vec![all[..self.centre.len()].to_vec()]
@@ -171,8 +202,9 @@ fn direction(angle: f64, height: f64) -> [f64; 3] {
 /// Panels of the quadrature between two kinks: with four, a kink just beyond an end costs 1e-9.
 const PANELS: usize = 8;
 
-/// The volume that the ball of this `radius` has in common with the box between `ends`: the
-/// integral, along the last axis, of the same for the slices, which are balls of one axis less.
+/// The volume of the intersection of a ball of this `radius` and the box between `ends`: the
+/// integral, along the last axis, of the corresponding volume of the slices, which are balls of one
+/// dimension less.
 pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     let Some((&(low, high), others)) = ends.split_last() else { return 1.0 };
     let (low, high) = (low.max(-radius), high.min(radius));
@@ -214,8 +246,8 @@ fn between_chords(radius: f64, low: f64, high: f64, ends: &[f64]) -> f64 {
     if middle.min(high) > low.max(-middle) { top - bottom } else { 0.0 }
 }
 
-/// Places from `low` to `high` at which a slice touches a face, an edge or a corner of `others`,
-/// in their order, with both ends.
+/// Sorted places from `low` to `high` at which a slice touches a face, an edge or a corner of
+/// `others`, including both ends.
 fn kinks(radius: f64, others: &[(f64, f64)], low: f64, high: f64) -> Vec<f64> {
     let with = |squares: Vec<f64>, (from, to): &(f64, f64)| -> Vec<f64> {
         squares.into_iter().flat_map(|s| [s, s + from * from, s + to * to]).collect()
@@ -248,7 +280,7 @@ mod tests {
         ) {
             let body = Round { centre: vec![3.0, -2.0, 0.5][..d].to_vec(), inner, outer: 1.0 };
             let mut random = Random::new(seed);
-            // The roots of a distance are known but for rounding.
+            // Distances have rounding errors.
             let wide = Round { inner: inner - 1e-12, outer: 1.0 + 1e-12, ..body.clone() };
             prop_assert!(wide.holds(&body.point(&mut random)));
             let (centre, half) = body.patch(&mut random);
@@ -269,7 +301,7 @@ mod tests {
         }
     }
 
-    /// Its polygon is closed and has the area of the body, whose hole goes round the other way.
+    /// Its polygon is closed and has the area of the body; the hole has the opposite orientation.
     #[rstest]
     fn the_drawn_rims_are_those_of_the_body(#[values(0.0, 0.4)] inner: f64) {
         let trace = Round { centre: vec![1.0, 2.0], inner, outer: 1.5 }.trace();

@@ -1,4 +1,4 @@
-//! Polygons: what is one, and what the shares of a lattice have of it.
+//! Tests of polygons: validity, and the intersections with lattice cells.
 
 use super::polygon::{AreaMoments, Point, triangles};
 use super::{Cut, Outline, Piece, Polygon, join_small};
@@ -10,8 +10,8 @@ use rstest::rstest;
 const TRIANGLE: &[[f64; 2]] = &[[0.1, 0.1], [0.9, 0.2], [0.7, 0.8]];
 const ANGLE: &[[f64; 2]] =
     &[[0.1, 0.1], [0.9, 0.1], [0.9, 0.4], [0.4, 0.4], [0.4, 0.9], [0.1, 0.9]];
-/// With slits that are narrower than a share, a corner on a straight line, and arms that overlap in
-/// the share of a coarse lattice.
+/// A comb with slits narrower than a lattice cell, a corner on a straight line, and arms that share
+/// a cell of a coarse lattice.
 const COMB: &[[f64; 2]] = &[
     [0.0, 0.0],
     [0.5, 0.0],
@@ -41,7 +41,7 @@ fn by_sides(corners: &[[f64; 2]]) -> [f64; 3] {
     sums.map(|sum| if sums[0] < 0.0 { -sum } else { sum })
 }
 
-/// The particles of a lattice with `count` shares to a length of one, from beyond the body on.
+/// The particles of a lattice with `count` cells per unit length, which starts outside the body.
 fn particles(body: &Polygon, count: i32) -> Vec<Piece> {
     let spacing = 1.0 / f64::from(count);
     let half = [0.5 * spacing; 2];
@@ -101,7 +101,7 @@ fn a_whole_share_is_a_rectangle() {
     assert_relative_eq!(domain[..], [0.2, 0.0, 0.0, 0.3][..], epsilon = 1e-15);
 }
 
-/// Around a centre: any distances and growing angles make a simple polygon.
+/// A star-shaped polygon: any distances from a centre at increasing angles form a simple polygon.
 fn star() -> impl Strategy<Value = Vec<[f64; 2]>> {
     prop::collection::vec((0.05..1.0_f64, 0.1..1.0_f64), 4..12).prop_map(|corners| {
         let whole: f64 = corners.iter().map(|(_, angle)| angle).sum();
@@ -115,7 +115,8 @@ fn star() -> impl Strategy<Value = Vec<[f64; 2]>> {
     })
 }
 
-/// Angles of less than half a turn, so that the centre is inside.
+/// Whether all angles between neighbouring corners are below 180 degrees, so that the centre is
+/// inside.
 fn is_around_its_centre(corners: &[[f64; 2]]) -> bool {
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).all(|(a, b)| {
@@ -150,7 +151,7 @@ proptest! {
     }
 
     /// Charts cover the body once: the integral of a quadratic polynomial over each is that of its
-    /// values at Gauss points; two along an axis are enough.
+    /// values at Gauss points; two points per axis are enough.
     #[test]
     fn charts_cover_the_polygon(corners in star()) {
         prop_assume!(is_around_its_centre(&corners));
@@ -189,7 +190,7 @@ fn sums_over_particles_are_of_second_order(#[case] corners: &[[f64; 2]]) {
     }
 }
 
-/// A convex body has no particle of less than a quarter of a share.
+/// No particle of a convex body is smaller than a quarter of a cell.
 #[test]
 fn no_sliver_stays() {
     let body = polygon(TRIANGLE);
@@ -199,7 +200,7 @@ fn no_sliver_stays() {
     }
 }
 
-/// Half of the random points lie in the half of the area.
+/// The share of random points in a part equals its share of the area.
 #[test]
 fn points_are_spread_evenly() {
     let (body, half) = (polygon(ANGLE), polygon(&[[0.1, 0.1], [0.4, 0.1], [0.4, 0.9], [0.1, 0.9]]));
@@ -232,8 +233,8 @@ fn bodies_overlap_where_they_have_an_area_in_common() {
     assert_relative_eq!(body.distance(&[0.2, 0.2]), 0.0);
 }
 
-/// Of a rectangle along the axes the domain is that rectangle, of a half of it a parallelogram with
-/// the same area that leans as the half does.
+/// The domain of a rectangle along the axes is this rectangle. The domain of a triangle, half of
+/// it, is a parallelogram with the same area and the same inclination.
 #[test]
 fn domains_have_the_shape_of_the_piece() {
     let piece = |body: Polygon| match body.cut(&[0.5; 2], &[0.5; 2]) {
@@ -249,7 +250,8 @@ fn domains_have_the_shape_of_the_piece() {
     assert!((xx - yy).abs() < 1e-12 && (xy - yx).abs() < 1e-12 && xy < -0.05 * xx, "{xx} {xy}");
 }
 
-/// The volume per unit of the coordinates is linear along a chart, so its middle has the mean.
+/// The volume per unit of the coordinates is linear along a chart, so its value in the middle is
+/// the mean.
 #[rstest]
 fn charts_have_the_area_of_the_body(#[values(TRIANGLE, ANGLE, COMB)] corners: &[[f64; 2]]) {
     let body = polygon(corners);

@@ -15,15 +15,15 @@ use std::collections::BTreeMap;
 #[serde(tag = "type", rename_all = "snake_case")]
 pub(super) enum Answer {
     Hello(Hello),
-    /// The problem is taken.
+    /// The problem is accepted.
     Ready {
-        /// Places of the states to come; the particles, if there are none.
+        /// Sample points of the states; by default the particles.
         #[serde(default)]
         points: Option<Points>,
     },
-    /// The problem is not for this solver.
+    /// The problem is refused.
     Cannot {
-        /// Why.
+        /// Reason of the refusal.
         reason: String,
     },
     State(Box<State>),
@@ -34,12 +34,12 @@ pub(super) enum Answer {
         /// Derivatives, one for each entry of `with_respect_to`, in the same order.
         gradient: Vec<f64>,
     },
-    /// The solver broke.
+    /// The solver failed.
     Failed {
-        /// How.
+        /// Description of the failure.
         reason: String,
     },
-    /// Not an answer: a question for the body force.
+    /// Not an answer: a request for the body force.
     BodyForce {
         /// Time (s).
         t: f64,
@@ -73,7 +73,7 @@ pub(super) enum Answer {
     },
 }
 
-/// Places of a solver that has no particles, or others.
+/// Sample points of a solver without particles, or with other particles.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub(super) struct Points {
     /// Reference positions (m), D numbers each.
@@ -87,7 +87,7 @@ pub(super) struct Points {
 pub(super) struct State {
     /// Columns by their names: `displacement` (m), `velocity` (m/s), and what `capabilities` names.
     pub(super) columns: BTreeMap<String, ColumnText>,
-    /// How often particles changed their cells so far.
+    /// Number of cell changes of particles so far.
     #[serde(default)]
     pub(super) crossings: Option<u64>,
     /// Particles outside the grid.
@@ -109,7 +109,7 @@ pub(super) struct ValueRequest {
     pub(super) body: Option<usize>,
 }
 
-/// Who a solver is, and what it can do.
+/// Identity and capabilities of a solver.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 pub(super) struct Hello {
     /// Version of the protocol.
@@ -126,17 +126,17 @@ pub(super) struct Hello {
     #[serde(default)]
     #[schemars(schema_with = "precisions")]
     pub(super) precision: Precision,
-    /// Abilities; what is not named is lacking.
+    /// Capabilities; those that are not listed are missing.
     #[serde(default)]
     #[schemars(with = "Capabilities")]
     pub(super) capabilities: StatedCapabilities,
 }
 
-/// Abilities as a solver states them.
+/// Capabilities as stated by a solver.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct StatedCapabilities {
     pub(super) known: Capabilities,
-    /// All keys, those that mean nothing included.
+    /// All keys, including unknown ones.
     pub(super) keys: Vec<String>,
 }
 
@@ -158,7 +158,7 @@ fn two() -> f64 {
     2.0
 }
 
-/// A column, as numbers or as a part of the bytes that follow: its offset, and how many doubles.
+/// A column, as numbers or as a part of the bytes after the message: offset and number of doubles.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum ColumnText {
@@ -213,7 +213,7 @@ impl Answer {
     pub(super) fn read(frame: &MessageFrame) -> Result<Self, ProgramError> {
         serde_json::from_slice(&frame.line).map_err(|error| {
             let text = String::from_utf8_lossy(&frame.line);
-            // What Python and others write for what JSON has no word for.
+            // Texts that Python and other languages write for numbers that JSON cannot represent.
             for word in ["NaN", "Infinity"] {
                 if text.contains(word) {
                     return ProgramError::NoNumber(word);
@@ -278,7 +278,7 @@ impl Answer {
     }
 }
 
-/// The beginning of untrusted text.
+/// The beginning of an untrusted text, sanitised.
 fn excerpt(text: &str) -> String {
     let start = printable(&text.chars().take(60).collect::<String>());
     if text.chars().nth(60).is_some() { format!("{start}...") } else { start }

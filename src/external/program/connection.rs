@@ -1,7 +1,8 @@
 //! A solver's process, within limits of time and memory.
 //!
-//! Two threads read what it writes, and one writes what it should read: a process that does none
-//! of this blocks nobody. Each ends when its pipe does, which a kill brings about.
+//! Two threads read the output of the process, and one writes its input: a process that neither
+//! reads nor writes blocks nothing. Each thread ends with its pipe, at the latest when the process
+//! is killed.
 
 use super::answer::Answer;
 use super::error::{ProgramError, printable};
@@ -14,27 +15,27 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Longest answer before a problem is known (bytes).
+/// Maximum length of an answer before a problem is known (bytes).
 const SHORT: usize = 1 << 20;
 
-/// Bytes of standard error that are kept.
+/// Maximum number of bytes of standard error that are stored.
 const LAST_BYTES: usize = 2000;
 
 /// Maximum number of lines of standard error in a message.
 const LAST_LINES: usize = 3;
 
-/// Longest time that a process has to end by itself; it has no more than it may be silent.
+/// Maximum time for a process to end by itself; a shorter response timeout applies here too.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// Time between two looks at a process that says nothing.
+/// Polling interval for a process that does not respond.
 const GLANCE: Duration = Duration::from_millis(50);
 
 /// Limits of each process of a solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramLimits {
-    /// Longest time without an answer.
+    /// Response timeout.
     pub silence: Duration,
-    /// Address space (bytes), on Unix; none: what the system gives.
+    /// Address space (bytes), on Unix; `None`: limit of the system.
     pub memory: Option<u64>,
 }
 
@@ -44,8 +45,7 @@ impl Default for ProgramLimits {
     }
 }
 
-/// A process with its pipes. It is killed when this is dropped, with all that it has started in
-/// its group.
+/// A process with its pipes. Dropping it kills the process and all processes of its group.
 pub(super) struct Connection {
     child: Child,
     requests: Option<Sender<Vec<u8>>>,
@@ -75,7 +75,7 @@ impl Connection {
         let mut errors = child.stderr.take().ok_or(ProgramError::Pipe)?;
         let (requests, to_write) = channel::<Vec<u8>>();
         thread::spawn(move || {
-            // A process that reads no more has its answer judged, not its ears.
+            // A process that stopped reading is detected by its answers, not here.
             while let Ok(message) = to_write.recv() {
                 if input.write_all(&message).and_then(|()| input.flush()).is_err() {
                     break;
@@ -83,7 +83,7 @@ impl Connection {
             }
         });
         let longest = Arc::new(AtomicUsize::new(SHORT));
-        // A process that talks on and on waits in its own pipe.
+        // A process with unlimited output blocks on its own pipe.
         let (found, answers) = sync_channel(1);
         let most = Arc::clone(&longest);
         thread::spawn(move || read_all(output, &most, &found));
@@ -103,19 +103,19 @@ impl Connection {
         Ok(Self { child, requests, answers, longest, last_bytes, listener, silence })
     }
 
-    /// Lets answers have so many bytes from now on.
+    /// Sets the maximum number of bytes of later answers.
     pub(super) fn expect_up_to(&mut self, bytes: usize) {
         self.longest.store(SHORT.max(bytes), Ordering::Relaxed);
     }
 
-    /// Sends a message. A process that takes none is found by its silence.
+    /// Sends a message. A process that does not read it is detected by the response timeout.
     pub(super) fn send(&mut self, message: Outgoing) {
         if let Some(requests) = &self.requests {
             let _ = requests.send(message.into_bytes());
         }
     }
 
-    /// Waits for the next answer, with the block of bytes that came with it.
+    /// Waits for the next answer, with its block of bytes.
     ///
     /// # Errors
     /// The failure; the process is killed then.
@@ -132,8 +132,8 @@ impl Connection {
         })
     }
 
-    /// The next message, if one comes in time. A process may end and leave its pipe to another one
-    /// that it has started, and then nothing else tells its end.
+    /// The next message, if it arrives in time. A process may end while a child process keeps its
+    /// pipe open; so the process itself is polled too.
     fn heard(&mut self) -> Result<Result<MessageFrame, ProgramError>, RecvTimeoutError> {
         let start = Instant::now();
         loop {
@@ -158,11 +158,11 @@ impl Connection {
     }
 
     fn with_standard_error(&self, error: ProgramError) -> ProgramError {
-        // The process is dead, but what it said may still be on its way.
+        // The process is dead, but its last output may not have arrived yet.
         patiently(GRACE, || self.listener.is_finished().then_some(()));
         let kept = self.last_bytes.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);
-        // Of a trace of Python, these are the place, the line there and the error.
+        // For a Python traceback, these are the place, the source line and the error.
         let says = |line: &&str| line.contains(char::is_alphanumeric);
         let mut last: Vec<String> = text
             .lines()
@@ -180,7 +180,7 @@ impl Connection {
         }
     }
 
-    /// The status with which the process ends, if it does so soon.
+    /// The exit status of the process, if it ends soon.
     fn status(&mut self) -> Option<ExitStatus> {
         patiently(GRACE.min(self.silence), || self.child.try_wait().ok().flatten())
     }
@@ -209,7 +209,7 @@ impl Drop for Connection {
     }
 }
 
-/// The finding of `look`, if there is one within a time.
+/// The first result of `look` within a time.
 fn patiently<T>(most: Duration, mut look: impl FnMut() -> Option<T>) -> Option<T> {
     let start = Instant::now();
     loop {

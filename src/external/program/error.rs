@@ -30,7 +30,7 @@ pub enum ProgramError {
     /// The process has no standard streams.
     #[error("has no pipe")]
     Pipe,
-    /// No answer came in time.
+    /// No answer arrived in time.
     #[error("has been silent for {0} s")]
     Silent(f64),
     /// The process ended without an answer.
@@ -54,7 +54,7 @@ pub enum ProgramError {
     /// A line that is not a message of the protocol.
     #[error("answered with what is no message ({reason}): `{excerpt}`")]
     NoMessage {
-        /// The rule that the line breaks.
+        /// The violated rule.
         reason: String,
         /// Beginning of the line.
         excerpt: String,
@@ -94,7 +94,7 @@ pub enum ProgramError {
     /// The solver refuses the problem, for this reason.
     #[error("{0}")]
     Refused(String),
-    /// The solver reports a failure of its own.
+    /// The solver reports a failure.
     #[error("says: {0}")]
     Failed(String),
     /// A required column is missing.

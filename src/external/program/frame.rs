@@ -1,4 +1,4 @@
-//! Messages as they cross the pipe: written, and read as they come.
+//! Messages of the protocol: writing and reading.
 
 use super::error::ProgramError;
 use serde::Deserialize;
@@ -47,7 +47,7 @@ impl Outgoing {
         }
     }
 
-    /// Sets a column of its own.
+    /// Sets a column with its numbers.
     pub(super) fn set_numbers(&mut self, key: &str, numbers: &[f64]) {
         let column = self.numbers(numbers);
         self.set(key, column);
@@ -62,7 +62,7 @@ impl Outgoing {
         json!({"f64": [offset, numbers.len()]})
     }
 
-    /// The message as it is written.
+    /// The message as bytes.
     pub(super) fn into_bytes(mut self) -> Vec<u8> {
         if !self.bytes.is_empty() {
             self.message.insert("bytes".to_owned(), json!(self.bytes.len()));
@@ -81,18 +81,18 @@ struct Announced {
     bytes: usize,
 }
 
-/// Number of bytes that follow a line; zero for a line that is no message, which the reader of
+/// Number of bytes that follow a line; zero for a line that is not a message, which the reader of
 /// answers refuses.
 fn announced(line: &[u8]) -> usize {
-    // Most lines announce none: they need not be read twice.
+    // Lines without the key "bytes" are not parsed here.
     if !line.windows(7).any(|word| word == b"\"bytes\"") {
         return 0;
     }
     serde_json::from_slice::<Announced>(line).map_or(0, |announced| announced.bytes)
 }
 
-/// Reads messages until the output ends, or one breaks the protocol. `longest` is the most bytes
-/// that one may have.
+/// Reads messages until the output ends or a message breaks the protocol. `longest` is the maximum
+/// length of a message (bytes).
 pub(super) fn read_all(
     output: ChildStdout,
     longest: &AtomicUsize,
@@ -117,7 +117,7 @@ pub(super) fn read_one(
     output: &mut impl BufRead,
     longest: &AtomicUsize,
 ) -> Result<Option<MessageFrame>, ProgramError> {
-    // The limit is read again while a line grows: the first answer comes before the problem is
+    // The limit is read again while a line grows: the first answer arrives before the problem is
     // known.
     let check_size = |size: usize| {
         let most = longest.load(Ordering::Relaxed);

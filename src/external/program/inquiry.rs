@@ -21,19 +21,19 @@ pub(super) struct Inquiry {
     /// Reference positions (m) and bodies of the particles, or of the solver's own points.
     labels: Vec<f64>,
     bodies: Vec<usize>,
-    /// The body force at `labels`, once it has been requested there.
+    /// The body force at `labels`, after the first request.
     placed: Option<PlacedBodyForce>,
     /// Version of the protocol that the solver speaks.
     version: u64,
     binary: bool,
-    /// Requests so far, and the largest number of them.
+    /// Number of requests so far, and its maximum.
     asked: u64,
     most: u64,
 }
 
 impl Inquiry {
-    /// The answers to a solver of `problem` that speaks a `version` of the protocol. Places that a
-    /// request does not give are the particles.
+    /// The answers to a solver of `problem` with this `version` of the protocol. Places of a
+    /// request are the particles by default.
     pub(super) fn new(problem: &LevelProblem, version: u64, binary: bool) -> Self {
         Self {
             dimension: problem.dimension,
@@ -62,18 +62,18 @@ impl Inquiry {
         Ok(())
     }
 
-    /// A field of the initial state at the particles or points, if it is known there.
+    /// A field of the initial state at the particles or points, if it is defined there.
     pub(super) fn start(&self, of: FieldName) -> Option<Vec<f64>> {
         let at = FieldPlaces::new(&self.labels, &self.bodies);
         self.fields.as_ref()?.values(of, 0.0, &at).ok()
     }
 
-    /// Allows so many requests from now on.
+    /// Allows `requests` requests from now on.
     pub(super) fn allow(&mut self, requests: u64) {
         (self.asked, self.most) = (0, requests);
     }
 
-    /// The answer to a request that came with a block of `bytes`.
+    /// The answer to a request with a block of `bytes`.
     ///
     /// # Errors
     /// One line about a request that has no answer.
@@ -159,7 +159,7 @@ impl Inquiry {
         Ok(RequestedPlaces { labels, bodies, displacement, are_own })
     }
 
-    /// The places of a request that gives none.
+    /// The default places of a request.
     fn default_places(&self, field: FieldName) -> Result<Vec<f64>, FieldError> {
         let (numbers, face) = match field {
             FieldName::Load(load) => {

@@ -32,7 +32,7 @@ use std::sync::atomic::AtomicUsize;
 
 #[doc(hidden)]
 /// Reads answers from `bytes` as from a process, with all their columns, up to the first that
-/// breaks the protocol; returns how many are sound. For the fuzzer.
+/// breaks the protocol; returns the number of valid answers. For the fuzzer.
 pub fn read_answers(mut bytes: &[u8]) -> usize {
     let longest = AtomicUsize::new(bytes.len());
     let mut count = 0;

@@ -1,4 +1,4 @@
-//! The protocol as a JSON Schema (draft 2020-12), made from the types that read and write it.
+//! The protocol as a JSON Schema (draft 2020-12), generated from the types that read and write it.
 
 use super::answer::{Answer, ColumnText};
 use super::solver::{PROTOCOL, VERSIONS};
@@ -8,8 +8,8 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-/// The schema of every message, of either side, as indented JSON. `answer` and `request` among its
-/// definitions are those of the solver and of the harness.
+/// The schema of every message of both sides, as indented JSON. Its definitions `answer` and
+/// `request` are the messages of the solver and of the harness.
 pub fn protocol_schema() -> String {
     let mut definitions = SchemaSettings::draft2020_12().into_generator();
     let answer = with_bytes(definitions.root_schema_for::<Answer>());
@@ -24,7 +24,7 @@ pub fn protocol_schema() -> String {
         "anyOf": [{"$ref": "#/$defs/request"}, {"$ref": "#/$defs/answer"}],
         "$defs": all,
     });
-    // Names and texts only: there is nothing that JSON has no word for.
+    // Names and texts only, so that the conversion to JSON cannot fail.
     serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
 }
 
@@ -100,7 +100,7 @@ fn functional() -> Value {
     ]})
 }
 
-/// A message of a type, with keys that must be there.
+/// A message of a type, with required keys.
 fn message(kind: &str, keys: Value) -> Value {
     let mut properties = Map::from_iter([("type".to_owned(), json!({"const": kind}))]);
     if let Value::Object(keys) = keys {

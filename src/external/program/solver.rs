@@ -1,4 +1,4 @@
-//! A solver behind a command, as a maker of subjects.
+//! A solver program, as a factory of subjects.
 
 use super::answer::{Answer, Hello, Points};
 use super::connection::{Connection, ProgramLimits};
@@ -26,7 +26,7 @@ pub(super) const VERSIONS: [u64; 2] = [1, PROTOCOL];
 /// Maximum number of requests for values before a solver is ready.
 const SETUP_QUESTIONS: u64 = 10_000;
 
-/// A solver behind a command.
+/// A solver that is run by a command.
 #[derive(Debug, Clone)]
 pub struct SolverProgram {
     command: Vec<String>,
@@ -38,10 +38,10 @@ pub struct SolverProgram {
 }
 
 impl SolverProgram {
-    /// Starts `command` (words as a shell splits them) and asks who it is.
+    /// Starts `command` (split into arguments like in a shell) and requests its identity.
     ///
     /// # Errors
-    /// The command cannot be used, or its answer breaks the protocol.
+    /// The command cannot be run, or its answer breaks the protocol.
     pub fn greet(command: &str, limits: ProgramLimits) -> Result<Self, ProgramError> {
         let command = shlex::split(command).ok_or(ProgramError::Quotes)?;
         if command.is_empty() {
@@ -53,11 +53,11 @@ impl SolverProgram {
         Ok(Self { command, limits, hello, identity, called: None })
     }
 
-    /// The solver with another name for its cases, which tells two of the same program apart. What
-    /// a suite states for a solver by its name is then for `name`.
+    /// The solver under another name, to distinguish two solvers that run the same program.
+    /// Expectations of a suite for a named solver then refer to `name`.
     ///
     /// # Errors
-    /// `name` is none for a solver.
+    /// `name` is not a valid name of a solver.
     pub fn called(self, name: &str) -> Result<Self, ProgramError> {
         if !is_solver_name(name) {
             return Err(ProgramError::Name(printable(name)));
@@ -120,13 +120,13 @@ pub(super) struct Started {
     pub(super) bytes: Vec<u8>,
 }
 
-/// A hash of the command, of the files that its words name, and of what the solver says of itself.
-/// Modules of its language and the like, which a program reads besides, are known by its version.
+/// Hash of the command, of the files that its arguments name, and of the hello message. Other files
+/// that the program reads, such as modules, are represented by the version in this message.
 fn identity(command: &[String], hello: &Hello) -> u64 {
     let mut all = DefaultHasher::new();
     (command, format!("{hello:?}")).hash(&mut all);
     for word in command {
-        // A folder or a device is no program.
+        // A folder or a device is not a program.
         let is_file = fs::metadata(word).is_ok_and(|found| found.is_file());
         is_file.then(|| fs::read(word).ok()).flatten().hash(&mut all);
     }
@@ -188,7 +188,7 @@ impl SolverFactory for SolverProgram {
     fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = self.hello.capabilities.known.lacking(needs);
         if self.hello.protocol == 1 {
-            // What is lacking for another reason too is reported once.
+            // A capability that is also missing for another reason is reported once.
             let stated = needs.beyond_version_1().into_iter();
             let stated = stated.filter(|need| !lacking.iter().any(|known| known.starts_with(need)));
             let new: Vec<String> = stated

@@ -13,14 +13,14 @@ use serde_json::json;
 /// Maximum number of requests for values between two instants, for each step.
 pub(super) const QUESTIONS_PER_STEP: u64 = 1000;
 
-/// Longest answer (bytes) that a solver of `problem` can have to give: every column of three times
-/// as many points as particles, in decimals.
+/// Maximum length (bytes) of an answer to `problem`: every column, in decimal text, for three times
+/// as many points as particles.
 pub(super) fn longest_answer(problem: &LevelProblem) -> usize {
     let (d, points) = (problem.dimension, 1000 + 3 * problem.particles.len());
     32 * points * (3 * d + 2 * d * d + 2)
 }
 
-/// The next answer that is no request for values; such requests are answered until it comes.
+/// Answers requests for values, and returns the first answer that is not such a request.
 pub(super) fn conclude(
     connection: &mut Connection,
     inquiry: &mut Inquiry,
@@ -34,28 +34,28 @@ pub(super) fn conclude(
     }
 }
 
-/// A subject behind a connection. Steps are asked for in one message up to each instant, since the
-/// state between instants is nobody's concern.
+/// A subject in a solver process. Steps are requested in one message up to each instant, because
+/// the state between instants is not used.
 pub(super) struct ProgramSubject {
     connection: Connection,
     dimension: usize,
     dt: f64,
-    /// Steps after which the state is wanted, from the next one on.
+    /// Steps after which the state is requested, from the next one on.
     instants: std::vec::IntoIter<u64>,
     next: Option<u64>,
-    /// Steps that were called for, and those that were asked of the process.
+    /// Number of steps that the caller has made, and that the process was asked for.
     called: u64,
     taken: u64,
     inquiry: Inquiry,
-    /// Masses of the points (kg): those of the particles, or the weights of the solver's own points
-    /// times the reference density. `None` for own points in bodies of several materials.
+    /// Masses of the points (kg): those of the particles, or the weights of sample points times the
+    /// reference density. `None` for sample points in bodies of several materials.
     mass: Option<Vec<f64>>,
     samples: Samples,
     counters: RunCounters,
 }
 
 impl ProgramSubject {
-    /// The subject in the initial state of `problem`; its places are `points`, if there are any.
+    /// The subject in the initial state of `problem`, with the sample points `points`, if any.
     ///
     /// # Errors
     /// The points are not usable.

@@ -21,10 +21,10 @@ const UNTIL: f64 = 0.5;
 /// here, 3e-12 m (quadratic elements, 64 of them); inside the elements 3e-9 m is the smallest.
 const DT: f64 = 2e-5;
 
-/// Order k + 1 inside the elements; 2k at the nodes. Lumping costs the quadratic element nothing,
-/// because it is the quadrature of its Lobatto points, which integrates the mass to degree
-/// 2k - 1: enough for the order of the frequencies, 2k (Fried & Malkus, *Int. J. Solids Struct.*
-/// 11, 1975).
+/// Order k + 1 inside the elements; 2k at the nodes. Lumping does not reduce the order of the
+/// quadratic element: it is the quadrature of its Lobatto points, which integrates the mass to
+/// degree 2k - 1, enough for the order of the frequencies, 2k (Fried & Malkus, *Int. J. Solids
+/// Struct.* 11, 1975).
 #[rstest]
 #[case(Linear, Lumped, Inside, 2.0)]
 #[case(Linear, Consistent, Inside, 2.0)]
@@ -53,21 +53,21 @@ fn the_vibrating_bar_shows_the_formal_order(
     assert!((observed[3] - formal).abs() < 0.05, "{observed:?}");
 }
 
-/// A column of ten elements (wave speed 10 m/s) on which gravity is switched on at once.
+/// A column of ten elements (wave speed 10 m/s) under suddenly applied gravity.
 fn column(start: Start) -> BarSetup {
     let body_force = Some(pointwise(|_, _| -9.81));
     BarSetup { cells: 10, start, body_force, ..bar_at_rest(1.0, 1e5, 1e3) }
 }
 
-/// Displacement and velocity somewhere in the column, after 0.1 s in so many steps.
+/// Displacement and velocity at a point of the column after 0.1 s, computed with `steps` steps.
 fn seen(start: Start, steps: u32) -> [f64; 2] {
     let bar = run(column(start), 0.1, 0.1 / f64::from(steps));
     [bar.displacement_at(0.77), bar.velocity_at(0.77)]
 }
 
-/// The mesh is fixed, so a run with a much smaller step is exact enough to compare with. Under a
-/// constant load and from rest, [`Start::AtZero`] computes the right motion half a step too early:
-/// its displacement is of first order, its velocity, which is half a step behind, is of second.
+/// The mesh is fixed, so a run with a much smaller step is an accurate reference. Under a constant
+/// load and from rest, [`Start::AtZero`] computes the right motion half a step too early: its
+/// displacement is of first order, its velocity, which is half a step behind, of second order.
 #[rstest]
 #[case(Start::AtZero, [1.0, 2.0])]
 #[case(Start::HalfStepBack, [2.0, 2.0])]
@@ -97,8 +97,8 @@ fn a_change_of_step_keeps_the_second_order() {
     assert!(observed.iter().all(|order| (order - 2.0).abs() < 0.1), "{observed:?}");
 }
 
-/// A free bar follows a load that grows, `b = 6 t`, along `u = t^3`: the load of a step is that of
-/// its beginning, where the displacements are.
+/// A free bar follows a growing load, `b = 6 t`, along `u = t^3`: the load of a step is that at its
+/// beginning, the time of the displacements.
 #[test]
 fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
     let error = |steps| {
@@ -136,7 +136,7 @@ fn energy(bar: &Bar) -> f64 {
     0.5 * (kinetic + stretched.sum::<f64>() * 100.0 / h)
 }
 
-/// A symplectic step keeps the energy near its start, for 100 periods as for one.
+/// A symplectic step bounds the energy near its initial value, for 100 periods as for one.
 #[rstest]
 fn energy_stays_bounded(#[values(Start::AtZero, Start::HalfStepBack)] start: Start) {
     let mut bar = Bar::new(BarSetup { start, ..vibrating_bar(16, Linear, Lumped) }).unwrap();
@@ -154,7 +154,7 @@ fn energy_stays_bounded(#[values(Start::AtZero, Start::HalfStepBack)] start: Sta
     assert!(worst.iter().all(|&now| now < 1.02 * worst[0]), "{worst:?}");
 }
 
-/// All that a look at a bar shows, bit by bit.
+/// All observable state of a bar, as bits.
 fn bits(bar: &Bar) -> (Vec<u64>, String) {
     let mut samples = Samples::default();
     bar.sample(&mut samples);

@@ -13,7 +13,7 @@ fn neo_hookean(def_grad: f64) -> f64 {
     50.0 * (def_grad - 1.0 / def_grad)
 }
 
-/// The patch test: a uniform strain, held by its own stress, is in the discrete space.
+/// The patch test: a uniform strain, in equilibrium with its own stress, is in the discrete space.
 #[rstest]
 fn a_uniform_stretch_stays(
     #[values(Element::Linear, Element::Quadratic)] element: Element,
@@ -44,7 +44,7 @@ fn a_uniform_stretch_stays(
     assert_relative_eq!(bar.counters().min_j, STRETCH, epsilon = 1e-12);
 }
 
-/// A free bar under gravity falls as a whole, and needs no stress to do so.
+/// A free bar under gravity falls without stress.
 #[rstest]
 fn a_free_bar_falls(
     #[values(Element::Linear, Element::Quadratic)] element: Element,
@@ -168,7 +168,7 @@ fn a_step_without_length_in_numbers_is_a_failure() {
     assert_eq!(bar.step(f64::NAN), Err(Failure::NonFinite { quantity, site }));
 }
 
-/// Nothing is left to move, and nothing breaks: both ends of the only element are fixed.
+/// No node can move, and nothing fails: both ends of the only element are fixed.
 #[test]
 fn a_bar_without_free_nodes_stands() {
     let mut bar = Bar::new(BarSetup {

@@ -1,4 +1,4 @@
-//! Promises of the finite element method, held against this one.
+//! Tests of properties that theory guarantees for the finite element method.
 
 mod convergence;
 mod discretisation;
@@ -35,7 +35,7 @@ fn vibrating_bar(cells: usize, element: Element, mass: Mass) -> BarSetup {
     BarSetup { cells, element, mass, initial_velocity, ..bar_at_rest(25.0, 100.0, 1.0) }
 }
 
-/// Steps to `until` in steps of at most `dt`, all alike.
+/// Runs to `until` with equal steps of at most `dt`.
 fn run(setup: BarSetup, until: f64, dt: f64) -> Bar {
     let mut bar = Bar::new(setup).unwrap();
     let steps = libm::ceil(until / dt - 1e-6);

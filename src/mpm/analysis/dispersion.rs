@@ -12,8 +12,8 @@
 //!
 //! This 2 x 2 matrix has the eigenvalues `l^2 - tr l + det = 0`. Every transfer has the form
 //! `tr = 1 + b - p C^2` and `det = b - q C^2` with the Courant number `C = c dt/h`. All other
-//! eigenvalues of the particle matrix are 1, 0, or the FLIP share of a blend, and are not seen by
-//! the grid. Amplitudes change by `sqrt(det)` in each step while the eigenvalues are complex.
+//! eigenvalues of the particle matrix are 1, 0, or the FLIP share of a blend, and do not affect the
+//! grid. Amplitudes change by `sqrt(det)` in each step while the eigenvalues are complex.
 //!
 //! Sources: von Neumann's analysis of the schemes of Bardenhagen (2002, J. Comput. Phys. 180), of
 //! APIC (Jiang, Schroeder & Teran 2017, J. Comput. Phys. 338), XPIC (Hammerquist & Nairn 2017,
@@ -29,13 +29,13 @@ const WAVES: u32 = 720;
 /// Rounds of the golden-section search around the least of them.
 const ROUNDS: u32 = 60;
 
-/// Longest wave in a search for a phase error (cells).
+/// Maximum wavelength in a search for a phase error (cells).
 const LONGEST: f64 = 1e4;
 
 /// Ratio of neighbouring wavelengths in a search for a phase error.
 const RATIO: f64 = 1.002;
 
-/// Amount by which the part kept in a step may exceed one because of rounding.
+/// Amount by which the amplitude factor of a step may exceed one because of rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// Transfers whose step has a closed form.
@@ -49,7 +49,7 @@ pub enum WaveTransfer {
     Pic,
     /// APIC.
     Apic,
-    /// A blend with this share of FLIP, from 0 to 1, and PIC for the rest.
+    /// A blend with this share of FLIP, from 0 to 1; the rest is PIC.
     Blend(f64),
     /// XPIC with this number of terms.
     Xpic(u32),
@@ -74,7 +74,8 @@ impl WaveStep {
     pub fn new(transfer: WaveTransfer, scheme: SchemeName, symbols: &WaveSymbols) -> Self {
         let WaveSymbols { theta, stiffness: kappa, mass: s, affine: a } = *symbols;
         let uses_grid_velocity = scheme == SchemeName::Usl;
-        // A transfer that adds `dt S f` to velocities and keeps `kept` of those that the grid sees.
+        // A transfer that adds `dt S f` to velocities, and multiplies the grid part of the old
+        // velocities by `kept`.
         let adding = |kept: f64| {
             if uses_grid_velocity {
                 Self { theta, kept, stiffness: kappa, loss: kappa * (kept - s) }
@@ -82,7 +83,7 @@ impl WaveStep {
                 Self { theta, kept, stiffness: kappa * s, loss: 0.0 }
             }
         };
-        // A transfer that replaces velocities by those of the grid times `series`.
+        // A transfer that replaces velocities by grid velocities times `series`.
         let replacing = |kept: f64, series: f64| {
             let passed = if uses_grid_velocity { 1.0 } else { kept };
             Self { theta, kept, stiffness: kappa * series * passed, loss: 0.0 }
@@ -122,8 +123,8 @@ impl WaveStep {
         2.0 * (1.0 + self.kept) * self.stiffness - 4.0 * self.loss
     }
 
-    /// Courant numbers between which the eigenvalues are complex. Outside the range the wave is
-    /// overdamped or unstable and has no phase. `None` if there is no such range.
+    /// Range of Courant numbers with complex eigenvalues. Outside the range the wave is overdamped
+    /// or unstable and has no phase. `None` if there is no such range.
     pub fn complex_range(&self) -> Option<(f64, f64)> {
         let lost = (1.0 - self.kept) * (1.0 - self.kept);
         let square = self.stiffness * self.stiffness;
@@ -223,8 +224,8 @@ impl WaveMethod {
         Some(0.5 * (beyond + within))
     }
 
-    /// Largest Courant number at which no wave grows: the least limit over `0 < theta <= pi`. NaN
-    /// if there are no particles.
+    /// Largest Courant number at which no wave grows: the minimum of the limits over
+    /// `0 < theta <= pi`. NaN if there are no particles.
     pub fn stability_limit(&self) -> f64 {
         let limit = |theta: f64| self.step(theta).limit();
         let spacing = PI / f64::from(WAVES);

@@ -1,12 +1,12 @@
 //! Null space of the map to the grid: the part of the particles' velocities without nodal momentum.
 //!
-//! With N the map from nodes to particles and M the particle masses, velocities are `v = N w + v0`
-//! in one way in which v0 gives no node any momentum, `N^T M v0 = 0`: v0 lies in the null space of
-//! the map to the grid, and no force ever answers it (Brackbill 1988; Gritton & Berzins 2017, Comp.
-//! Part. Mech. 4). w is the least-squares fit `N^T M N w = N^T M v`, whose matrix is the consistent
-//! mass matrix. That may be singular, which conjugate gradients allow; the lumped one stands
-//! in for its inverse, so that a round applies the map to the grid and back, the operator of PIC
-//! and XPIC, once.
+//! With N the map from nodes to particles and M the particle masses, velocities split uniquely into
+//! `v = N w + v0`, where v0 gives no momentum to any node, `N^T M v0 = 0`: v0 lies in the null
+//! space of the map to the grid, and no force acts against it (Brackbill 1988; Gritton & Berzins
+//! 2017, Comp. Part. Mech. 4). w is the least-squares fit `N^T M N w = N^T M v`, whose matrix is
+//! the consistent mass matrix. It may be singular, which conjugate gradients allow. The
+//! preconditioner is the lumped mass matrix, so that each iteration applies the map to the grid and
+//! back, the operator of PIC and XPIC, once.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
@@ -21,9 +21,9 @@ const ROUNDING: f64 = 1e-26;
 const MOST: usize = 200;
 
 impl<const D: usize> Solver<D> {
-    /// Kinetic energy (J) of the part of the particles' velocities that lies in the null space of
-    /// the map to the grid, where the particles are now. Walls do not matter: they hold nodes, and
-    /// this part gives nothing to any.
+    /// Kinetic energy (J) of the part of the particle velocities in the null space of the map to
+    /// the grid, at the current positions. Walls do not matter: they fix nodes, and this part has
+    /// no effect on nodes.
     pub fn null_space_energy(&self) -> f64 {
         0.5 * square(&self.setup.particles, &self.null_space_velocity())
     }
@@ -69,8 +69,8 @@ fn null_part<const D: usize>(
     rest
 }
 
-/// Nodal masses (kg) where the particles are now; those of the grid are of the step that has moved
-/// them.
+/// Nodal masses (kg) at the current positions of the particles; those of the grid are from before
+/// the last motion.
 fn masses<const D: usize>(
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,

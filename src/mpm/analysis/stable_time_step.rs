@@ -1,17 +1,17 @@
 //! Stable time step, by power iteration with the passes of the solver itself.
 //!
-//! Velocities of nodes strain the particles, the stresses make forces, and these accelerate the
-//! nodes: `L = M^-1 K`, applied by running the stages of a step on a small velocity. Its largest
+//! Nodal velocities strain the particles, the stresses give forces, and these accelerate the nodes:
+//! `L = M^-1 K`, applied by running the stages of a step on a small velocity. Its largest
 //! eigenvalue, the square of the highest frequency, is found by power iteration. With it an
 //! explicit step is stable up to `dt^2 L = 4/((2 - a) l)` under USL, where a, between 0 and 1, is
-//! the share of a velocity that particles show to the grid again; so `dt = sqrt(2/L)` is safe
-//! whatever a mode shows. Under USF and MUSL a particle is strained by what has gone through
-//! particles: `L = P N M^-1 K` with the maps to nodes and to particles, of which nothing grows
-//! where a node has little mass. Nothing is assumed of basis, mass matrix, place of particles or
-//! law, which are those of the run.
+//! the share of a velocity that the particles return to the grid; so `dt = sqrt(2/L)` is stable for
+//! every mode. Under USF and MUSL the strain comes from grid velocities that were mapped to
+//! particles and back: `L = P N M^-1 K` with the maps N to particles and P to nodes, which stays
+//! bounded where a node has little mass. The analysis assumes nothing about basis, mass matrix,
+//! particle positions or law: it runs the passes of the solver with those of the run.
 //!
 //! A load that depends on the displacement holds each particle with a stiffness k per unit mass.
-//! Maps to nodes and back take an average, so that it adds no more than k to the square of a
+//! The maps to nodes and back average, so that the load adds at most k to the square of a
 //! frequency.
 //!
 //! Sources: von Neumann's analysis (the suite `courant-limit` has the closed forms); for the
@@ -25,32 +25,32 @@ use crate::mpm::step::solver::Solver;
 use crate::mpm::transfer::{TransferChoice, TransferKind, TransferName, kick};
 use crate::subject::{Checkpoint, Failure};
 
-/// The largest velocity in the iteration, over `h/longest`. Its strains must be large beside
-/// rounding, 1e-16, and small beside one; and it is a velocity, so that a quadratic viscosity means
-/// nothing to it.
+/// Largest velocity in the iteration, over `h/longest`. Its strains must be much larger than the
+/// rounding error, 1e-16, and much smaller than one. It is also so small that a quadratic viscosity
+/// is negligible.
 const SPEED: f64 = 1e-7;
 
-/// Times that the iteration is repeated with the step that it gave: where stresses depend on rates
-/// the frequency depends on the step.
+/// Maximum number of repetitions, each with the step that the previous one gave: if stresses depend
+/// on rates, the frequency depends on the step.
 const REPEATS: u32 = 12;
 
-/// Rounds of a repetition, which starts where the one before has ended.
+/// Rounds of each repetition after the first, which starts from the mode of the previous one.
 const AGAIN: u32 = 4;
 
-/// Share of the largest eigenvalue so far by which all are shifted, which almost doubles the rate
-/// at which the others die out. It must be less than a half, or the smallest one would be the
-/// largest.
+/// Shift of all eigenvalues, as a share of the largest estimate so far. It almost doubles the rate
+/// at which the other modes decay. It must be less than 1/2: otherwise the smallest eigenvalue
+/// becomes the largest in magnitude.
 const SHIFT: f64 = 0.45;
 
 /// Relative change at which the step counts as converged.
 const SETTLED: f64 = 1e-3;
 
 impl<const D: usize> Solver<D> {
-    /// The longest stable step (s), but at most `longest`, in the present state of the body.
-    /// Loads are left out but for their stiffness, and so is friction of walls, and damping but
-    /// that of the law and of artificial viscosity. `rounds` of the power iteration, each as
-    /// expensive as a step, give an upper bound that is too large by a few percent after some
-    /// twenty.
+    /// Maximum stable step (s) in the present state of the body, at most `longest`. Includes the
+    /// stiffness of loads, the damping of the law and artificial viscosity; excludes the loads
+    /// themselves, other damping and the friction of walls. Each of the `rounds` of the power
+    /// iteration costs as much as a step. The result is an upper bound, too large by a few percent
+    /// after about twenty rounds.
     ///
     /// # Errors
     /// Failures of the passes; [`Failure::Solve`] if there is no highest frequency.
@@ -105,10 +105,10 @@ impl<const D: usize> Solver<D> {
             for (found, rest) in found.iter_mut().zip(&rest) {
                 *found = (*found - rest) / dt;
             }
-            // Written so that NaN comes through.
+            // Written so that NaN propagates.
             let ratio = (self.size(&found) / self.size(mode)).sqrt();
             square = if square > ratio { square } else { ratio };
-            // The next is (L - shift) mode, but for its sign.
+            // The next mode is (L - shift) mode, up to its sign.
             let shift = SHIFT * square;
             for (mode, found) in mode.iter_mut().zip(found) {
                 *mode = *mode * shift + found;
@@ -159,7 +159,7 @@ impl<const D: usize> Solver<D> {
         self.visit_state(&mut Checkpoint::from_bytes(start));
     }
 
-    /// All that a response changes, and with it what material and effects keep between stresses.
+    /// All state that a response changes, including the state of material and effects.
     fn visit_state(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.setup);
         checkpoint.visit(&mut self.velocity_time);
@@ -172,11 +172,11 @@ fn strains_by_mapped_velocity(scheme: SchemeName, kind: TransferKind) -> bool {
     scheme != SchemeName::Usl && kind == TransferKind::Velocity
 }
 
-/// The simplest scheme and transfer with the stable time step of these, to the last bit, so that
-/// it is computed once for all methods that share it. A response has neither P2G of momentum nor
-/// G2P of velocities unless velocities pass through particles, and then only the passage itself;
-/// forces and velocity gradients are those of the basis for all transfers but fits, and so are
-/// accelerations for all but series and cells.
+/// The simplest scheme and transfer with the same stable time step, to the last bit, so that it is
+/// computed once for all methods that share it. A response contains no P2G of momentum and no G2P
+/// of velocities, unless velocities pass through particles, and then only this passage. Forces and
+/// velocity gradients are those of the basis for all transfers except fits, and accelerations are
+/// those of the basis for all except series and cells.
 pub fn simplest_with_same_response(
     scheme: SchemeName,
     transfer: TransferChoice,

@@ -24,7 +24,7 @@ pub enum Spline {
 }
 
 impl Spline {
-    /// Positions, in cells, of the functions that are not zero in the cell from 0 to 1.
+    /// Positions, in cells, of the functions that are non-zero in the cell from 0 to 1.
     fn places(self) -> &'static [f64] {
         match self {
             Self::Linear => &[0.0, 1.0],
@@ -63,14 +63,13 @@ pub struct WaveSymbols {
     /// after the map to the particles and back with a lumped mass matrix.
     pub mass: f64,
     /// APIC, `a = s + mean |sum N_i (x_i - xi) exp(i theta x_i)|^2/D` with
-    /// `D = sum N_i (x_i - xi)^2`: the part that remains if particles carry an affine field.
+    /// `D = sum N_i (x_i - xi)^2`: the part that remains if particles have an affine field.
     pub affine: f64,
 }
 
 impl WaveSymbols {
-    /// Symbols of a wave with `theta` (rad) for particles of equal mass and volume at
-    /// `positions`, from 0 to 1 in each cell. A particle with D = 0 adds no affine part. NaN if
-    /// there are no particles.
+    /// Symbols of a wave with `theta` (rad) for particles of equal mass and volume at `positions`,
+    /// from 0 to 1 in each cell. A particle with D = 0 adds no affine part. NaN without particles.
     pub fn new(spline: Spline, theta: f64, positions: &[f64]) -> Self {
         let [mut stiffness, mut mass, mut affine] = [0.0; 3];
         for xi in positions {

@@ -1,10 +1,10 @@
 //! B-splines of degree 2 and 3: gradients without jumps.
 //!
-//! At walls the knots are open (repeated), so that the functions conform to the wall: the first one
-//! is 1 there, and holding it holds the boundary (Steffen, Kirby & Berzins 2008, IJNME 76,
-//! section 4; Tielen, Wobbes, Moeller & Beuth 2017). On a periodic axis the knots are uniform. The
-//! functions are evaluated by the recursion of Cox and de Boor (Piegl & Tiller, The NURBS Book,
-//! algorithm A2.2).
+//! At walls the knots are open (repeated), so that the functions conform to the wall: the first
+//! function is 1 there, and prescribing its coefficient prescribes the boundary value (Steffen,
+//! Kirby & Berzins 2008, IJNME 76, section 4; Tielen, Wobbes, Moeller & Beuth 2017). On a periodic
+//! axis the knots are uniform. The functions are evaluated by the recursion of Cox and de Boor
+//! (Piegl & Tiller, The NURBS Book, algorithm A2.2).
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain, FourLanes};
@@ -40,7 +40,7 @@ fn mean(knots: &[f64]) -> f64 {
     knots.iter().sum::<f64>() / knots.len() as f64
 }
 
-/// Twice the largest degree.
+/// Maximum number of knots around a cell: twice the largest degree.
 const MOST_KNOTS: usize = 6;
 
 /// The 2p knots around a cell of an axis with walls for degree `p`: p up to its low side, and p
@@ -76,7 +76,8 @@ fn functions<const K: usize>(s: f64, around: &[f64; MOST_KNOTS]) -> ([f64; K], [
     (value, slope)
 }
 
-/// The same for knots that are not repeated, at `xi` from 0 to 1 within the cell: all spans are 1.
+/// The K functions and their derivatives per cell for uniform knots (all spans are 1), at `xi` from
+/// 0 to 1 within the cell.
 #[inline(always)]
 fn uniform<S: Simd, const K: usize>(simd: S, xi: S::F64x4) -> ([S::F64x4; K], [S::F64x4; K]) {
     let zero = simd.splat(0.0);
@@ -146,7 +147,7 @@ fn along_wall<const D: usize, const K: usize>(
     }
 }
 
-/// Replaces the functions of those of four particles that are near a wall.
+/// Recomputes the functions of those of four particles that are near a wall.
 #[cold]
 #[inline(never)]
 fn put_right<const D: usize, const K: usize>(

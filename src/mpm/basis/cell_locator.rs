@@ -5,7 +5,7 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::packed_grid::Layout;
 use crate::mpm::foundation::simd::{F64x4, LANES, Simd};
 
-/// Parts of the functions that a pass needs besides their values.
+/// Parts of the basis functions that a pass needs in addition to their values.
 #[derive(Debug, Clone, Copy)]
 pub struct WeightNeeds {
     /// Derivatives.
@@ -14,7 +14,7 @@ pub struct WeightNeeds {
     pub(in crate::mpm) offsets: bool,
 }
 
-/// Numbers of the grid that a pass keeps in registers.
+/// Figures of the grid that a pass keeps in registers.
 #[derive(Debug, Clone, Copy)]
 pub struct CellLocator<const D: usize> {
     pub(super) h: f64,
@@ -96,7 +96,7 @@ impl<const D: usize> CellLocator<D> {
         for axis in 1..D {
             start += cell[axis] * self.layout.strides[axis] as f64;
         }
-        // The last bits of a number from 2^52 on are those of its excess.
+        // For numbers from 2^52 on, the last bits are the excess over 2^52 as an integer.
         let whole: [f64; LANES] = (start + (WHOLE - self.layout.before as f64)).into();
         array(0, |lane| whole[lane].to_bits() as u32)
     }

@@ -59,9 +59,9 @@ pub trait Basis: Sized + Sync + Send + 'static {
     /// that sum N_i x_i = x (Greville abscissa).
     fn abscissa(index: usize, cells: usize, periodic: bool) -> f64;
 
-    /// Calls `visit` for every patch of particle `p`. A node may lie in several patches: its weight
-    /// and gradient are the sums. A particle outside the grid has none: the solver reports it when
-    /// it moves particles. Must be `#[inline(always)]`: part of the hot loop.
+    /// Calls `visit` for every patch of particle `p`. A node may be in several patches: its weight
+    /// and gradient are the sums. A particle outside the grid has no patch: the solver reports it
+    /// when it moves particles. Must be `#[inline(always)]`: part of the hot loop.
     fn patches<const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
@@ -70,7 +70,7 @@ pub trait Basis: Sized + Sync + Send + 'static {
     );
 
     /// Stores the patches of the four particles of `lanes`. Returns a mask, bit k for particle
-    /// `lanes.particle + k`, of those whose only patch is stored; the others are left to
+    /// `lanes.particle + k`, of particles with a single patch, which is stored; the others must use
     /// [`Basis::patches`], which has the same bits. A basis overrides this to compute the weights
     /// of four particles at once.
     #[inline(always)]
@@ -107,9 +107,9 @@ pub trait Basis: Sized + Sync + Send + 'static {
         Self::patches(grid, particles, p, |patch| patch.visit(grid, &mut visit));
     }
 
-    /// Runs a loop over this basis. A method of the basis, so that the compiler has a unit of code
-    /// for the loops of each file of bases: they take most of its time, and a change of one file
-    /// leaves the loops of the others as they are.
+    /// Runs a loop over this basis. It is a method of the basis, so that the loops of each file of
+    /// bases are a separate code-generation unit: they take most of the compile time, and a change
+    /// of one file does not recompile the loops of other files.
     fn run<P: SimdPass>(level: Level, pass: P) {
         simd::run(level, pass);
     }
@@ -133,7 +133,7 @@ pub struct NodeWeight<'a, const D: usize> {
     pub offset: Vector<D>,
 }
 
-/// Nodes of a particle and the functions there.
+/// Nodes of a particle and its weights there.
 pub trait Patch<const D: usize>: Copy {
     /// Patches of a batch of particles.
     type Batch: PatchBatch<D>;
@@ -145,7 +145,7 @@ pub trait Patch<const D: usize>: Copy {
     fn weight_moments(&self) -> WeightMoments<D>;
 
     /// Mean of `x_i - x_p` (m) and variance about it (m^2) along each axis, for the only patch of a
-    /// particle. Functions are products, so that there is no covariance.
+    /// particle. Functions are products, so that the covariance is zero.
     fn variance(&self) -> ([f64; D], [f64; D]);
 
     /// Calls `visit` for every node.
@@ -153,8 +153,8 @@ pub trait Patch<const D: usize>: Copy {
 }
 
 /// Contribution of a particle to each of its nodes,
-/// `(value + sum_a slope_a (x_i - x_p - mean)_a) N_i + sum_a flux_a dN_i/dx_a`, all components of a
-/// node at once. Parts that are absent cost nothing.
+/// `(value + sum_a slope_a (x_i - x_p - mean)_a) N_i + sum_a flux_a dN_i/dx_a`, for all components
+/// of a node at once. Absent parts have no cost.
 #[derive(Debug, Clone, Copy)]
 pub struct NodeTerm<F, const D: usize> {
     /// Constant part.
@@ -171,7 +171,7 @@ impl<F: Register, const D: usize> NodeTerm<F, D> {
 }
 
 /// Patches of a batch of particles. Weights are computed for four particles at once; the loops over
-/// nodes take one patch after another, four components of a node at once.
+/// nodes process one patch after another, four components of a node at once.
 pub trait PatchBatch<const D: usize>: Debug {
     /// Empty batch.
     fn none() -> Self;
@@ -180,7 +180,7 @@ pub trait PatchBatch<const D: usize>: Debug {
     fn compute_row_weights<S: Simd>(&mut self, simd: S, lanes: &Range<usize>);
 
     /// Computes offsets `x_i - x_p - mean` (m) and the inverse of the inertia tensor (1/m^2), for
-    /// cells of size `h` (m). Without `mean`, that of the nodes of each patch is taken, which then
+    /// cells of size `h` (m). Without `mean`, that of the nodes of each patch is used, which then
     /// must be the only patch of its particle.
     fn compute_offsets<S: Simd>(
         &mut self,

@@ -1,25 +1,27 @@
 //! CPDI: convected particle domain interpolation (Sadeghirad, Brannon & Burghardt 2011, IJNME 86,
 //! 1435-1456).
 //!
-//! A particle's domain is the segment, parallelogram or parallelepiped `x + R xi`, `-1 <= xi_a <=
-//! 1`, with the columns `r_a = F r_a0` of R. On it the hats `S_i` of the grid are replaced by their
-//! multilinear interpolation between the corners `x_c = x + R s_c`, `s_c = (+-1, ...)`: `sum_c
-//! M_c(xi) S_i(x_c)`, `M_c = prod_a (1 + s_ca xi_a)/2`. Over the domain the average of `M_c` is
-//! `1/2^D`, and that of `d M_c/d xi_a` is `s_ca/2^D`; by the chain rule `grad = R^-T d/d xi`. So
+//! The domain of a particle is the segment, parallelogram or parallelepiped `x + R xi`,
+//! `-1 <= xi_a <= 1`, with the columns `r_a = F r_a0` of R. On the domain the hat functions `S_i`
+//! of the grid are replaced by their multilinear interpolation between the corners
+//! `x_c = x + R s_c`, `s_c = (+-1, ...)`: `sum_c M_c(xi) S_i(x_c)`,
+//! `M_c = prod_a (1 + s_ca xi_a)/2`. Over the domain the average of `M_c` is `1/2^D`, and that of
+//! `d M_c/d xi_a` is `s_ca/2^D`; by the chain rule `grad = R^-T d/d xi`. So
 //!
 //! ```text
 //! N_i      = 2^-D sum_c S_i(x_c)
 //! grad N_i = 2^-D sum_c S_i(x_c) R^-T s_c
 //! ```
 //!
-//! which in 2-D are the paper's, and in 1-D `(S_i(x + l) + S_i(x - l))/2` and `(S_i(x + l) - S_i(x
-//! - l))/(2l)`: the gradient of contiguous-particle GIMP with another weight. `grad N_i` is the
-//! average of a gradient, not the gradient of the average `N_i`. Both reproduce linear fields:
-//! `sum_i x_i N_i = x`, `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
+//! which in 2-D are those of the paper, and in 1-D `(S_i(x + l) + S_i(x - l))/2` and
+//! `(S_i(x + l) - S_i(x - l))/(2l)`: the gradient of contiguous-particle GIMP with another weight.
+//! `grad N_i` is the average of a gradient, not the gradient of the average `N_i`. Both reproduce
+//! linear fields: `sum_i x_i N_i = x`,
+//! `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
 //!
-//! At walls the domain is squeezed along the axis until it ends there, as GIMP's is cut off: the
-//! map of the whole domain is affine, so R keeps the sign of its determinant. Moving single corners
-//! to the wall would not keep it.
+//! At walls the domain is compressed along the axis until it ends there, like the cut-off domain of
+//! GIMP: the map of the whole domain is affine, so that the sign of det R does not change. Moving
+//! single corners to the wall could change it.
 
 use super::contract::{Basis, Domain, NodeWeight, Patch};
 use super::product::{Product, ProductBatch};
@@ -34,7 +36,7 @@ use crate::mpm::foundation::particles::Particles;
 #[derive(Debug, Clone, Copy)]
 pub struct Cpdi;
 
-/// Longest reach of a domain on a periodic axis, in cells: corners beyond it would lose their
+/// Maximum extent of a domain on a periodic axis (cells): corners further away would lose their
 /// position within a cell to rounding.
 const FAR: f64 = 1e6;
 
@@ -247,7 +249,7 @@ mod tests {
         }
     }
 
-    /// The largest push of a uniform unit stress on the nodes well inside a sheared and turned body
+    /// The largest nodal force due to a uniform unit stress well inside a sheared and rotated body
     /// that fills the middle of the grid, `|sum_p V_p grad N_i| / h`.
     fn push<B: Basis>() -> f64 {
         let (from, to) = (Vector::<2>::from_element(-1.0), Vector::from_element(1.0));
@@ -274,7 +276,7 @@ mod tests {
         assert!(push::<crate::mpm::basis::ContiguousGimp>() > 1e-3);
     }
 
-    /// In two dimensions, where F turns, shears and stretches without bound.
+    /// In 2-D, where F rotates, shears and stretches without bound.
     #[rstest]
     #[case::longer_than_the_grid(20.0)]
     #[case::far_longer(1e8)]

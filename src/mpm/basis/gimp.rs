@@ -2,9 +2,9 @@
 //! eqs 30-32).
 //!
 //! `N_i = 1/(2l) int hat_i` over `[x - l, x + l]`, `N_i' = (hat_i(x + l) - hat_i(x - l))/(2l)`. In
-//! several dimensions the domain stays aligned with the axes. uGIMP keeps the reference size; in
-//! the contiguous-particle form (Wallstedt & Guilkey 2008) the half-length on an axis follows the
-//! diagonal of F, so that domains neither part nor overlap. At walls the domain is cut off.
+//! several dimensions the domain stays aligned with the axes. uGIMP uses the reference size; in the
+//! contiguous-particle form (Wallstedt & Guilkey 2008) the half-length on an axis follows the
+//! diagonal of F, so that domains neither separate nor overlap. At walls the domain is cut off.
 //!
 //! Domains of GIMP along one axis, and the functions there: hats averaged over a domain from `low`
 //! to `high`.
@@ -63,7 +63,7 @@ fn patches<const D: usize>(
     }
 }
 
-/// Patches of four particles; the mask has those with one group of functions along each axis.
+/// Patches of four particles; the mask marks those with one group of functions along each axis.
 #[inline(always)]
 fn patches_x4<S: Simd, const D: usize>(
     simd: S,
@@ -204,7 +204,7 @@ pub(in crate::mpm) struct Domain1dSimd<S: Simd> {
 }
 
 impl<S: Simd> Domain1dSimd<S> {
-    /// The domain at `at`, cut off at walls: at the first node and this last one, if there are any.
+    /// The domain at `at`, cut off at walls: at the first node and at `last`, if there are walls.
     #[inline(always)]
     pub(in crate::mpm) fn new(at: S::F64x4, half: S::F64x4, last: Option<f64>) -> Self {
         let half = half.abs().at_most(LONGEST);

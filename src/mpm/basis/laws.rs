@@ -27,7 +27,7 @@ fn grid<B: Basis, const D: usize>(periodic: bool) -> Grid<D> {
 /// Half the extent of the particle's domain along any axis, in cells.
 const REACH: f64 = 0.3;
 
-/// One particle at `x`, with a domain of half a cell, stretched and turned a little.
+/// One particle at `x`, with a domain of half a cell, slightly stretched and rotated.
 fn particle<const D: usize>(grid: &Grid<D>, x: Vector<D>) -> Particles<D> {
     let (from, to) = (Vector::zeros(), Vector::from_element(0.5 * grid.h));
     let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, grid.h, 1);
@@ -140,7 +140,7 @@ fn differentiate<B: Basis, const D: usize>(periodic: bool) {
     }
 }
 
-/// Patches that are computed for four particles at once are those of each alone, to the bit.
+/// Patches that are computed for four particles at once have the bits of single ones.
 fn fill<B: Basis, const D: usize>(periodic: bool) {
     let grid = grid::<B, D>(periodic);
     let layout = Layout::new(&grid);

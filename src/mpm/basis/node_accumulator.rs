@@ -1,14 +1,16 @@
-//! Sums of nodes under way. Along one axis they stay in registers from particle to particle.
+//! Accumulation of particle terms at nodes. In 1-D the sums stay in registers from particle to
+//! particle.
 //!
-//! Neighbours in memory mostly have the same few nodes. In 2-D and 3-D the loads of one node
-//! overlap with the sums of others; in 1-D there are no others, and each particle would wait for
-//! the store of the one before. The sums are the same, in the same order.
+//! Neighbours in memory mostly have the same few nodes. In 2-D and 3-D the load of one node
+//! overlaps with the additions to other nodes of the particle. In 1-D there are too few nodes for
+//! this, and each particle would wait for the store of the previous one. Registers change neither
+//! the terms nor their order.
 
 use crate::mpm::foundation::algebra::array;
 use crate::mpm::foundation::packed_grid::{FieldViewMut, PackedNode};
 use crate::mpm::foundation::simd::Simd;
 
-/// Field under way, with the sums of K nodes in a row.
+/// Field that receives the sums, with those of K consecutive nodes in registers.
 #[derive(Debug)]
 pub(super) struct NodeAccumulator<'a, S: Simd, N: PackedNode, const K: usize> {
     pub(in crate::mpm) simd: S,

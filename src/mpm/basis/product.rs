@@ -106,13 +106,13 @@ pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0
     pub(in crate::mpm) start: [u32; BATCH],
     /// Functions along each axis.
     pub(in crate::mpm) axes: [Weights1dBatch<K>; D],
-    /// Vectors that turn weights into gradients (1/m).
+    /// Vectors that convert weights to gradients (1/m).
     pub(in crate::mpm) outward: [[Vector<D>; BATCH]; OUTWARD],
     /// Weights of the rows of a plane times those of the planes.
     row_weights: [[F64Batch; K]; K],
 }
 
-/// `sum + a b`, where there is a sum.
+/// `sum + a b`, or `a b` without a sum.
 #[inline(always)]
 fn plus_product<F: Register>(sum: Option<F>, a: F, b: f64) -> F {
     match sum {
@@ -122,7 +122,7 @@ fn plus_product<F: Register>(sum: Option<F>, a: F, b: f64) -> F {
 }
 
 impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
-    /// Rows of a plane, and planes: one where there is no such axis.
+    /// Rows of a plane, and planes: one if there is no such axis.
     pub(in crate::mpm) const ROWS: usize = if D > 1 { K } else { 1 };
     pub(in crate::mpm) const PLANES: usize = if D > 2 { K } else { 1 };
 
@@ -137,7 +137,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         self.start[lane % BATCH] as usize
     }
 
-    /// Weight of function `k` along `axis`, one where there is no such axis.
+    /// Weight of function `k` along `axis`, one if there is no such axis.
     #[inline(always)]
     pub(in crate::mpm) fn weight(&self, lane: usize, axis: usize, k: usize) -> f64 {
         if axis < D { self.axes[axis].weight[k].get(lane) } else { 1.0 }
@@ -234,8 +234,8 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
                     |i, node| {
                         let Some(first) = first[i] else {
                             return match of_row {
-                                // A sum waits for that of the particle before: along one axis the
-                                // term is made beside it.
+                                // In 1-D a sum waits for that of the previous particle: a separate
+                                // product runs at the same time.
                                 Some(row) if D == 1 => node + row * weights[i],
                                 Some(row) => node.plus_product(row, weights[i]),
                                 None => node,
@@ -366,7 +366,8 @@ fn put<F: Register>(sum: &mut F, k: usize, a: F, b: f64) {
 }
 
 impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
-    /// `sum_i field_i N_i`, and for each axis the same with its functions replaced by `others`.
+    /// `sum_i field_i N_i`, and for each axis this sum with the functions along the axis replaced
+    /// by `others`.
     #[inline(always)]
     pub(super) fn sums<S: Simd>(
         &self,

@@ -17,7 +17,7 @@ pub struct Weights1d<const K: usize> {
     pub slope: [f64; K],
     /// Positions from the particle (m).
     pub offset: [f64; K],
-    /// `sum weight offset^2` (m^2), about the mean where the particle has no other functions along
+    /// `sum weight offset^2` (m^2), about the mean if the particle has no other functions along
     /// this axis.
     pub variance: f64,
 }
@@ -27,7 +27,7 @@ impl<const K: usize> Weights1d<K> {
     pub const NONE: Self =
         Self { first: 0, weight: [0.0; K], slope: [0.0; K], offset: [0.0; K], variance: 0.0 };
 
-    /// Functions with the variance as a sum. A closed form, where there is one, is faster.
+    /// Functions with their variance computed as a sum. A closed form, if there is one, is faster.
     #[inline(always)]
     pub fn new(first: usize, weight: [f64; K], slope: [f64; K], offset: [f64; K]) -> Self {
         let mut variance = 0.0;
@@ -79,7 +79,7 @@ pub(in crate::mpm) struct WeightsSimd<S: Simd, const K: usize> {
 }
 
 impl<S: Simd, const K: usize> WeightsSimd<S, K> {
-    /// Stores what `needs` lists.
+    /// Stores the parts listed in `needs`.
     #[inline(always)]
     pub(in crate::mpm) fn put(
         self,
@@ -126,13 +126,13 @@ pub struct Weights1dBatch<const K: usize> {
     pub(in crate::mpm) slope: [F64Batch; K],
     /// Positions from the particle (m).
     pub(in crate::mpm) offset: [F64Batch; K],
-    /// `sum weight offset^2` (m^2), about the mean where a particle has no other functions.
+    /// `sum weight offset^2` (m^2), about the mean if a particle has no other functions.
     pub(in crate::mpm) variance: F64Batch,
     /// Offset from a mean (m).
     pub(in crate::mpm) offset_from_mean: [F64Batch; K],
     /// Offset from the mean times weight (m).
     pub(in crate::mpm) weighted_offset: [F64Batch; K],
-    /// The inverse of the variance (1/m^2), zero where there is none.
+    /// The inverse of the variance (1/m^2), zero if the variance is zero.
     pub(in crate::mpm) inverse: F64Batch,
 }
 
@@ -161,7 +161,7 @@ impl<const K: usize> Weights1dBatch<K> {
 
     /// Computes offsets from `mean` (m), or from the mean of the functions of each particle, and
     /// the inverse of the variance. Offsets are multiplied by weights before any sum: near a wall
-    /// the offset is small where the weight is not, and rounding must not reach the inertia tensor.
+    /// the offset is small and the weight is not, and rounding must not affect the inertia tensor.
     #[inline(always)]
     pub(in crate::mpm) fn center_offsets<S: Simd>(
         &mut self,

@@ -7,9 +7,9 @@ use crate::subject::{Checkpoint, Column};
 /// An advance of the grid's velocities: `v += dt a`.
 ///
 /// Euler-Cromer is a leapfrog: the velocities that move positions from t to t + dt are those of the
-/// middle of that time. So a step takes velocities from t - dt/2 to t + dt/2, and a velocity that
-/// is prescribed in between is followed to second order, whatever the scheme. Only the first step
-/// is shorter, if it starts from the velocities at t = 0.
+/// middle of that time. So a step advances velocities from t - dt/2 to t + dt/2, and a prescribed
+/// velocity is imposed with second order under any scheme. If the run starts from the velocities at
+/// t = 0, the first advance is shorter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advance {
     /// Time of the velocities before the advance (s).
@@ -22,10 +22,10 @@ pub struct Advance {
 
 /// A condition on some nodes.
 ///
-/// Schemes ask for both. USF and USL hold the mapped velocities and then add the accelerations;
-/// MUSL gives the accelerations to the particles and holds the velocities that come back. The two
-/// must agree: a held velocity that takes the held acceleration is the held velocity of the time
-/// after.
+/// Schemes use both hooks. USF and USL prescribe the mapped velocities and then add the
+/// accelerations; MUSL transfers the accelerations to the particles and prescribes the velocities
+/// that are mapped back. Both must be consistent: a prescribed velocity plus the prescribed
+/// acceleration is the prescribed velocity at the later time.
 pub trait Boundary<const D: usize>: Send {
     /// Columns for nodes.
     fn columns(&self) -> Vec<Column<'_>>;
@@ -55,8 +55,8 @@ pub trait Boundary<const D: usize>: Send {
         self.hold_acceleration(acceleration, advance);
     }
 
-    /// Axis and end of the face on which the body stands still, so that the wall takes all force of
-    /// the nodes that it holds; none of a wall that moves, or that lets nodes go.
+    /// Axis and end of a face with fixed normal velocity, whose wall carries the whole force of its
+    /// nodes; `None` for a wall that moves, or releases nodes.
     fn standing_face(&self) -> Option<(usize, Side)> {
         None
     }

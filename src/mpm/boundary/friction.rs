@@ -1,17 +1,17 @@
 //! A wall that presses, cannot pull, and resists sliding: Coulomb's law, `|t| <= mu N`.
 //!
-//! At every node of the wall the step is tried without the wall first, `v* = v + dt a`. Where that
-//! would enter the wall (or, for a node that the wall holds already, press on it) the node keeps to
-//! the wall, `v . n = a . n = 0`, as with a roller, and the impulse that this takes,
-//! `I = m |v* . n|`, is what friction is measured by. If an impulse of at most `mu I` brings `v*`
-//! to rest along the wall the node sticks, `v = a = 0`, as on a fixed wall; otherwise it slides,
-//! and `mu I` against `v*` is taken from its acceleration. Where the wall would have to pull, the
-//! node is free. (Bardenhagen, Brackbill & Sulsky 2000, CMAME 187, section 3, with a wall that does
-//! not move as the other body.)
+//! At every node of the wall the step is first tried without the wall, `v* = v + dt a`. If the node
+//! would enter the wall (or, for a node already in contact, press on it), it stays on the wall,
+//! `v . n = a . n = 0`, as with a roller. The required impulse, `I = m |v* . n|`, limits the
+//! friction. If an impulse of at most `mu I` stops `v*` along the wall the node sticks,
+//! `v = a = 0`, as on a fixed wall; otherwise it slides, and `mu I` against `v*` is subtracted from
+//! its acceleration. If the wall would have to pull, the node is free. (Bardenhagen, Brackbill &
+//! Sulsky 2000, CMAME 187, section 3, with a fixed wall as the other body.)
 //!
-//! Nodes keep their contact state between two advances: velocities mapped in between follow it.
+//! Nodes store their contact state between two advances, which is applied to velocities mapped in
+//! between.
 //!
-//! Contact state under Coulomb friction, of a node at a wall or of two bodies at a node.
+//! Contact state under Coulomb friction, for a node at a wall or for two bodies at a node.
 
 use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::foundation::algebra::Vector;
@@ -23,7 +23,7 @@ use crate::subject::{Checkpoint, Column, Entry, Memory};
 pub struct Friction {
     nodes: Vec<(usize, ContactState)>,
     axis: usize,
-    /// 1 where the wall is at the low end of the axis, and pushes upwards; -1 at the other.
+    /// 1 if the wall is at the low end of the axis, and pushes upwards; -1 at the other end.
     inwards: f64,
     coefficient: f64,
 }

@@ -34,9 +34,9 @@ impl<const D: usize> Prescribed<D> {
     }
 }
 
-/// `value` at `x` and `t` (s). No velocity is asked for before the start, where a formula may have
-/// no meaning: there it is continued through its value at the start, `v(-t) = 2 v(0) - v(t)`, which
-/// is exact for a constant acceleration.
+/// `value` at `x` and `t` (s). The formula is not evaluated before the start, where it may be
+/// undefined: there it is extrapolated through its value at the start, `v(-t) = 2 v(0) - v(t)`,
+/// which is exact for a constant acceleration.
 pub(in crate::mpm) fn continued<const D: usize>(
     value: &VelocityField<D>,
     x: &Vector<D>,

@@ -1,10 +1,9 @@
 //! Artificial viscosity: a pressure against compression that gives shocks a width of some cells.
 //!
-//! `q = rho l |tr D| (c1 c + c2 l |tr D|)` where `tr D < 0`, and zero where the body does not
-//! compress, with the present density rho, the cell size l and the wave speed c at rest. The
-//! quadratic term (von Neumann & Richtmyer 1950) acts in strong shocks, and is of second order
-//! where the motion is smooth; the linear term (Landshoff 1955) takes the oscillations behind weak
-//! ones, and is of first order.
+//! `q = rho l |tr D| (c1 c + c2 l |tr D|)` if `tr D < 0`, and zero otherwise, with the present
+//! density rho, the cell size l and the wave speed c at rest. The quadratic term (von Neumann &
+//! Richtmyer 1950) acts in strong shocks, and is of second order in smooth motion; the linear term
+//! (Landshoff 1955) damps the oscillations behind weak shocks, and is of first order.
 //!
 //! The pressure is a part of the stress only while forces are taken from it: before the material
 //! makes new stresses, which a law in rate form adds to the old ones, it is taken out again.
@@ -75,7 +74,7 @@ mod tests {
     use crate::mpm::{Block, LinearElastic, Material, Matrix, StressUpdate, Vector};
     use approx::assert_relative_eq;
 
-    /// Two particles; one is compressed and the other stretched, by turns.
+    /// Two particles: one is compressed and the other stretched, alternately.
     #[test]
     fn compression_is_resisted_and_nothing_of_it_stays() {
         let block = Block { from: Vector::zeros(), to: Vector::<2>::new(2.0, 1.0), density: 3.0 };

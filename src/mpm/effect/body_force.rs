@@ -1,8 +1,8 @@
-//! A body force that depends on the particle: b(X, t), as manufactured solutions need, or
-//! b(X, t, u), as that of an elastic foundation, `b = -k u/rho0` (Winkler 1867).
+//! A body force that depends on the particle: b(X, t), for manufactured solutions, or b(X, t, u),
+//! as that of an elastic foundation, `b = -k u/rho0` (Winkler 1867).
 //!
 //! `f_ext_i = sum_p m_p b(X_p, t, x_p - X_p) N_i(x_p)`. The displacement is that of the particle at
-//! the start of the step, where its stress is too: the leapfrog of the scheme keeps its order.
+//! the start of the step, as is its stress, so that the order of the leapfrog does not change.
 
 use super::contract::Effect;
 use crate::mpm::foundation::algebra::Vector;
@@ -19,7 +19,7 @@ pub type ForceField<const D: usize> = Box<dyn FnMut(f64, &Particles<D>, &mut [Ve
 /// A body force b (m/s2).
 pub struct BodyForce<const D: usize> {
     field: ForceField<D>,
-    /// Of every particle, at the present time.
+    /// Body force of every particle at the present time.
     b: Vec<Vector<D>>,
     stiffness: f64,
 }

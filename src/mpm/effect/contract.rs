@@ -19,7 +19,7 @@ pub trait Effect<const D: usize>: Send {
     /// Visits the state between two steps.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
-    /// Whether it reads F: the column exists only then, or if a basis or a material asks for it.
+    /// Whether it reads F: the column exists only then, or if a basis or a material reads F.
     fn reads_deformation(&self) -> bool {
         false
     }
@@ -29,8 +29,8 @@ pub trait Effect<const D: usize>: Send {
         false
     }
 
-    /// Stiffness per unit mass (1/s2) at the start of loads that depend on the displacement, so
-    /// that a stable time step knows of it.
+    /// Stiffness per unit mass (1/s2) at the start, for loads that depend on the displacement; it
+    /// reduces the stable time step.
     fn stiffness(&self) -> f64 {
         0.0
     }
@@ -64,7 +64,7 @@ pub trait Effect<const D: usize>: Send {
     /// Modifies the positions of particles after the grid has moved them over `dt` (s).
     fn modify_position(&mut self, _dt: f64, _particles: &mut Particles<D>) {}
 
-    /// Completes the initial state of the particles, once their columns are there.
+    /// Completes the initial state of the particles, after their columns have been created.
     fn start(&mut self, _material: &mut dyn Material<D>, _particles: &mut Particles<D>) {}
 
     /// Hook before strains, with the velocities of the grid that strain the particles over `dt`
@@ -118,8 +118,8 @@ pub(in crate::mpm) fn strain<const D: usize>(
         effect.before_stress(body.particles());
     }
     material.update(&mut body);
-    // Brackets: an effect finds the particles as its hook before has left them. The volume that
-    // thermal expansion gives back is that of the density which artificial viscosity takes.
+    // Hooks are nested: the later hook of an effect sees the particles as its earlier hook left
+    // them. Thermal expansion then restores the volume whose density artificial viscosity uses.
     for effect in effects.iter_mut().rev().filter(|effect| effect.makes_stress()) {
         effect.after_stress(body.particles());
     }

@@ -3,12 +3,12 @@
 //! `dv/dt = -alpha(t) v` for every material point, as the exact factor `exp(-alpha dt)` on the
 //! velocities of the particles, once a step, after they have been taken from the grid.
 //!
-//! Not as a force `-alpha m_i v_i` on the nodes: FLIP keeps what the grid does not see of its
-//! particles' velocities, and that would never come to rest. On particles it is stable for every
-//! alpha and dt, whatever the scheme and the transfer. Strain and positions follow in the same step
-//! with MUSL and in the next with USF and USL: on the way the damping is of first order in time; at
-//! rest it is nothing. An affine state (APIC) is left as it came from the grid, which saw the
-//! damped velocities.
+//! It is not a force `-alpha m_i v_i` on the nodes: FLIP keeps the part of the particle velocities
+//! in the null space of the map to the grid, which such a force would never damp. On particles the
+//! damping is stable for every alpha and dt, scheme and transfer. Strain and positions follow in
+//! the same step with MUSL and in the next with USF and USL, so that the damping has first order in
+//! time. It has no effect on a body at rest. An affine state (APIC) is not scaled: it comes from
+//! grid velocities, which are mapped from damped velocities.
 
 use super::contract::Effect;
 use crate::mpm::foundation::particles::Particles;

@@ -1,8 +1,8 @@
 //! Heat conduction: a temperature on the particles, and its own fields on the grid.
 //!
-//! `rho c dT/dt = div(k grad T) + rho s` on the body as it is now, in one step of forward Euler
-//! (Tao, Zheng, Zhang & Chen 2016, Int. J. Appl. Mech. 8; de Vaucorbeil, Nguyen, Sinaie & Wu 2020,
-//! Adv. Appl. Mech. 53, section on heat conduction):
+//! `rho c dT/dt = div(k grad T) + rho s` on the current body, in one step of forward Euler (Tao,
+//! Zheng, Zhang & Chen 2016, Int. J. Appl. Mech. 8; de Vaucorbeil, Nguyen, Sinaie & Wu 2020, Adv.
+//! Appl. Mech. 53, section on heat conduction):
 //!
 //! ```text
 //! T_i    = sum_p m_p (T_p + g_p . (x_i - x_p)) N_i / m_i       held where it is given
@@ -11,10 +11,10 @@
 //! T_p   += dt sum_i Q_i/(c m_i) N_i                            as FLIP: increments only
 //! ```
 //!
-//! The published scheme maps T_p alone. Row sums then take the mean over a function,
-//! which at a wall is no value at the wall: the slope there comes out a third too small with linear
-//! functions, and a face through which heat flows costs the second order. With `g_p`, the slope of
-//! the step before (as in TPIC), a linear field is reproduced up to the wall.
+//! The published scheme maps T_p only. Row sums then give the mean over a function, which at a wall
+//! differs from the value at the wall: the slope there is a third too small with linear functions,
+//! and a face with heat flux loses the second order. With `g_p`, the slope of the previous step (as
+//! in TPIC), a linear field is reproduced up to the wall.
 //!
 //! Second order in space, first in time. The sum of `Q_i` is the flow into the body, to round-off.
 //! Neglected: heat from plastic work, viscosity and compression; a conductivity that is not
@@ -30,11 +30,11 @@ use crate::subject::{Checkpoint, Column, Failure, Site};
 
 /// Writes the heat per unit mass and time (W/kg) of every particle at a time (s).
 ///
-/// It may depend on T_p at the start of the step. Not on T_i, which would take one more pass: s
-/// belongs to the mass of a particle, and the sum over particles is its integral whatever it is a
-/// function of. A sink s = -r c T adds its rate to that of conduction: with linear functions and
-/// equally spaced particles, forward Euler is stable while dt < 2/(4 k/(rho c h^2) + r). No step is
-/// predicted; the suite states it.
+/// It may depend on T_p at the start of the step, but not on T_i, which would need another pass.
+/// The sum over particles is the integral of s for any such s. A sink s = -r c T adds its rate to
+/// that of conduction: with linear functions and equally spaced particles, forward Euler is stable
+/// for dt < 2/(4 k/(rho c h^2) + r). The stable time step is not predicted; the suite must state
+/// the step.
 pub type HeatSource<const D: usize> = Box<dyn FnMut(f64, &Particles<D>, &mut [f64]) + Send>;
 
 /// Conduction of heat in the body.
@@ -53,7 +53,7 @@ pub struct Heat<const D: usize> {
 
 impl<const D: usize> Heat<D> {
     /// Conduction with a conductivity k (W/(m K), per m^(3-D)) and a heat capacity c (J/(kg K)) in
-    /// `particles`, which get their temperature (K) here: `initial` gives it and its gradient with
+    /// `particles`. Also sets their temperature (K): `initial` returns it and its gradient with
     /// respect to X for each reference position.
     pub fn new(
         conductivity: f64,
@@ -80,8 +80,8 @@ impl<const D: usize> Heat<D> {
         Self { source: Some((source, amount)), ..self }
     }
 
-    /// With conditions on faces; one that has none is insulated. Where faces meet, a given
-    /// temperature wins, and of two the last.
+    /// Adds conditions on faces; a face without condition is insulated. If faces meet, a given
+    /// temperature has precedence, and the last of two given temperatures.
     #[must_use]
     pub fn with_faces(self, faces: Vec<ThermalBoundary<D>>) -> Self {
         Self { faces, ..self }
@@ -153,7 +153,7 @@ impl<const D: usize> Effect<D> for Heat<D> {
         columns
     }
 
-    /// State of the particles; that of the nodes is computed anew in each step.
+    /// State of the particles; the state of the nodes is recomputed in each step.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.slope[..]);
     }

@@ -1,10 +1,10 @@
 //! Hoops of a body of revolution, in its meridian plane.
 //!
-//! `D_tt = sum_i v_i,r N_i(x_p)/r_p` stretches them, and their stress pulls towards the axis:
+//! `D_tt = sum_i v_i,r N_i(x_p)/r_p` is their strain rate, and their stress acts towards the axis:
 //! `f_i,r -= sum_p V_p sigma_tt N_i(x_p)/r_p` (Sulsky & Schreyer 1996, Comput. Methods Appl. Mech.
 //! Engrg. 139; Nairn & Guilkey 2015, Int. J. Numer. Meth. Engng 101). Masses and volumes are those
-//! of one radian, `V_p = r_p A_p`, so that the plane's own forces and inertias are as they are in
-//! the plane. The weights of force and rate are the same: what the rate takes, the force gives.
+//! of one radian, `V_p = r_p A_p`, so that forces and inertia in the plane need no change. Force
+//! and rate have equal weights, so that the power of the force equals the stress power.
 
 use super::contract::Effect;
 use crate::mpm::foundation::algebra::Vector;

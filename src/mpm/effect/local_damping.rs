@@ -2,13 +2,13 @@
 //!
 //! `f_i <- f_i - zeta |f_i| sign(v_i)`, component by component and node by node, once all other
 //! forces are there (Cundall 1987, in Analytical and Computational Methods in Engineering Rock
-//! Mechanics, ch. 4). A body in equilibrium feels nothing, whatever its loads, and no frequency has
-//! to be known: each mode loses the same share of its amplitude in each of its own half periods,
-//! `sqrt((1 - zeta)/(1 + zeta))` where all of the body turns at once.
+//! Mechanics, ch. 4). A body in equilibrium is not damped, for any loads, and the method needs no
+//! frequency: each mode decays by the same factor per half period, `sqrt((1 - zeta)/(1 + zeta))` if
+//! all velocities change sign at the same time.
 //!
-//! The sign is that of the velocity that particles bring to the step, half a step behind the
-//! forces, so where the motion turns the damping turns up to a step late: of first order in time.
-//! As it acts on nodes, what no node sees of FLIP's velocities is left as it is.
+//! The sign is that of the velocity at the start of the step, half a step behind the forces. So the
+//! damping changes its sign up to a step late, and has first order in time. It acts on nodes, and
+//! does not damp the part of FLIP's velocities without nodal momentum.
 
 use super::contract::Effect;
 use crate::mpm::foundation::grid::Grid;

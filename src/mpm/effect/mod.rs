@@ -1,8 +1,9 @@
-//! Effects: the family. A member is one file and one line of `members`. A solver has a list of
-//! effects, and one that it does not list costs nothing: no call, no column, no branch.
+//! Family of the effects. A member is one file and one line of `members`. A solver has a list of
+//! effects; an effect that is not in the list has no cost: no call, no column, no branch.
 
 mod contract;
 mod hoop;
+mod rim;
 /// The effect that `docs/exercises/effect.md` adds.
 #[cfg(test)]
 #[allow(unreachable_pub)] // public where the page puts it
@@ -17,6 +18,7 @@ pub(super) use contract::strain;
 pub use heat::HeatSource;
 pub use hoop::Hoop;
 pub use pressure::PressureField;
+pub use rim::RimCircle;
 pub use surface::Placement;
 pub use thermal_face::{HeatInflow, ScalarField, Thermal, ThermalBoundary};
 pub use traction::TractionField;

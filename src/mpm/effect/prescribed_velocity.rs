@@ -1,8 +1,8 @@
 //! A set of particles with a prescribed velocity.
 //!
-//! Their velocity is set once the grid's has been taken, and they move with it rather than with the
-//! grid. It reaches the rest of the body with the next P2G of velocities: in MUSL within the same
-//! step, in USF and USL in the next.
+//! Their velocity is set after the transfer from the grid, and they move with it instead of the
+//! grid velocity. It affects the rest of the body with the next P2G of velocities: in MUSL within
+//! the same step, in USF and USL in the next.
 
 use super::contract::Effect;
 use crate::mpm::boundary::{VelocityField, continued};
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
     use crate::mpm::Block;
 
-    /// Half a step before the start, where a leapfrog has its first velocities, that of
+    /// Half a step before the start, where a leapfrog has its first velocities, the velocity of
     /// `v = X (1 + 2 t)` is X (1 - dt).
     #[test]
     fn a_velocity_is_continued_before_the_start() {

@@ -1,11 +1,11 @@
-//! A pressure on a face of the body, which follows the face: `t = -p n` per present area.
+//! A pressure on a face or a round rim of the body, which follows it: `t = -p n` per present area.
 //!
-//! Per reference area that is `P N = -p J F^-T N = -p cof(F) N` (Nanson's formula), so the force on
-//! the particles of the layer needs their F, and a face that is stretched or turned carries another
-//! force than before. Where the force is put at the surface ([`Placement`]), F is continued to
-//! there.
+//! The force per reference area is `P N = -p J F^-T N = -p cof(F) N` (Nanson's formula), so that it
+//! depends on F of the particles of the layer, and changes if the face stretches or rotates. If the
+//! force acts at the surface ([`Placement`]), F is extrapolated to it.
 
 use super::contract::Effect;
+use super::rim::{Facet, RimCircle, facets, press};
 use super::surface::{Placement, Surface};
 use crate::mpm::boundary::Side;
 use crate::mpm::foundation::algebra::{Vector, cofactor};
@@ -17,10 +17,16 @@ use crate::subject::Column;
 /// A pressure (Pa) as a function of the place in the reference configuration and of time.
 pub type PressureField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send>;
 
-/// Pressure p(X, t) on one face of the body; below zero it pulls.
+/// Pressure p(X, t) on one face or rim of the body; below zero it pulls.
 pub struct Pressure<const D: usize> {
     value: PressureField<D>,
-    surface: Surface,
+    site: Site<D>,
+}
+
+/// The part of the surface under pressure.
+enum Site<const D: usize> {
+    Face(Surface),
+    Rim(Vec<Facet<D>>),
 }
 
 impl<const D: usize> Pressure<D> {
@@ -32,7 +38,16 @@ impl<const D: usize> Pressure<D> {
         placement: Placement,
         value: PressureField<D>,
     ) -> Self {
-        Self { value, surface: Surface::new(particles, axis, side, placement) }
+        Self { value, site: Site::Face(Surface::new(particles, axis, side, placement)) }
+    }
+
+    /// A pressure on a circular rim of a body in the plane, filled with `particles`.
+    pub fn on_rim(
+        particles: &Particles<D>,
+        circle: &RimCircle,
+        value: PressureField<D>,
+    ) -> Self {
+        Self { value, site: Site::Rim(facets(particles, circle)) }
     }
 }
 
@@ -42,7 +57,10 @@ impl<const D: usize> Effect<D> for Pressure<D> {
     }
 
     fn columns(&self) -> Vec<Column<'_>> {
-        vec![Column::of_particles("surface layer", &self.surface.layer)]
+        vec![match &self.site {
+            Site::Face(surface) => Column::of_particles("surface layer", &surface.layer),
+            Site::Rim(facets) => Column::of_particles("facets of the rim", facets),
+        }]
     }
 
     fn reads_deformation(&self) -> bool {
@@ -56,7 +74,13 @@ impl<const D: usize> Effect<D> for Pressure<D> {
         kernel: &dyn Kernel<D>,
         grid: &mut Grid<D>,
     ) -> u64 {
-        let Self { value, surface } = self;
+        let Self { value, site } = self;
+        let surface = match site {
+            Site::Face(surface) => surface,
+            Site::Rim(facets) => {
+                return press(facets, particles, kernel, grid, |label| value(label, t));
+            }
+        };
         let normal = surface.normal();
         surface.pull(particles, kernel, grid, |p| {
             let pressure = value(&surface.label(particles, p), t);

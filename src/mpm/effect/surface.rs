@@ -1,22 +1,21 @@
 //! The surface of a body, as the layer of particles that lies at one of its faces.
 //!
 //! Each particle of the layer represents a share A_p of the face, whose middle is
-//! `X_s = X_p + s/2 N` with the spacing s along the normal N. A traction there is put on the grid
-//! in one of two places ([`Placement`]):
+//! `X_s = X_p + s/2 N` with the spacing s along the normal N. A traction there is mapped to the
+//! grid in one of two ways ([`Placement`]):
 //!
 //! - at the particle, `f_i += f N_i(x_p)`, half a spacing inside, as in the original MPM. The sum
 //!   of the forces is right, their moment is not: forces along the face lack the arm s/2, which
-//!   bends the whole body by an error of the order h;
+//!   causes a bending error of order h in the whole body;
 //! - at the surface, `f_i += f N_i(x_p) + (f (x) d) grad N_i(x_p)`, `d = F s/2 N`: the weights of
-//!   the surface point as far as their slope at the particle tells, so that sum and moment are
-//!   right, `sum_i f_i (x) x_i = f (x) (x_p + d)`, wherever linear fields are. Not the weights at
-//!   the surface point itself: just beyond a node they belong in part to a node that no particle
-//!   gives any mass.
+//!   the surface point, extrapolated linearly from the particle. Sum and moment are exact,
+//!   `sum_i f_i (x) x_i = f (x) (x_p + d)`, if the basis reproduces linear fields. The weights at
+//!   the surface point itself are not used: just beyond a node they would load a node without mass.
 //!
-//! A face of a body that is a mapped box: the particles whose domains end on it.
+//! On a face of a mapped box, the layer is the set of particles whose domains end on the face.
 //!
-//! Middles of outer faces of domains lie on the face of the body ([`Particles::fill_mapped`]),
-//! however slanting the rows of particles are that end there.
+//! The middles of the outer faces of these domains lie on the face of the body
+//! ([`Particles::fill_mapped`]), also if the rows of particles meet the face at an angle.
 
 use crate::mpm::boundary::Side;
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
@@ -49,9 +48,9 @@ pub(super) struct Surface {
     outwards: f64,
     /// Share of the face of each particle (m^(D-1)).
     pub(super) area: f64,
-    /// Half a spacing along the axis (m), but of a mapped body.
+    /// Half a spacing along the axis (m); not used for a mapped body.
     depth: f64,
-    /// Of a mapped body, the column of the domains that ends on the face, and its sign.
+    /// For a mapped body, the column of the domains that ends on the face, and its sign.
     column: Option<(usize, f64)>,
     /// How far the numbers of particles go down from this layer to the one below it.
     below: usize,
@@ -114,7 +113,7 @@ impl Surface {
         self.continued(&particles.def_grad, p)
     }
 
-    /// Stretch across the plane there.
+    /// Stretch across the plane at particle `p`.
     pub(super) fn across<const D: usize>(&self, particles: &Particles<D>, p: usize) -> f64 {
         if particles.across.is_empty() { 1.0 } else { self.continued(&particles.across, p) }
     }
@@ -135,8 +134,8 @@ impl Surface {
         here * 1.5 - below * 0.5
     }
 
-    /// Share of the face of particle `p` in the reference configuration (m^(D-1)), in a body of
-    /// revolution that of one radian, at the radius of the face (m^2/rad).
+    /// Share of the face of particle `p` in the reference configuration (m^(D-1)); in a body of
+    /// revolution per radian, at the radius of the face (m^2/rad).
     fn area<const D: usize>(&self, particles: &Particles<D>, p: usize) -> f64 {
         let is_revolved = !particles.stress_across.is_empty();
         if is_revolved { self.area * self.label(particles, p)[0] } else { self.area }
@@ -166,7 +165,7 @@ impl Surface {
         passes * self.layer.len() as u64 * kernel.support()
     }
 
-    /// From particle `p` to the surface, in the configuration that the basis sees (m).
+    /// Vector from particle `p` to the surface, in the configuration of the basis (m).
     fn arm<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
         let arm = self.to_face(particles, p);
         match particles.def_grad.get(p) {
@@ -176,7 +175,7 @@ impl Surface {
     }
 }
 
-/// Distance from the face that is no more than rounding, in spacings.
+/// Maximum distance from the face that counts as rounding error, in spacings.
 const ROUNDING: f64 = 1e-6;
 
 /// The layer of particles at a plane face.
@@ -191,8 +190,8 @@ pub(super) struct MappedFace {
 }
 
 impl MappedFace {
-    /// The face that lies furthest out along `axis`, in the direction `outwards` (1 or -1). None of
-    /// a body that is no mapped box.
+    /// The outermost face along `axis`, in the direction `outwards` (1 or -1). `None` for a body
+    /// that is not a mapped box.
     pub(super) fn outermost<const D: usize>(
         particles: &Particles<D>,
         axis: usize,

@@ -1,14 +1,13 @@
 //! Thermal expansion: strain that temperature makes, and that causes no stress.
 //!
-//! For a law of the whole deformation F is split, `F = theta Fe` with the stretch
-//! `theta = 1 + alpha (T - T0)` on every axis, and the law sees Fe (Stojanovic, Djuric & Vujosevic
-//! 1964; Lubarda 2004, Appl. Mech. Rev. 57): a body that is free expands by theta exactly. A law in
-//! rate form takes what `alpha T` changes in the step off the strain,
-//! `sigma -= E/(1 - 2 nu) alpha dT I` (Duhamel & Neumann), which is plane strain in the plane and
-//! uniaxial strain on the line.
+//! For a law of the total deformation F is split, `F = theta Fe` with the stretch
+//! `theta = 1 + alpha (T - T0)` on every axis, and the law uses Fe (Stojanovic, Djuric & Vujosevic
+//! 1964; Lubarda 2004, Appl. Mech. Rev. 57): a free body expands exactly by theta. For a law in
+//! rate form the thermal strain increment is subtracted, `sigma -= E/(1 - 2 nu) alpha dT I`
+//! (Duhamel & Neumann), which is plane strain in 2-D and uniaxial strain in 1-D.
 //!
-//! The split lives in the D dimensions of the scene: with Poisson's ratio zero the axes that a
-//! scene leaves out have no part in it. Neglected: heat absorbed by the expansion.
+//! The split applies to the D dimensions of the scene: with Poisson's ratio zero the other axes
+//! have no effect. Neglected: heat absorbed by the expansion.
 
 use super::contract::Effect;
 use crate::mpm::foundation::algebra::Matrix;
@@ -16,7 +15,7 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::{Material, StressUpdate};
 use crate::subject::{Checkpoint, Column};
 
-/// Expansion by temperature; an effect that keeps temperatures comes before it.
+/// Thermal expansion; the effect that computes temperatures comes before it.
 pub struct ThermalExpansion<const D: usize> {
     /// alpha (1/K).
     coefficient: f64,
@@ -149,7 +148,7 @@ mod tests {
         assert_relative_eq!(body.vol[0], 1.2 * 1.2 * 1.2, max_relative = 1e-14);
     }
 
-    /// `P_e(1/theta)` of a bar that is held: Hencky's `sigma = E ln(Fe)/Fe`.
+    /// `P_e(1/theta)` of a fixed bar: Hencky's `sigma = E ln(Fe)/Fe`.
     #[test]
     fn a_bar_that_is_held_has_the_stress_of_its_inverse_stretch() {
         let mut bar = warm::<1>();

@@ -1,12 +1,13 @@
 //! Thermal condition on a face of the grid: temperature, heat flux or heat transfer.
 //!
 //! The functions of every basis of this crate conform to the walls of the grid: along the normal
-//! one function is 1 there, and all others are 0. So the nodes of the wall carry the temperature of
-//! the face, and `sum_p A_p N_i` over the layer of particles at the face, taken along the face
-//! only, is the share of the face of node i. Heat enters at the face itself, not at
-//! the particles half a spacing inside: that would be an error of first order.
+//! one function is 1 there, and all others are 0. So the nodes of the wall have the temperature of
+//! the face, and `sum_p A_p N_i` over the layer of particles at the face, evaluated along the face
+//! only, is the share of the face of node i. Heat enters at the face itself, not at the particles
+//! half a spacing inside: that would be an error of first order.
 //!
-//! Areas are those of the reference body, as with tractions. The face stays where the grid ends.
+//! Areas are those of the reference body, as for tractions. The face does not move away from the
+//! end of the grid.
 
 use super::surface::{Placement, Surface};
 use crate::mpm::basis::BasisName;
@@ -20,11 +21,11 @@ use crate::subject::Column;
 /// A number as a function of place and time (s).
 pub type ScalarField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send>;
 
-/// Heat that enters (W/m^(D-1)) as a function of place, time (s) and the temperature (K) there.
+/// Inflow of heat (W/m^(D-1)) as a function of place, time (s) and the temperature (K) there.
 pub type HeatInflow<const D: usize> = Box<dyn Fn(&Vector<D>, f64, f64) -> f64 + Send>;
 
-/// Condition on a face that is not insulated. Of the conditions on a field of second order in space
-/// there are two kinds: its value is given, or its flux is, which may depend on the value.
+/// Condition on a face that is not insulated. A field of second order in space has two kinds of
+/// conditions: a given value, or a given flux, which may depend on the value.
 pub enum Thermal<const D: usize> {
     /// A temperature (K): Dirichlet's condition.
     Temperature(ScalarField<D>),
@@ -41,9 +42,9 @@ pub struct ThermalBoundary<const D: usize> {
     nodes: Vec<(usize, Vector<D>)>,
     /// Particles next to the face.
     layer: Vec<usize>,
-    /// The part of the face that belongs to each of them (m^(D-1)).
+    /// Area of the face per particle of the layer (m^(D-1)).
     area: f64,
-    /// The same, of each node.
+    /// Area of the face per node (m^(D-1)).
     share: Vec<f64>,
 }
 
@@ -80,7 +81,7 @@ impl<const D: usize> ThermalBoundary<D> {
         ]
     }
 
-    /// Imposes a given temperature on those of nodes (K) at time `t` (s).
+    /// Sets the `temperature` (K) of the nodes of the face at time `t` (s), if it is prescribed.
     pub(super) fn hold_temperature(&self, t: f64, temperature: &mut [f64]) {
         if let Thermal::Temperature(value) = &self.condition {
             for (i, x) in &self.nodes {
@@ -89,7 +90,8 @@ impl<const D: usize> ThermalBoundary<D> {
         }
     }
 
-    /// The same for their rates (K/s) from `t` to `t + dt`.
+    /// Sets the temperature `rate` (K/s) of the nodes of the face from `t` to `t + dt` (s), if the
+    /// temperature is prescribed.
     pub(super) fn hold_rate(&self, t: f64, dt: f64, rate: &mut [f64]) {
         if let Thermal::Temperature(value) = &self.condition {
             for (i, x) in &self.nodes {
@@ -119,8 +121,8 @@ impl<const D: usize> ThermalBoundary<D> {
         self.layer.len() as u64 * kernel.support()
     }
 
-    /// The share of the face of each of its nodes: what the layer of particles gives to any node
-    /// goes to the node of the face on the same normal.
+    /// Computes the share of the face of each of its nodes: contributions of the layer of particles
+    /// to any node are added to the node of the face on the same normal.
     fn gather_shares(&mut self, particles: &Particles<D>, kernel: &dyn Kernel<D>, grid: &Grid<D>) {
         self.share.fill(0.0);
         for &p in &self.layer {

@@ -1,9 +1,9 @@
 //! A surface traction on the layer of particles at the surface.
 //!
-//! `f_ext_i += sum_p p0 A_p N_i(x_p)` over that layer, with A_p the particle's reference share of
-//! the surface: a dead load, `P N = p0(X, t)`. The body need not end on a node: the force follows
-//! the particles (Wobbes & Tielen 2015, Steffen's bar), and with them faces that turn and bend. It
-//! acts half a particle spacing inside the surface unless it is put there ([`Placement`]).
+//! `f_ext_i += sum_p p0 A_p N_i(x_p)` over this layer, with A_p the reference share of the surface
+//! of a particle: a dead load, `P N = p0(X, t)`. The body need not end on a node: the force follows
+//! the particles (Wobbes & Tielen 2015, Steffen's bar), and so faces that rotate and bend. By
+//! default it acts half a particle spacing inside the surface ([`Placement`]).
 
 use super::contract::Effect;
 use super::surface::{Placement, Surface};

@@ -1,6 +1,7 @@
 //! Vectors and matrices of the dimension at hand.
 //!
-//! `nalgebra` needs bounds for determinants of a generic size; these free functions need none.
+//! `nalgebra` requires trait bounds for determinants of a generic size; these free functions do
+//! not.
 
 use crate::dimension::with_dimension;
 use crate::subject::Entry;
@@ -77,7 +78,7 @@ pub fn dyad<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> Matrix<D> {
     a * b.transpose()
 }
 
-/// `[f(0), f(1), ...]`, by way of an array of `nothing`. For the hot loop: `std::array::from_fn`
+/// `[f(0), f(1), ...]`, built from an array of `nothing`. For the hot loop: `std::array::from_fn`
 /// is not always inlined.
 #[inline(always)]
 pub(in crate::mpm) fn array<const N: usize, T: Copy>(
@@ -91,11 +92,12 @@ pub(in crate::mpm) fn array<const N: usize, T: Copy>(
     array
 }
 
-/// 2^52: numbers from here to twice that are whole, and their last bits are those of the excess.
+/// 2^52: numbers from here to twice this value are whole, and their last bits are the excess as an
+/// integer.
 pub(in crate::mpm) const WHOLE: f64 = 4_503_599_627_370_496.0;
 
 /// `libm::floor` from -2^51 to 2^51. It is part of the hot loop, where a call would cost more than
-/// all the rest, and a conversion to integers and back as much as the weights.
+/// all other operations, and a conversion to integers and back as much as the weights.
 #[inline(always)]
 pub(in crate::mpm) fn floor(x: f64) -> f64 {
     const SHIFT: f64 = 1.5 * WHOLE;

@@ -2,8 +2,8 @@
 
 /// Declares a family of types that suites choose by name.
 ///
-/// `family! { /// docs  pub enum BasisName; with_basis; "linear" => Linear, }` makes the enum of
-/// names and a macro `with_basis!(name, B => expr)`, the one `match` that turns a name into a type.
+/// `family! { /// docs  pub enum BasisName; with_basis; "linear" => Linear, }` defines the enum of
+/// names and a macro `with_basis!(name, B => expr)`, the one `match` from a name to a type.
 /// `"linear" => linear::Linear` also exports the member from its file.
 macro_rules! family {
     (
@@ -52,8 +52,7 @@ pub(in crate::mpm) use family;
 /// Declares a family of objects that suites choose by name.
 ///
 /// `objects! { /// docs  pub enum Names; /// docs  pub fn make -> Trait; "flip" => Flip: Flip, }`
-/// makes the enum of names and a function that builds the object a name stands for, in any
-/// dimension.
+/// defines the enum of names and a function that builds the object of a name, in any dimension.
 macro_rules! objects {
     ($(#[$meta:meta])* pub enum $names:ident; $(#[$fn_meta:meta])* pub fn $make:ident -> $contract:ident;
         $($text:literal => $member:ident: $build:expr,)+

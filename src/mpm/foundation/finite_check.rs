@@ -1,8 +1,8 @@
 //! Check that the state of the particles is finite.
 //!
-//! A NaN spreads through the grid to all that see the same nodes, or hides behind a node that is
-//! fixed or has no mass: each quantity is checked where it is computed, so that the
-//! failure names the particle it began at.
+//! A NaN spreads through shared nodes to other particles, or is hidden by a node that is fixed or
+//! has no mass. So each quantity is checked where it is computed, and the failure names the
+//! particle of the first NaN.
 
 use super::particles::Particles;
 use super::simd::{LANES, vectorized};
@@ -11,7 +11,8 @@ use crate::subject::{Failure, Site};
 use nalgebra::SMatrix;
 
 impl<const D: usize> Particles<D> {
-    /// Names the first particle with a number that is not finite, before the first step.
+    /// Checks all quantities before the first step; the error names the first particle with a
+    /// number that is not finite.
     ///
     /// # Errors
     /// [`Failure::NonFinite`].
@@ -28,7 +29,8 @@ impl<const D: usize> Particles<D> {
         self.stressed_finite()
     }
 
-    /// The same for F, after an update from velocity gradients.
+    /// Checks F after its update from velocity gradients; the error names the first particle with a
+    /// number that is not finite.
     ///
     /// # Errors
     /// [`Failure::NonFinite`].
@@ -36,7 +38,7 @@ impl<const D: usize> Particles<D> {
         first_matrix("deformation gradient", &self.def_grad)
     }
 
-    /// The same for stresses.
+    /// Checks stresses; the error names the first particle with a number that is not finite.
     ///
     /// # Errors
     /// [`Failure::NonFinite`].
@@ -45,7 +47,8 @@ impl<const D: usize> Particles<D> {
         first_matrix("stress", &self.sigma)
     }
 
-    /// The same for velocities, at the end of a step.
+    /// Checks velocities at the end of a step; the error names the first particle with a number
+    /// that is not finite.
     ///
     /// # Errors
     /// [`Failure::NonFinite`].
@@ -54,8 +57,8 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Whether every number of a column is finite. On all threads and without early exit, so that
-/// several numbers, whichever matrix they are of, are checked at a time.
+/// Whether every number of a column is finite. Runs on all threads and without early exit, so that
+/// the compiler can check several numbers at a time.
 pub(in crate::mpm) fn all_finite<const R: usize, const C: usize>(
     column: &[SMatrix<f64, R, C>],
 ) -> bool {
@@ -84,7 +87,7 @@ pub(in crate::mpm) fn all_finite<const R: usize, const C: usize>(
     ) && rest.iter().all(is_finite)
 }
 
-/// Searches for the particle only if there is one.
+/// Searches for the particle only if there is an invalid one.
 fn first_matrix<const R: usize, const C: usize>(
     quantity: &'static str,
     column: &[SMatrix<f64, R, C>],

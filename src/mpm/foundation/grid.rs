@@ -130,7 +130,8 @@ impl<const D: usize> Grid<D> {
         Some((cell, xi))
     }
 
-    /// The same along one axis, at `s` ([`Grid::local`]).
+    /// Cell and place in it, from 0 to 1, along one axis at the position `s` ([`Grid::local`]);
+    /// `None` outside the grid.
     #[inline(always)]
     pub(in crate::mpm) fn locate_along(&self, s: f64, axis: usize) -> Option<(f64, f64)> {
         let (s, end) = (self.within(s, axis), self.ends[axis]);
@@ -148,7 +149,8 @@ impl<const D: usize> Grid<D> {
         (x[axis] - self.origin[axis]) * self.inverse_h
     }
 
-    /// The same, brought back into the grid on a periodic axis.
+    /// Position along `axis` in units of h ([`Grid::local`]), wrapped into the grid on a periodic
+    /// axis.
     #[inline(always)]
     pub fn wrapped(&self, x: &Vector<D>, axis: usize) -> f64 {
         self.within(self.local(x, axis), axis)

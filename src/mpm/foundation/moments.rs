@@ -49,8 +49,8 @@ pub(in crate::mpm) struct InertiaTensor<const D: usize> {
 }
 
 impl<const D: usize> InertiaTensor<D> {
-    /// Of products of one-dimensional functions, from mean and variance along each axis: D_p is
-    /// diagonal.
+    /// Moments of products of one-dimensional functions, from mean and variance along each axis:
+    /// D_p is diagonal.
     #[inline(always)]
     pub(in crate::mpm) fn diagonal(mean: [f64; D], variance: [f64; D]) -> Self {
         let mut inertia = Self { mean: Vector::zeros(), second: Matrix::zeros() };
@@ -61,7 +61,7 @@ impl<const D: usize> InertiaTensor<D> {
         inertia
     }
 
-    /// Of general weights.
+    /// Moments of general weights.
     #[inline(always)]
     pub(in crate::mpm) fn full(weight_moments: &WeightMoments<D>) -> Self {
         let mean = weight_moments.first;
@@ -74,7 +74,7 @@ impl<const D: usize> InertiaTensor<D> {
     }
 }
 
-/// The inverse on the axes whose second moment exceeds `smallest`, zero on others.
+/// The inverse on the axes whose second moment exceeds `smallest`, zero on other axes.
 fn inverse<const D: usize>(mut second: Matrix<D>, smallest: f64) -> Matrix<D> {
     let lost: [bool; D] = std::array::from_fn(|axis| !(second[(axis, axis)] > smallest));
     let drop = |matrix: &mut Matrix<D>, diagonal: f64| {

@@ -29,8 +29,8 @@ pub struct Particles<const D: usize> {
     pub def_grad: Vec<Matrix<D>>,
     /// Stretches across the plane of two dimensions, F_33; empty in plane strain, where they are 1.
     pub across: Vec<f64>,
-    /// Their rates D_33 of the present step (1/s), and stresses sigma_33 (Pa); empty but in a body
-    /// of revolution.
+    /// Their rates D_33 of the present step (1/s), and stresses sigma_33 (Pa); only used in a body
+    /// of revolution, otherwise empty.
     pub rate_across: Vec<f64>,
     /// See `rate_across`.
     pub stress_across: Vec<f64>,
@@ -45,8 +45,7 @@ pub struct Particles<const D: usize> {
     pub grad_v: Vec<Matrix<D>>,
     /// Temperatures (K); empty unless an effect has them.
     pub temperature: Vec<f64>,
-    /// Reference spacing of the particles on each axis (m); its mean where it is not the same for
-    /// all.
+    /// Reference spacing of the particles on each axis (m); the mean if it is not constant.
     pub spacing: Vector<D>,
 }
 
@@ -62,7 +61,7 @@ pub struct Block<const D: usize> {
 }
 
 impl<const D: usize> Block<D> {
-    /// The centres of the equal shares, see [`Particles::fill`].
+    /// The centres of equal parts, see [`Particles::fill`].
     pub fn centres(&self, h: f64, per_axis: usize) -> impl Iterator<Item = Vector<D>> {
         let (length, count) = (self.to - self.from, self.counts(h, per_axis));
         (0..count.iter().product()).map(move |p| centre(p, self, &length, &count))
@@ -91,8 +90,8 @@ impl<const D: usize> Particles<D> {
         Self::fill_where(block, h, per_axis, |_| true)
     }
 
-    /// Fills `block` and keeps the particles whose reference position is `inside`, each with the
-    /// whole of its share.
+    /// Fills `block` and keeps the particles whose reference position is `inside`, each with its
+    /// whole part of the volume.
     pub fn fill_where(
         block: &Block<D>,
         h: f64,
@@ -188,7 +187,7 @@ impl<const D: usize> Particles<D> {
         if self.current_position.is_empty() { &self.x } else { &self.current_position }
     }
 
-    /// Current positions (m), to be changed.
+    /// Current positions (m), mutable.
     pub fn positions_mut(&mut self) -> &mut Vec<Vector<D>> {
         if self.current_position.is_empty() { &mut self.x } else { &mut self.current_position }
     }
@@ -199,7 +198,7 @@ impl<const D: usize> Particles<D> {
         self.def_grad = Vec::new();
     }
 
-    /// The columns that are there.
+    /// All columns of this body.
     pub fn columns(&self) -> Vec<Column<'_>> {
         let all = [
             Column::of_particles("X", &self.x0),
@@ -227,7 +226,7 @@ impl<const D: usize> Particles<D> {
         self.x.len()
     }
 
-    /// Whether there is no particle.
+    /// Whether there are no particles.
     pub fn is_empty(&self) -> bool {
         self.x.is_empty()
     }
@@ -252,12 +251,12 @@ fn centre<const D: usize>(
 named! {
     /// Names of the frames that suites may choose.
     pub enum FrameName {
-        /// Updated Lagrangian: the basis sees particles where they are, and meets the Cauchy
-        /// stress. The original MPM.
+        /// Updated Lagrangian: the basis is evaluated at current positions, with the Cauchy stress.
+        /// The original MPM.
         Updated = "updated_lagrangian",
-        /// Total Lagrangian: the basis sees particles where they were, and meets the first
-        /// Piola-Kirchhoff stress, `f_int_i = - sum_p V0_p P_p grad0 N_i(X_p)`; no particle ever
-        /// changes its cell (de Vaucorbeil, Nguyen & Hutchinson 2020, CMAME 360).
+        /// Total Lagrangian: the basis is evaluated at reference positions, with the first
+        /// Piola-Kirchhoff stress, `f_int_i = - sum_p V0_p P_p grad0 N_i(X_p)`; no particle changes
+        /// its cell (de Vaucorbeil, Nguyen & Hutchinson 2020, CMAME 360).
         Total = "total_lagrangian",
     }
 }
@@ -281,11 +280,11 @@ impl<const D: usize> Particles<D> {
 
     #[inline(never)]
     fn in_reference(&self, p: usize, flux: &Matrix<D>) -> Matrix<D> {
-        // No inverse: the particle is inverted, and the next stage says so.
+        // Without an inverse the particle is inverted, and the next stage reports it.
         flux * self.def_grad[p].try_inverse().unwrap_or_else(Matrix::zeros).transpose()
     }
 
-    /// Turns gradients with respect to X into those with respect to x, `grad0 v F^-1`.
+    /// Converts gradients with respect to X to gradients with respect to x, `grad0 v F^-1`.
     pub(in crate::mpm) fn push_gradients_forward(&mut self) {
         for (grad_v, f) in self.grad_v.iter_mut().zip(&self.def_grad) {
             *grad_v *= f.try_inverse().unwrap_or_else(Matrix::zeros);

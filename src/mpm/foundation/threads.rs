@@ -1,11 +1,11 @@
 //! Recursive halving of work among threads. Every number is computed by one thread from the same
 //! inputs, so that results do not depend on the number of threads.
 
-/// Most particles or nodes for one thread.
+/// Maximum number of particles or nodes that are not split among threads.
 pub(in crate::mpm) const FEW: usize = 1 << 14;
 
-/// Runs both, at once if there are several threads. With one thread, rayon is bypassed: it would
-/// wake another one.
+/// Runs both closures, in parallel if there are several threads. With one thread, rayon is
+/// bypassed: it would wake another thread.
 pub(in crate::mpm) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     if rayon::current_num_threads() == 1 {
         one();
@@ -27,7 +27,7 @@ fn join_any(one: &mut (dyn FnMut() + Send), other: &mut (dyn FnMut() + Send)) {
     rayon::join(one, other);
 }
 
-/// The first `count` entries of a column, if there is one, and the others.
+/// The first `count` entries of a column, if there is one, and the remaining entries.
 pub(in crate::mpm) fn split<T>(
     column: Option<&mut [T]>,
     count: usize,
@@ -43,7 +43,7 @@ pub(in crate::mpm) const PIECES: RowChunks = RowChunks { length: FEW / 4, few: F
 pub(in crate::mpm) struct RowChunks {
     /// Entries of a row; the last row may have fewer.
     pub(in crate::mpm) length: usize,
-    /// Most entries for one thread.
+    /// Maximum number of entries that are not split among threads.
     pub(in crate::mpm) few: usize,
 }
 

@@ -17,8 +17,8 @@ pub(in crate::mpm) type Batch<B, const D: usize> = <<B as Basis>::Patch<D> as Pa
 /// Mask of all lanes.
 pub(in crate::mpm) const ALL: u32 = (1 << BATCH) - 1;
 
-/// Batches of particles, and all that locates their patches. The patches themselves are not part of
-/// it: fields beside them would be reloaded after every store of a weight.
+/// Batches of particles, with the data that locates their patches. The patches are stored
+/// separately: fields of the same struct would be reloaded after every store of a weight.
 pub(in crate::mpm) struct ParticleBatches<'a, B: Basis, const D: usize> {
     pub(in crate::mpm) particles: &'a Particles<D>,
     grid: &'a Grid<D>,
@@ -150,7 +150,7 @@ pub(super) fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(
     }
 }
 
-/// Columns of `matrix D_p^-1`, each in a register from lane `from` on, with the inertia tensor of
+/// Columns of `matrix D_p^-1`, each in a register from lane `from` on. Uses the inertia tensor of
 /// all patches of the particle, or without it that of its only patch.
 #[inline(always)]
 pub(super) fn divide<B: Basis, S: Simd, const D: usize>(

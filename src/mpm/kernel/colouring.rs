@@ -1,9 +1,9 @@
-//! Blocks of particles in two colours, by which threads share P2G.
+//! Blocks of particles in two colours, for P2G on several threads.
 //!
 //! Neighbours in memory mostly have nodes in neighbouring layers across the last axis. The
-//! particles of a large scene are cut into consecutive blocks of alternating colour. Blocks of one
-//! colour have no node in common and run at once; an odd block adds to the sums that its even
-//! neighbours left.
+//! particles of a large scene are divided into consecutive blocks of alternating colour. Blocks of
+//! one colour have no common node and run in parallel; an odd block adds to the sums of its even
+//! neighbours.
 //!
 //! The cuts depend on the particles only, not on the number of threads, and so do the bits. A small
 //! scene, or one whose particles are in no spatial order, is one block.
@@ -18,7 +18,7 @@ use crate::mpm::foundation::simd::BATCH;
 use crate::mpm::foundation::threads::RowChunks;
 use std::ops::Range;
 
-/// Chunks of the smallest block, the units in which layers are looked up.
+/// Number of chunks of the smallest block: the resolution of the search for layers.
 const CHUNKS: usize = 8;
 
 /// Independent minima and maxima in one loop over positions.
@@ -108,7 +108,7 @@ impl Span {
             Domain::Fixed | Domain::Follows => (1.0, MARGIN as f64 + 1.0),
         };
         let wraps = low - below < 0.0 || high + (above - f64::from(B::DEGREE)) >= cells;
-        // Beyond a periodic end the nodes of the other end follow.
+        // Beyond a periodic end follow the nodes of the other end.
         if !(low <= high) || grid.periodic[axis] && wraps {
             return 0..all;
         }
@@ -130,7 +130,7 @@ impl Blocks {
         (self.settings.min_block / CHUNKS).next_multiple_of(BATCH)
     }
 
-    /// Cuts the particles into blocks, if there are enough and they are in spatial order.
+    /// Divides the particles into blocks, if there are enough and they are in spatial order.
     pub(in crate::mpm) fn cut<B: Basis, const D: usize>(
         &mut self,
         grid: &Grid<D>,

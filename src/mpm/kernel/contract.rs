@@ -1,8 +1,8 @@
 //! Passes over particles and nodes, the building blocks of transfers, mass matrices and effects.
 //!
-//! [`Kernel`] is object-safe: one virtual call per pass, none per particle. A pass computes the
-//! weights of a particle again, so that all parts for the same particles and nodes share one pass;
-//! each part has the bits that it would have alone.
+//! [`Kernel`] is object-safe: one virtual call per pass, none per particle. A pass recomputes the
+//! weights of a particle, so that all parts for the same particles and nodes share one pass; each
+//! part has the same bits as in a separate pass.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::foundation::algebra::{Matrix, Vector};
@@ -178,8 +178,8 @@ pub trait Scalars<const D: usize> {
     );
 }
 
-/// Slope of the velocity field around each particle. `mean_p` is the weighted mean of the nodes:
-/// the position of the particle, except for domains cut off by a wall. Relative to it,
+/// Slope of the velocity field around each particle. `mean_p` is the weighted mean of the nodes,
+/// which is the position of the particle unless its domain is cut off by a wall. Relative to it,
 /// the affine part has no momentum.
 #[derive(Debug, Clone, Copy)]
 pub enum Affine<'a, const D: usize> {
@@ -212,7 +212,7 @@ impl<'a, const D: usize> Affine<'a, D> {
 pub struct ParticleField<'a, const D: usize> {
     /// v_p (m/s).
     pub v: &'a [Vector<D>],
-    /// C_p; none for a constant field.
+    /// C_p; `None` for a constant field.
     pub affine: Option<Affine<'a, D>>,
 }
 
@@ -222,7 +222,7 @@ pub enum Divergence {
     /// `f_int_i = - sum_p V_p sigma_p grad N_i(x_p)` (N).
     Gradient,
     /// `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - mean_p) N_i(x_p)` (N): the gradient of a
-    /// least-squares fit in place of that of the basis (Hu et al. 2018, eq. 18).
+    /// least-squares fit instead of that of the basis (Hu et al. 2018, eq. 18).
     Fit,
 }
 
@@ -295,22 +295,23 @@ impl<const D: usize> G2pRequest<'_, D> {
 pub struct LoopSettings {
     /// Instructions that the loops may use. Results have the same bits at any level.
     pub level: Level,
-    /// Fewest particles of a scene that is cut into blocks for threads: smaller ones stay in the
-    /// cache as they are. The sums of blocks are rounded in another order.
+    /// Minimum number of particles for a split into blocks for threads: smaller scenes fit the
+    /// cache. The sums of blocks are rounded in another order.
     pub min_particles: usize,
-    /// Fewest particles of a block: the nodes shared with its neighbours must be few in comparison.
+    /// Minimum number of particles per block: the nodes shared with its neighbours must be few in
+    /// comparison.
     pub min_block: usize,
 }
 
 impl Default for LoopSettings {
-    /// The best level of this processor, and blocks of a size that pays.
+    /// The best level of this processor, and default block sizes.
     fn default() -> Self {
         Self { level: Level::new(), min_particles: 1 << 17, min_block: 1 << 13 }
     }
 }
 
-/// Particles visited for each part of the passes. Counted from the first call of `take` on: runs
-/// that nobody asks do not count.
+/// Number of particles visited for each part of the passes, counted from the first call of `take`
+/// on.
 #[derive(Debug, Default)]
 pub struct Tally(OnceLock<[AtomicU64; NAMES.len()]>);
 

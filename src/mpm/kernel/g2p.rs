@@ -29,7 +29,7 @@ pub(in crate::mpm) const fn are_beside<const D: usize>() -> bool {
     2 * D <= LANES
 }
 
-/// Sums of a batch of particles under way.
+/// Sums of a batch of particles during G2P.
 struct G2pSums<S: Simd, const D: usize> {
     change: [S::F64x4; BATCH],
     velocity: [S::F64x4; BATCH],
@@ -78,12 +78,13 @@ fn put<B: Basis, F: F64x4>(sum: &mut F, term: F) {
 }
 
 impl<const D: usize, B: Basis> Gather<'_, D, B> {
-    /// Whether sums of moments are asked for, as they are or divided.
+    /// Whether sums of moments are requested, directly or divided.
     fn takes_moments(&self) -> bool {
         self.request.moment.is_some() || self.request.fit.is_some()
     }
 
-    /// Adds the sums over the nodes of patches; `moments`: those of [`Self::takes_moments`] too.
+    /// Adds the sums over the nodes of patches; with `moments`, also those of
+    /// [`Self::takes_moments`].
     #[inline(always)]
     fn gather_patches<S: Simd>(
         &self,

@@ -49,14 +49,14 @@ pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
     kernel_with(basis, LoopSettings::default())
 }
 
-/// The same, with loops that run otherwise.
+/// Kernel of the basis with this name, with the given loop settings.
 pub fn kernel_with<const D: usize>(basis: BasisName, settings: LoopSettings) -> Box<dyn Kernel<D>> {
     let kernel = kernel_in_dimension(D, basis, settings).downcast::<Box<dyn Kernel<D>>>();
     *kernel.unwrap_or_else(|_| unreachable!("no kernel in {D} dimensions"))
 }
 
-/// A `Box<dyn Kernel<D>>`. Not generic, so that the loops are compiled in this crate, once, and not
-/// again in each crate that asks for one.
+/// A `Box<dyn Kernel<D>>`. It is not generic, so that the loops are compiled once in this crate,
+/// and not in each crate that uses one.
 fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSettings) -> Box<dyn Any> {
     fn boxed<const D: usize>(basis: BasisName, settings: LoopSettings) -> Box<dyn Kernel<D>> {
         with_basis!(basis, B => Box::new(Loops::<B>::new(settings)))
@@ -66,7 +66,7 @@ fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSetting
 
 /// Kernel of basis `B`.
 struct Loops<B> {
-    /// Memory kept from one pass to the next; no result depends on its contents.
+    /// Memory that is reused by later passes; results do not depend on its contents.
     workspace: Mutex<Workspace>,
     tally: Tally,
     basis: PhantomData<B>,

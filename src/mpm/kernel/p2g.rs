@@ -23,8 +23,8 @@ pub(in crate::mpm) struct Scatter<'a, const D: usize, B, N> {
     pub(in crate::mpm) basis: PhantomData<B>,
 }
 
-/// Whether a request takes nodes of eight numbers, where those of four cannot hold momentum, mass
-/// and force: beyond one axis.
+/// Whether a request needs nodes of eight numbers, because four cannot hold momentum, mass and
+/// force: in more than 1-D.
 pub(in crate::mpm) fn wants_wide_nodes<const D: usize>(request: &P2gRequest<'_, D>) -> bool {
     request.force.is_some() && (request.mass || request.momentum.is_some())
 }
@@ -60,7 +60,7 @@ struct Visit<'a, const D: usize, B: Basis> {
 }
 
 impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
-    /// Whether a node has lanes for momentum and mass beside those of the force.
+    /// Whether a node has lanes for momentum and mass in addition to those of the force.
     const HOLDS_ALL: bool = N::IS_WIDE || D == 1;
 
     /// Adds the terms of particles, which have an affine part (`SLOPE`) and one along the gradient
@@ -73,8 +73,8 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     ) {
         let Self { grid, particles, request, .. } = self;
         let (zero, h) = (simd.splat(0.0), grid.h);
-        // Lanes that nobody asked for are not unpacked: positions, which every body has, do as well
-        // there as velocities, which a body at rest has not.
+        // Unrequested lanes are not unpacked, so that their contents do not matter: positions,
+        // which every body has, replace velocities, which a body at rest does not have.
         let (v, affine) =
             request.momentum.map_or((&*particles.x, None), |field| (field.v, field.affine));
         let is_fit = request.force == Some(Divergence::Fit);

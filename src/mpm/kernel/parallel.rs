@@ -1,8 +1,8 @@
 //! Two-colour schedule of P2G on threads.
 //!
 //! Even blocks and the odd ones between them form a binary tree of joins: an odd block runs after
-//! both its neighbours, on any thread, and no other block has its nodes. Layers to which no later
-//! block adds are unpacked at once, while they are in the cache.
+//! both its neighbours, on any thread, and no other block uses its nodes. Layers to which no later
+//! block adds are unpacked immediately, while they are in the cache.
 //!
 //! Particles of G2P split among threads.
 
@@ -34,12 +34,12 @@ impl<const D: usize, N: PackedNode> Target<'_, D, N> {
     }
 }
 
-/// Adds a block of particles to a field that holds its nodes.
+/// Adds a block of particles to a field that contains its nodes.
 type Add<'a, N> = dyn Fn(&ParticleBlock, FieldViewMut<'_, N>) + Sync + 'a;
 
-/// Clears `target`, calls `add` for all blocks, each with a field that holds its nodes, and unpacks
-/// the sums. Two-colour schedule: odd block k runs after even blocks k and k + 1, which it shares
-/// nodes with.
+/// Clears `target`, calls `add` for all blocks, each with a field that contains its nodes, and
+/// unpacks the sums. Two-colour schedule: odd block k runs after even blocks k and k + 1, with
+/// which it shares nodes.
 pub(in crate::mpm) fn two_colour_schedule<const D: usize, N: PackedNode>(
     grid: &Grid<D>,
     [even, odd]: [&[ParticleBlock]; 2],
@@ -85,7 +85,7 @@ impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
             self.add(between, done, target.reborrow());
             return self.add(last, end..own.end, target);
         }
-        // Two odd blocks: at once.
+        // Two odd blocks run in parallel.
         let (low, high) = target.split_at(self.grid, end);
         join(|| self.add(between, done, low), || self.add(last, end..own.end, high));
     }
@@ -100,7 +100,7 @@ impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
 }
 
 impl<const D: usize> G2pRequest<'_, D> {
-    /// Requests for the first `count` particles and for the others.
+    /// Requests for the first `count` particles, and for the remaining ones.
     fn split_at(self, count: usize) -> (Self, Self) {
         let Self { change, mix, .. } = self;
         let value = split(self.value, count);

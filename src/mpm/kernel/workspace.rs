@@ -1,4 +1,4 @@
-//! P2G and G2P on threads, and the memory that they keep.
+//! P2G and G2P on threads, with their reusable memory.
 
 use super::colouring::{Blocks, ParticleBlock};
 use super::contract::{G2pRequest, LoopSettings, P2gRequest};
@@ -15,7 +15,7 @@ use crate::mpm::foundation::particles::Particles;
 use fearless_simd::Level;
 use std::marker::PhantomData;
 
-/// Memory of a pass besides particles and grid.
+/// Memory of a pass in addition to particles and grid.
 #[derive(Debug)]
 pub(in crate::mpm) struct Workspace {
     level: Level,
@@ -25,7 +25,7 @@ pub(in crate::mpm) struct Workspace {
     blocks: Blocks,
 }
 
-/// Packs velocities and, if wanted, accelerations.
+/// Packs velocities and, if requested, accelerations.
 fn pack<const D: usize>(
     [first, second]: &mut [PackedField<Node4>; 2],
     grid: &Grid<D>,

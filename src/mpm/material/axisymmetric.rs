@@ -1,7 +1,7 @@
 //! Bodies of revolution: a law in space whose third axis is the hoop, with F_33 = r/R.
 //!
-//! Any law can be one of a body of revolution: it is asked in three dimensions, where the shears
-//! between the meridian plane and the hoop are zero.
+//! Any law can be used in a body of revolution: it is evaluated in three dimensions, where the
+//! shears between the meridian plane and the hoop are zero.
 
 use super::contract::Material;
 use super::stress_update::StressUpdate;
@@ -22,7 +22,7 @@ impl Axisymmetric {
         Self { law, space: none() }
     }
 
-    /// Lets the law act on the body as it is in space.
+    /// Applies the law to the body in three dimensions.
     fn in_space<const D: usize, T>(
         &mut self,
         particles: &mut Particles<D>,
@@ -107,7 +107,7 @@ impl<const D: usize> Material<D> for Axisymmetric {
         self.law.energy(&space)
     }
 
-    /// The hoop stretch is that of the positions, its rate that of the velocities.
+    /// The hoop stretch follows from the positions, its rate from the velocities.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         for p in 0..particles.len() {
             let r = particles.position(p)[0];

@@ -1,16 +1,16 @@
 //! Modified Cam-clay: a yield surface that hardens with plastic compaction.
 //!
 //! With the mean stress `p`, positive in compression, and `q = sqrt(3 J2)` of the Kirchhoff stress,
-//! the clay yields where `q^2/M^2 + p (p - pc) > 0`; the flow is associated (Roscoe & Burland 1968;
+//! the clay yields if `q^2/M^2 + p (p - pc) > 0`; the flow is associated (Roscoe & Burland 1968;
 //! Borja & Lee 1990). Swelling has `d eps_v = kappa dp/p`, and plastic compaction hardens by `d
 //! pc/pc = d eps_v/(lambda - kappa)`. The shear modulus `G = r p/kappa` has a constant Poisson's
 //! ratio; the elastic law is in rate form and has no energy.
 //!
 //! The state is the Kirchhoff stress and `pc`. A step changes the deformation by `I + grad v dt`,
-//! which is `v R`: R turns the stress, and `ln v` is the strain increment. This is exact under any
-//! rotation, and the rate of Jaumann to the second order in the step. Along fixed axes, logarithmic
-//! strains add up without error. The return is implicit: exact at a constant stress ratio, and of
-//! the first order in the number of steps otherwise. It solves one equation for the stress ratio,
+//! which is `v R`: R rotates the stress, and `ln v` is the strain increment. This is exact under
+//! any rotation, and equals the Jaumann rate to second order in the step. Along fixed axes,
+//! logarithmic strains add up without error. The return is implicit: exact at a constant stress
+//! ratio, and of first order in the step otherwise. It solves one equation for the stress ratio,
 //! whose root lies between the critical state and the yield surface before the step.
 
 use super::contract::{Contradiction, Material, MaterialProperties};
@@ -106,7 +106,7 @@ impl CamClay {
         -self.start.tau[(0, 0)]
     }
 
-    /// The state after a step with the rotation `turn` and then the logarithmic `strain`.
+    /// The state after a step with the rotation `turn` followed by the logarithmic `strain`.
     fn after(&self, before: &Clay, turn: &Matrix<3>, strain: &Matrix<3>) -> Clay {
         let tau = product(&product(turn, &before.tau), &turn.transpose());
         let (pressure, compaction) = (-tau.trace() / 3.0, -strain.trace());
@@ -142,9 +142,9 @@ impl CamClay {
     /// state outside.
     ///
     /// The unknown is `m = q/(M p)`. On the surface `pc = p (1 + m^2)`, which gives the plastic
-    /// compaction; the flow rule is left, `6 G x m/M = (q_trial - q) (1 - m^2)` over p, with the
-    /// plastic compaction x. At the critical state, m = 1, the sides have the signs of a root
-    /// between there and the surface.
+    /// compaction. The remaining equation is the flow rule, `6 G x m/M = (q_trial - q) (1 - m^2)`
+    /// over p, with the plastic compaction x. The signs of its sides at the critical state, m = 1,
+    /// and at the surface bracket the root.
     fn returned(&self, trial: &ClayTrial) -> (f64, Matrix<3>, f64) {
         let Self { slope, swelling, hardening, ratio, .. } = *self;
         // ln(p/pc) of the trial state.
@@ -243,6 +243,10 @@ impl MaterialProperties for CamClay {
 
     fn starts_stressed(&self) -> Result<(), &'static str> {
         Err("the clay starts under its `initial_pressure`")
+    }
+
+    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
+        Err("a law in rate form does not compute its stress from F or J")
     }
 
     fn has_energy(&self, _: usize) -> Result<(), &'static str> {
@@ -379,8 +383,8 @@ mod tests {
     }
 
     proptest! {
-        /// After a return the yield function is zero, the flow is associated and the hardening that
-        /// of the plastic compaction, on both sides of the critical state.
+        /// After a return the yield function is zero, the flow is associated and the hardening
+        /// follows the plastic compaction, on both sides of the critical state.
         #[test]
         fn a_return_obeys_flow_rule_and_hardening(
             overconsolidation in 1.0..20.0_f64,
@@ -403,8 +407,8 @@ mod tests {
                 let elastic = 0.02 * libm::log(p / 100.0);
                 let flow = 0.08 * libm::log(pc / law.start.consolidation);
                 assert_abs_diff_eq!(elastic + flow, compaction, epsilon = 1e-12);
-                // The plastic shear over the gradient of q^2/M^2, and the compaction over that of
-                // p (p - pc), are one multiplier.
+                // The ratios of the plastic shear to the gradient of q^2/M^2, and of the compaction
+                // to that of p (p - pc), are one multiplier.
                 let modulus = 0.6 * (p - 100.0) / elastic;
                 let plastic = Matrix::from_diagonal(&shear) - deviator / (2.0 * modulus);
                 let flowed = plastic.dot(&deviator) / deviator.norm_squared();

@@ -64,7 +64,7 @@ fn undrained_shear_has_its_closed_form(#[case] expected: [f64; 2], #[case] strai
     assert!((0.97..1.03).contains(&order), "order {order}");
 }
 
-/// Elastic at constant p up to `q_y = M sqrt(p0 (pc - p0))`, then as a closed form says.
+/// Elastic at constant p up to `q_y = M sqrt(p0 (pc - p0))`, then given by a closed form.
 #[test]
 fn undrained_shear_of_overconsolidated_clay_has_its_closed_form() {
     let at_yield = 84.852_813_742 * 0.02 / (3.0 * 0.6 * 100.0);
@@ -81,7 +81,7 @@ fn undrained_shear_of_overconsolidated_clay_has_its_closed_form() {
     assert!((0.97..1.03).contains(&order), "order {order}");
 }
 
-/// `p = p0/2^(1 - kappa/lambda)` and `q = M p`, whatever the number of steps.
+/// `p = p0/2^(1 - kappa/lambda)` and `q = M p`, for any number of steps.
 #[rstest]
 fn undrained_shear_ends_at_a_critical_state(#[values(4, 300)] steps: u32) {
     let mut clay = specimen(clay(100.0));
@@ -142,8 +142,8 @@ fn on_the_k0_line(eta: f64) -> CamClay {
     clay(100.0).starting_at(Matrix::from_diagonal(&(tau * 100.0)), consolidation)
 }
 
-/// Uniaxial compression inside the yield surface has `q = 2 r (p - p0)`, and comes back the
-/// same way. A cycle of volume and shear does not: `q = 3 r (p - p0)/kappa eps_q` is left.
+/// Uniaxial compression inside the yield surface has `q = 2 r (p - p0)`, and is reversible. A cycle
+/// of volume and shear is not: `q = 3 r (p - p0)/kappa eps_q` remains.
 #[test]
 fn elastic_strain_has_its_closed_forms() {
     let mut soil = specimen(clay(1000.0));

@@ -1,4 +1,4 @@
-//! Interface of materials to the solver, and to those who state problems.
+//! Interface of materials to the solver and to the compiler of suites.
 
 use super::stress_update::StressUpdate;
 #[cfg(test)]
@@ -6,13 +6,13 @@ use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
 
-/// Properties of a law that decide what may be stated of its bodies.
+/// Properties of a law that decide which problems may be stated with it.
 pub trait MaterialProperties {
     /// Stiffness against strain along one axis (Pa), at rest: `rho0 c^2` of the fastest wave.
     fn wave_modulus(&self) -> f64;
 
-    /// Whether stress is a function of F alone, so that a body may start as a motion does, and a
-    /// body force may be manufactured for it.
+    /// Whether stress is a function of F alone. Then a body may start in the state of a stated
+    /// motion, and a body force may be manufactured.
     ///
     /// # Errors
     /// Why it is not.
@@ -26,7 +26,8 @@ pub trait MaterialProperties {
         self.depends_on_deformation_alone()
     }
 
-    /// Whether a body may have a stress in its reference configuration, beside that of the law.
+    /// Whether a body may have an initial stress in its reference configuration, in addition to the
+    /// stress of the law.
     ///
     /// # Errors
     /// Why it may not.
@@ -34,12 +35,21 @@ pub trait MaterialProperties {
         self.depends_on_deformation_alone()
     }
 
-    /// Whether the law is one of elasticity: what it does to a body that expands by heat is known.
+    /// Whether the stress may be computed at the averaged volume ratio of F-bar: the law reads F,
+    /// or keeps J alone.
+    ///
+    /// # Errors
+    /// Why it may not.
+    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
+        self.depends_on_deformation_alone()
+    }
+
+    /// Whether the law is elastic: only then is its thermal expansion defined.
     fn is_elastic(&self) -> bool {
         false
     }
 
-    /// A parameter that contradicts another one.
+    /// The first parameter that contradicts another one, if any.
     fn contradiction(&self) -> Option<Contradiction> {
         None
     }
@@ -52,7 +62,7 @@ pub trait MaterialProperties {
     /// Whether the stored energy is a function of the state in `dimension` dimensions.
     ///
     /// # Errors
-    /// Why it is not, as what follows the name of the law in a sentence.
+    /// The reason, as the part of a sentence that follows the name of the law.
     fn has_energy(&self, dimension: usize) -> Result<(), &'static str> {
         let _ = dimension;
         Ok(())
@@ -70,22 +80,22 @@ pub struct Contradiction {
     pub explanation: &'static str,
 }
 
-/// Closed forms of a law, which the tests of the family hold its stress to. Laws that flow or heat
-/// in a step are asked as for one step that takes no end of time, from a state of rest.
+/// Closed forms of a law, with which the tests of the family compare its stress. For laws that flow
+/// or heat in a step, the values are those of one infinitely long step from a state of rest.
 #[cfg(test)]
 pub(super) trait ClosedForms {
     /// Cauchy stress (Pa) under simple shear in the plane: components 11, 12 and 22.
     fn simple_shear(&self, gamma: f64) -> [f64; 3];
 
-    /// Cauchy stress (Pa) along and across a uniaxial stretch, the other axes held; none if the
-    /// law has a history, which a test in its own file holds it to.
+    /// Cauchy stress (Pa) along and across a uniaxial stretch, with the other axes fixed; `None` if
+    /// the law has a history, which a test in its own file covers.
     fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]>;
 
-    /// The energy (J/m3) that stress derives from, but for a constant, as long as nothing flows;
-    /// none for a law in rate form.
+    /// The energy density (J/m3) whose derivative is the stress, up to a constant, as long as
+    /// nothing flows; `None` for a law in rate form.
     fn energy_density(&self, f: &Matrix<3>) -> Option<f64>;
 
-    /// Stress (Pa) that rounding of J makes, if nothing else makes one in a step of no time.
+    /// Stress (Pa) caused by the rounding of J in a step of zero length.
     fn rounding(&self) -> f64 {
         0.0
     }
@@ -96,13 +106,12 @@ pub(super) trait ClosedForms {
     }
 }
 
-/// A constitutive law, with the state that only it reads. It meets the solver between stages: one
-/// virtual call per step.
+/// A constitutive law, with its private state. The solver makes one virtual call per step.
 pub trait Material<const D: usize>: Send {
-    /// Whether the law reads F: the column exists only then, or if the basis asks for it.
+    /// Whether the law reads F: the column exists only then, or if the basis reads F.
     fn reads_deformation(&self) -> bool;
 
-    /// Whether the law keeps the stretch across the plane: the column exists only then.
+    /// Whether the law stores the stretch across the plane: the column exists only then.
     fn keeps_stretch_across(&self) -> bool {
         false
     }
@@ -118,29 +127,28 @@ pub trait Material<const D: usize>: Send {
         false
     }
 
-    /// State of each particle that the law keeps.
+    /// State that the law stores for each particle.
     fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
     }
 
-    /// Visits the state that the law keeps.
+    /// Visits the state of the law.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
-    /// The same law of a plate that is free across its plane, sigma_33 = 0; none of a law that is
-    /// not known there.
+    /// This law in plane stress, sigma_33 = 0; `None` if it is not implemented there.
     fn in_plane_stress(&self) -> Option<Box<dyn Material<D>>> {
         None
     }
 
-    /// Energy that all particles store, over the whole body (J); `None` where the
-    /// work of the stress is no function of the state. Dissipated energy is not stored.
+    /// Energy that all particles store, over the whole body (J); `None` if the work of the stress
+    /// is not a function of the state. Dissipated energy is not stored.
     fn energy(&self, _: &Particles<D>) -> Option<f64> {
         None
     }
 
-    /// Stresses of a body that starts deformed or, by a law that reads rates, in motion: from F and
-    /// the velocity gradients; volumes are those of F already. A law in rate form adds to the
-    /// stress that is there.
+    /// Computes the initial stresses of a body that starts deformed or, with a law that reads
+    /// rates, in motion, from F and the velocity gradients. Volumes already follow from F. A law in
+    /// rate form adds to the present stress.
     ///
     /// # Errors
     /// [`Failure::NotOfDeformation`] if these give no stress.

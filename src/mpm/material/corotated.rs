@@ -4,7 +4,7 @@
 //! Howes, Schroeder & Teran 2012, SCA, "Energetically consistent invertible elasticity"; Jiang et
 //! al. 2016, SIGGRAPH Courses, section 6.3). Derived from the energy
 //! `W = mu sum (s_i - 1)^2 + lambda/2 (J - 1)^2` of the stretches s_i. In uniaxial strain P is
-//! linear in the displacement gradient. Fewer than three dimensions mean plane or uniaxial strain.
+//! linear in the displacement gradient. In 2-D and 1-D the strain is plane and uniaxial.
 
 use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{set_stress_along_axes, stored_energy};

@@ -1,12 +1,12 @@
 //! Drucker-Prager plasticity: a cone about the axis of mean stress.
 //!
-//! Yield where `sqrt(J2) + eta p > k`, with `p = tr(tau)/3` positive in tension and `J2 = dev(tau)
-//! : dev(tau)/2`. The flow has the coefficient of dilation `etab` in place of `eta`. The return
-//! goes to the cone, or to its apex `p = k/eta` (de Souza Neto, Peric & Owen 2008, section 8.3).
-//! The frame is that of [`plastic_flow`](super::plastic_flow).
+//! Yield if `sqrt(J2) + eta p > k`, with `p = tr(tau)/3` positive in tension and
+//! `J2 = dev(tau) : dev(tau)/2`. The flow has the coefficient of dilation `etab` instead of `eta`.
+//! The return goes to the cone, or to its apex `p = k/eta` (de Souza Neto, Peric & Owen 2008,
+//! section 8.3). The integration is that of [`plastic_flow`](super::plastic_flow).
 //!
 //! Without dilation the flow cannot lower a tension beyond the apex: the return to the apex is then
-//! a tension cut-off, which is no part of the flow rule.
+//! a tension cut-off, which is not part of the flow rule.
 
 use super::contract::Contradiction;
 use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
@@ -61,7 +61,7 @@ impl YieldSurface for Cone {
                 deviator: trial.deviator * (1.0 - mu * flow / shear),
             }
         } else {
-            // Only a cone that closes is left at its apex: `friction` is above zero here.
+            // Only a cone with an apex reaches this point: `friction` is above zero here.
             PrincipalStrain {
                 mean: strength / (3.0 * bulk * friction),
                 deviator: Vector::<3>::zeros(),

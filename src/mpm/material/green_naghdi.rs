@@ -112,6 +112,10 @@ impl MaterialProperties for GreenNaghdi {
         Err("a law in rate form has no stress of the deformation alone")
     }
 
+    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
+        Err("a law in rate form does not compute its stress from F or J")
+    }
+
     fn has_energy(&self, _: usize) -> Result<(), &'static str> {
         Err("is integrated in rate form, and has no energy")
     }

@@ -2,8 +2,7 @@
 //!
 //! `sigma = (lambda tr(eps) I + 2 mu eps)/J`, `eps = ln(F F^T)/2` (Hencky 1928; de Souza Neto,
 //! Peric & Owen 2008, chapter 13; Charlton et al. 2017 in MPM). Derived from the energy
-//! `W = lambda/2 tr(eps)^2 + mu eps : eps`. Fewer than three dimensions mean plane or uniaxial
-//! strain.
+//! `W = lambda/2 tr(eps)^2 + mu eps : eps`. In 2-D and 1-D the strain is plane and uniaxial.
 
 use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{set_stress_along_axes, stored_energy};
@@ -47,7 +46,7 @@ impl Hencky {
     }
 }
 
-/// A plate: stress and energy are those of the strains in the plane, with another lambda.
+/// A plate: stress and energy follow from the strains in the plane, with another lambda.
 struct HenckyPlate {
     plane: Hencky,
     thinning: f64,

@@ -15,8 +15,7 @@ pub(super) fn stored_energy<const D: usize>(
     all.map(|(f, vol0)| vol0 * density(f)).sum()
 }
 
-/// Sets volumes, and Cauchy stresses from F, with what `of_j` computes of J, for several particles
-/// at a time.
+/// Sets volumes, and Cauchy stresses from F, using `of_j` of J, for several particles at a time.
 pub(super) fn set_stress_by_batch<const D: usize, const N: usize>(
     body: &mut StressUpdate<'_, D>,
     of_j: impl Fn(&F64Batch) -> [F64Batch; N] + Sync,
@@ -38,9 +37,9 @@ pub(super) fn set_stress_by_batch<const D: usize, const N: usize>(
     );
 }
 
-/// Sets volumes, and Cauchy stresses along the axes of `F F^T`: `of_squares` computes what the law
-/// needs of the squared stretches, for several particles at a time, and `principal` the stresses
-/// (Pa) from that and J.
+/// Sets volumes, and Cauchy stresses along the axes of `F F^T`: `of_squares` computes the inputs of
+/// the law from the squared stretches, for several particles at a time, and `principal` the
+/// stresses (Pa) from these and J.
 pub(super) fn set_stress_along_axes<const D: usize>(
     body: &mut StressUpdate<'_, D>,
     of_squares: impl Fn(&F64Batch) -> F64Batch + Sync,

@@ -1,7 +1,7 @@
 //! J2 plasticity: the yield surface of von Mises with linear hardening.
 //!
-//! Yield where `sqrt(3/2) |dev tau| > Y + H alpha`; the return is radial (de Souza Neto, Peric &
-//! Owen 2008, chapters 7 and 14). The frame is that of [`plastic_flow`](super::plastic_flow).
+//! Yield if `sqrt(3/2) |dev tau| > Y + H alpha`; the return is radial (de Souza Neto, Peric & Owen
+//! 2008, chapters 7 and 14). The integration is that of [`plastic_flow`](super::plastic_flow).
 
 use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
 
@@ -61,9 +61,9 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Uniaxial strain: elastic to `Y/(2 mu)`, then `d tau_1 = K d eps` and `tau_1 - tau_2 = Y` but
-    /// for hardening (benchmark V18, in Kirchhoff stress and logarithmic strain); unloading is
-    /// elastic again, until it yields the other way round.
+    /// Uniaxial strain: elastic to `Y/(2 mu)`, then `d tau_1 = K d eps` and `tau_1 - tau_2 = Y`
+    /// without hardening (benchmark V18, in Kirchhoff stress and logarithmic strain). Unloading is
+    /// elastic, until it yields in the opposite direction.
     #[rstest]
     fn uniaxial_strain_has_its_closed_form(#[values(0.0, 40.0)] hardening: f64) {
         pull::<1>(hardening);

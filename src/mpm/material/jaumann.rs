@@ -2,9 +2,9 @@
 //!
 //! `tau_dot = lambda tr(d) I + 2 mu d + w tau - tau w` for the Kirchhoff stress `tau = J sigma`,
 //! with the symmetric part d and the skew part w of the velocity gradient. Johnson & Bammann (1984)
-//! compare such rates. In a step `I + grad v dt = v R`, R turns the stress and `ln v` is the strain
-//! increment: exact under any rotation, and of order 2 in the time step. The work of the stress in
-//! a closed cycle of deformation is not zero, so that there is no energy.
+//! compare such rates. In a step `I + grad v dt = v R`, R rotates the stress and `ln v` is the
+//! strain increment: exact under any rotation, and of order 2 in the time step. The work of the
+//! stress in a closed cycle of deformation is not zero, so that there is no energy.
 
 use super::contract::{Material, MaterialProperties};
 use super::linear_elastic::LinearElastic;
@@ -51,6 +51,10 @@ impl MaterialProperties for Jaumann {
 
     fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
         Err("a law in rate form has no stress of the deformation alone")
+    }
+
+    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
+        Err("a law in rate form does not compute its stress from F or J")
     }
 
     fn has_energy(&self, _: usize) -> Result<(), &'static str> {

@@ -1,5 +1,5 @@
-//! The laws that every registered material is held to, in 1-D, 2-D and 3-D. Where materials differ,
-//! each says so in its properties and closed forms.
+//! Law tests of every registered material, in 1-D, 2-D and 3-D. Differences between materials are
+//! declared in their properties and closed forms.
 
 use super::specimen::{FAST, SLOW, Specimen, diagonal, every, scattered, stress};
 use super::{
@@ -13,7 +13,7 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 #[path = "../../../tests/exercises/st_venant_kirchhoff.rs"]
 mod exercise;
 
-/// A rotation about an oblique axis (Rodrigues); in 1-D there is only the identity.
+/// A rotation about an oblique axis (Rodrigues); in 1-D the identity.
 fn rotation<const D: usize>(angle: f64) -> Matrix<D> {
     let w = 1.0 / 3.0_f64.sqrt();
     let spin = match D {
@@ -31,9 +31,9 @@ fn in_space<const D: usize>(m: &Matrix<D>, beyond: f64) -> Matrix<3> {
     space
 }
 
-/// Whether the law reads F, so that its stress is objective through any rotation in one step. A law
-/// of the velocity gradient is objective in the rate only: a step that turns by some angle leaves
-/// an error of the second order in that angle.
+/// Whether the law reads F, so that its stress is objective under any rotation in one step. A law
+/// of the velocity gradient is objective in the rate only: a step with a rotation has an error of
+/// second order in the angle.
 fn reads_deformation(plan: MaterialPlan) -> bool {
     plan.build::<1>().reads_deformation()
 }
@@ -109,14 +109,14 @@ fn rotation_in_a_step_only_turns_the_stress<const D: usize>(plan: MaterialPlan) 
         assert_abs_diff_eq!(error(0.1, 2.0), 0.0, epsilon = 1e-11);
     } else if D > 1 {
         let (error, half) = (error(1e-3, 1e-3), error(5e-4, 5e-4));
-        // A stress of J alone does not know of the turn.
+        // A stress that depends on J alone has no error of rotation.
         let is_second_order = error < 1e-13 || (3.9 * half..=4.1 * half).contains(&error);
         assert!(is_second_order, "{plan:?}: {error}, {half}");
     }
 }
 
-/// `sigma(Q L Q^T + W) = Q sigma(L) Q^T` for the velocity gradient L and any spin W: isotropy, and
-/// indifference to a frame that turns. A stress of F is held to more, by the law above.
+/// `sigma(Q L Q^T + W) = Q sigma(L) Q^T` for the velocity gradient L and any spin W: isotropy and
+/// frame indifference. A law that reads F must pass the stronger test above.
 fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     if reads_deformation(plan) {
         return;
@@ -129,7 +129,7 @@ fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(found, turned, epsilon = 1e-12 * turned.norm() + rounding);
 }
 
-/// The state kept after a step, plastic flow too, gives the same stress again.
+/// The state after a step, including plastic flow, gives the same stress again.
 fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
     let mut specimen = Specimen::<D>::new(plan);
     let first = specimen.deform(&(Matrix::identity() + scattered(0.25, 0.3)), SLOW);
@@ -219,7 +219,7 @@ fn simple_shear_has_its_closed_forms() {
     }
 }
 
-/// Along and across a uniaxial stretch, the others held.
+/// Along and across a uniaxial stretch, with the other axes fixed.
 #[test]
 fn stretch_has_its_closed_forms() {
     let stretch = 1.3;

@@ -5,9 +5,9 @@
 //! dt -> 0 the 1-D form integrates to `sigma = E ln F`: it agrees with small-strain elasticity to
 //! first order in the strain only, which reports separate from the error of the discretisation.
 //!
-//! The rate is the plain one, without the terms of Jaumann or Green & Naghdi: a spin adds no
-//! stress, to first order in the step, but neither does it turn the stress that is there. Objective
-//! for small rotations only, in more than one dimension.
+//! The rate is the plain one, without the terms of Jaumann or Green & Naghdi: to first order in the
+//! step, a spin adds no stress, but it does not rotate the present stress either. Objective for
+//! small rotations only, in more than one dimension.
 //!
 //! A body that starts deformed has the stress that the rate brings along the straight path
 //! `x = X + s u`, s from 0 to 1: `grad v = H (I + s H)^-1` with `H = F - I`, and so
@@ -58,11 +58,11 @@ fn logarithmic_work(eps: f64) -> f64 {
     terms.sum()
 }
 
-/// Most terms of a logarithm: those of a stretch of 1/100 or 100.
+/// Maximum number of terms of a logarithm: enough for a stretch of 1/100 or 100.
 const MOST_TERMS: u32 = 2000;
 
-/// `ln F = 2 artanh(Z)`, `Z = (F - I)(F + I)^-1` (Higham 2008, eq. 11.5); no numbers where the
-/// series does not converge: for stretches below 1/100 or above 100, and turns of 90 degrees.
+/// `ln F = 2 artanh(Z)`, `Z = (F - I)(F + I)^-1` (Higham 2008, eq. 11.5); NaN if the series does
+/// not converge: for stretches below 1/100 or above 100, and rotations by 90 degrees.
 pub(super) fn logarithm<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
     let nothing = Matrix::from_element(f64::NAN);
     let Some(inverse) = (f + Matrix::identity()).try_inverse() else { return nothing };
@@ -100,6 +100,10 @@ impl MaterialProperties for LinearElastic {
         true
     }
 
+    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
+        Err("a law in rate form does not compute its stress from F or J")
+    }
+
     fn has_energy(&self, dimension: usize) -> Result<(), &'static str> {
         match dimension {
             1 => Ok(()),
@@ -118,10 +122,9 @@ impl<const D: usize> Material<D> for LinearElastic {
         Some(Box::new(RatePlaneStress::new(self.lambda, self.mu, plate)))
     }
 
-    /// Along a line the rate integrates to `sigma = M eps`, `eps = ln J`, and its work per
-    /// reference volume, of `J sigma d eps`, to `M (eps e^eps - e^eps + 1)`; here with the eps of
-    /// the stress, which is what pushes. In a plane or in space the work depends on the way: no
-    /// energy.
+    /// In 1-D the rate integrates to `sigma = M eps`, `eps = ln J`, and its work per reference
+    /// volume, of `J sigma d eps`, to `M (eps e^eps - e^eps + 1)`, evaluated with the eps of the
+    /// stress. In 2-D and 3-D the work depends on the path: there is no energy.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let modulus = self.lambda + 2.0 * self.mu;
         let stored = |(sigma, vol0): (&Matrix<D>, &f64)| {
@@ -206,7 +209,7 @@ mod tests {
         assert_relative_eq!(started(law, f).sigma[0], pulled.sigma[0], epsilon = 1e-5);
     }
 
-    /// `E ln F` along a line, to the last digits of a small strain; none for half a turn.
+    /// `E ln F` in 1-D, without cancellation for small strain; NaN for a rotation by 180 degrees.
     #[test]
     fn a_deformed_start_has_the_stress_of_the_logarithm() {
         let law = LinearElastic::new(100.0, 0.0);
@@ -225,7 +228,7 @@ mod tests {
         body
     }
 
-    /// `W(J) = M (J ln J - J + 1)`, whose derivative is sigma; and none in a plane.
+    /// `W(J) = M (J ln J - J + 1)`, whose derivative is sigma; no energy in 2-D.
     #[test]
     fn a_bar_stores_the_work_of_its_stress() {
         for stretch in [1.2, 0.7, 1.01, 1.0 - 1e-9] {
@@ -260,7 +263,7 @@ mod tests {
         }
     }
 
-    /// An objective law would turn the stress; this one does not.
+    /// An objective law would rotate the stress; this one does not.
     #[test]
     fn spin_does_not_turn_the_stress() {
         let mut solid = one_particle::<2>();

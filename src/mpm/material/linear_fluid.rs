@@ -1,12 +1,12 @@
 //! An inviscid fluid of linear compressibility, the medium of linear acoustics.
 //!
-//! `sigma = -p I`, `p = -K (J - 1)`, from the energy `K/2 (J - 1)^2`: in uniaxial strain `P = K
-//! u_X` whatever the amplitude, so that plane waves of finite strain keep their shape (Landau &
-//! Lifshitz 1987, section 101: what steepens them is the curvature of p over the specific volume).
-//! To first order in the strain it is `p = c^2 (rho - rho0)`, `c^2 = K/rho0`. Nothing resists a
-//! collapse to J = 0 but p = K.
+//! `sigma = -p I`, `p = -K (J - 1)`, from the energy `K/2 (J - 1)^2`: in uniaxial strain
+//! `P = K u_X` for any amplitude, so that plane waves of finite strain keep their shape (Landau &
+//! Lifshitz 1987, section 101: waves steepen because of the curvature of p over the specific
+//! volume). To first order in the strain it is `p = c^2 (rho - rho0)`, `c^2 = K/rho0`. The
+//! resistance to a collapse, J = 0, is finite: p = K.
 //!
-//! Of the deformation the fluid knows J alone, which it integrates, `J *= det(I + grad v dt)`.
+//! The stress depends on J only, which is integrated, `J *= det(I + grad v dt)`.
 
 use super::contract::{Material, MaterialProperties};
 use super::stress_update::{StressBlock, StressUpdate};

@@ -35,7 +35,7 @@ pub use stress_update::{StressBlock, StressUpdate};
 each_material!(materials);
 
 impl MaterialPlan {
-    /// The material of a body in this state across its plane; none of a law that is not known
+    /// The material of a body in this state across its plane; `None` if the law is not implemented
     /// there.
     pub fn in_plane<const D: usize>(&self, plane: PlaneState) -> Option<Box<dyn Material<D>>> {
         match plane {
@@ -71,7 +71,7 @@ pub enum Range {
     Positive,
     /// Zero or above.
     NotNegative,
-    /// Above -1 and below 1/2: an isotropic solid is stable there, and compressible.
+    /// Above -1 and below 1/2: the range in which an isotropic solid is stable and compressible.
     PoissonsRatio,
     /// Zero or above, and below 90 (degrees).
     Angle,

@@ -1,14 +1,14 @@
 //! Mohr-Coulomb plasticity: a pyramid of six planes in principal stresses.
 //!
-//! Yield where `(t1 - t3) + (t1 + t3) sin(phi) > 2 c cos(phi)`, with the principal Kirchhoff
-//! stresses `t1 >= t2 >= t3`, tension positive. The flow has the dilation angle psi in place of
-//! phi. The return goes to a plane, to one of the two edges where the planes of neighbouring orders
-//! meet, or to the apex `p = c cot(phi)` (de Souza Neto, Peric & Owen 2008, section 8.2). With phi
-//! = 0 this is Tresca's law, which has no apex. The frame is that of
+//! Yield if `(t1 - t3) + (t1 + t3) sin(phi) > 2 c cos(phi)`, with the principal Kirchhoff stresses
+//! `t1 >= t2 >= t3`, tension positive. The flow has the dilation angle psi instead of phi. The
+//! return goes to a plane, to one of the two edges between planes of neighbouring orders, or to the
+//! apex `p = c cot(phi)` (de Souza Neto, Peric & Owen 2008, section 8.2). With phi = 0 this is
+//! Tresca's law, which has no apex. The integration is that of
 //! [`plastic_flow`](super::plastic_flow).
 //!
 //! Without dilation the flow cannot lower a tension beyond the apex: the return to the apex is then
-//! a tension cut-off, which is no part of the flow rule.
+//! a tension cut-off, which is not part of the flow rule.
 
 use super::contract::Contradiction;
 use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
@@ -77,8 +77,8 @@ impl Pyramid {
         trial - self.relief(plane) * flow
     }
 
-    /// The stress where two planes meet; none if a flow is negative beyond rounding, which it is
-    /// not at the rim of a plane.
+    /// The stress on the edge of two planes; `None` if a flow is negative beyond rounding, as it is
+    /// away from the edge.
     fn on_edge(&self, [a, b]: [YieldPlane; 2], trial: &Vector<3>) -> Option<Vector<3>> {
         let (f_a, f_b) = (self.excess(a, trial), self.excess(b, trial));
         let (aa, ab) = (self.slope(a, a), self.slope(a, b));
@@ -148,7 +148,7 @@ impl YieldSurface for Pyramid {
         Some((after, trial.distance(&after)))
     }
 
-    /// One plane, as long as the third stress stays between the others.
+    /// Yield on one plane, as long as the third stress is between the others.
     #[cfg(test)]
     fn isochoric(&self, e: f64) -> [f64; 2] {
         let ([s, sp], LogElasticity { lambda, mu, .. }) = (self.sines, self.elasticity);
@@ -232,7 +232,7 @@ mod tests {
         }
 
         /// A trial stress that returns to a plane next to an edge, within rounding: the return to
-        /// the edge has a flow of zero on the other plane, which rounding makes negative.
+        /// the edge has zero flow on the other plane, which rounding makes negative.
         #[test]
         fn a_return_to_the_rim_of_a_plane_ends_there(
             friction in prop_oneof![Just(0.0), 0.0..50.0_f64],

@@ -1,8 +1,7 @@
 //! Neo-Hookean elasticity, a law of the whole deformation.
 //!
 //! `sigma = (lambda ln(J)/J) I + (mu/J) (F F^T - I)` (Wallstedt & Guilkey 2008; Kamojjala et al.
-//! 2015). Nothing is integrated in time but F. Fewer than three dimensions mean plane or uniaxial
-//! strain.
+//! 2015). Only F is integrated in time. In 2-D and 1-D the strain is plane and uniaxial.
 
 use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{set_stress_by_batch, stored_energy};
@@ -67,17 +66,17 @@ fn log_det<const D: usize>(h: &Matrix<D>) -> f64 {
     libm::log1p(trace + minors + if D == 3 { det(h) } else { 0.0 })
 }
 
-/// Most steps to the stretch of a plate.
+/// Maximum number of Newton steps for the stretch across a plate.
 const MOST_STEPS: usize = 100;
 
 impl FreeAcross for NeoHookean {
-    /// The root of `lambda ln(area s) + mu (s^2 - 1)` by Newton's method in ln s, which comes to it
-    /// from above; no number if it does not arrive, as for nu < 0 under extreme compression.
+    /// The root of `lambda ln(area s) + mu (s^2 - 1)` by Newton's method in ln s, which converges
+    /// from above; NaN if it does not converge, as for nu < 0 under extreme compression.
     fn stretch(&self, area: f64) -> f64 {
         let (Self { lambda, mu }, log) = (*self, libm::log(area));
         let mut above = -thinning(lambda, mu) * log;
         for _ in 0..MOST_STEPS {
-            // s^2 - 1, which for small strains keeps its digits.
+            // s^2 - 1, without cancellation for small strains.
             let excess = libm::expm1(2.0 * above);
             let slope = lambda + 2.0 * mu * (1.0 + excess);
             let next = above - (lambda * (log + above) + mu * excess) / slope;

@@ -3,11 +3,11 @@
 //! `sigma = -p I + 2 eta dev(D)`, `D = sym(grad v)`, with Tait's equation of state in Cole's form,
 //! `p = K/7 (J^-7 - 1)` (Cole 1948; Monaghan 1994): K is the bulk modulus at rest, and the
 //! resistance to compression grows without bound, so that no particle collapses. The deviator is
-//! that of three dimensions whatever D: flow in a plane or along a line still dilates or
-//! compresses, `tr(D)/3` along each axis.
+//! three-dimensional for any dimension of the scene: a flow in 2-D or 1-D also has the volumetric
+//! part `tr(D)/3` along each axis.
 //!
-//! Of the deformation the fluid knows J alone, which it integrates, `J *= det(I + grad v dt)`: F
-//! grows without limit in a flow, and is not kept.
+//! The pressure depends on J only, which is integrated, `J *= det(I + grad v dt)`. F is not stored:
+//! it grows without limit in a flow.
 
 use super::contract::{Material, MaterialProperties};
 use super::stress_update::{StressBlock, StressUpdate};
@@ -43,6 +43,10 @@ impl MaterialProperties for Newtonian {
         Err("viscous stress depends on the rate of deformation")
     }
 
+    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+
     fn starts_stressed(&self) -> Result<(), &'static str> {
         Err("a fluid at rest has the pressure of its volume: state an `initial_displacement`")
     }
@@ -53,7 +57,7 @@ impl MaterialProperties for Newtonian {
 }
 
 impl<const D: usize> Material<D> for Newtonian {
-    /// The pressure of J and the viscous stress of the velocity.
+    /// Sets the pressure from J and the viscous stress from the velocity gradient.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         self.update(&mut StressUpdate::new(0.0, particles));
         Ok(())
@@ -67,7 +71,7 @@ impl<const D: usize> Material<D> for Newtonian {
         true
     }
 
-    /// That of the pressure, `K/7 (J^-6/6 + J - 7/6)`.
+    /// Energy of the pressure, with the density `K/7 (J^-6/6 + J - 7/6)`.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let density = |j: f64| {
             let cube = 1.0 / (j * j * j);

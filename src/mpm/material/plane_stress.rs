@@ -1,7 +1,7 @@
 //! Plates in plane stress: laws whose stretch across the plane is that at which sigma_33 = 0.
 //!
-//! The volume of a particle is `V = J V0` with the J of all three axes, so that the forces of a
-//! plate that becomes thinner are those of its present thickness.
+//! The volume of a particle is `V = J V0` with the J of all three axes, so that the forces in a
+//! plate are those of its present thickness.
 
 use super::contract::Material;
 use super::stress_update::{StressBlock, StressUpdate};
@@ -44,7 +44,7 @@ impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
             let results = volumes.zip(sigma.iter_mut());
             for (f, (((vol, vol0), across), sigma)) in def_grad.iter().zip(results) {
                 let area = det(f);
-                // Of a particle inside out the solver says so by its volume.
+                // The solver reports an inverted particle by its volume.
                 *across = if area > 0.0 { self.0.stretch(area) } else { 1.0 };
                 let j = area * *across;
                 *vol = j * vol0;
@@ -74,7 +74,7 @@ pub(super) struct RatePlaneStress<L> {
 }
 
 impl<L> RatePlaneStress<L> {
-    /// Of the law that `with_lambda` makes of another first Lame parameter (Pa).
+    /// From the law that `with_lambda` makes of another first Lame parameter (Pa).
     pub(super) fn new(lambda: f64, mu: f64, with_lambda: impl Fn(f64) -> L) -> Self {
         Self { plane: with_lambda(lambda_of_plate(lambda, mu)), thinning: thinning(lambda, mu) }
     }
@@ -127,7 +127,8 @@ mod tests {
         plates
     }
 
-    /// The law in space, stretched across as the plate is, has the plate's stress and none across.
+    /// The law in 3-D, with the stretch across the plate, gives the stress of the plate and zero
+    /// across it.
     #[test]
     fn a_plate_is_a_body_that_is_free_across() {
         for (mut plate, mut space) in plates() {

@@ -4,11 +4,12 @@
 //! `F = Fe Fp`, Kirchhoff stress `tau = J sigma = K tr(eps) I + 2 mu dev(eps)` of the elastic
 //! strain `eps = ln(be)/2` (Simo 1992; de Souza Neto, Peric & Owen 2008, chapter 14). With the
 //! exponential map, the return in `eps` is that of small strain, along the axes of the trial
-//! strain: a yield surface needs principal values only. The plastic flow is kept as `Cp^-1` of
-//! `be = F Cp^-1 F^T`: the trial state follows from F alone, so a body that starts deformed needs
-//! no more than its F, and nothing drifts while it is elastic.
+//! strain: a yield surface needs principal values only. The plastic flow is stored as `Cp^-1` of
+//! `be = F Cp^-1 F^T`. The trial state follows from F alone, so that a body that starts deformed
+//! needs only its F, and an elastic state does not drift.
 //!
-//! Plane and uniaxial strain have elastic strain out of the plane: the state is 3-D whatever D.
+//! Plane and uniaxial strain have elastic strain out of the plane: the state is 3-D in any
+//! dimension.
 
 use super::contract::{Contradiction, Material, MaterialProperties};
 use super::linear_elastic::LinearElastic;
@@ -48,7 +49,7 @@ impl LogElasticity {
     }
 }
 
-/// Principal values of an elastic logarithmic strain: their mean, and what differs from it.
+/// Principal values of an elastic logarithmic strain: their mean, and the deviations from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrincipalStrain {
     pub(super) mean: f64,
@@ -80,7 +81,7 @@ pub trait YieldSurface: Send + Sync {
     }
 
     /// The elastic strain after the return to the surface from a trial strain, and the plastic
-    /// strain that the return adds to `flowed`, the accumulated one; none if the trial state is
+    /// strain that the return adds to the accumulated one, `flowed`; `None` if the trial state is
     /// inside.
     fn return_from(&self, trial: &PrincipalStrain, flowed: f64) -> Option<(PrincipalStrain, f64)>;
 
@@ -177,6 +178,11 @@ impl<S: YieldSurface> MaterialProperties for ElastoPlastic<S> {
         Err("plastic flow depends on the whole history of the motion")
     }
 
+    /// F-bar of elastoplasticity: trial strains of Fbar (de Souza Neto et al. 1996, IJSS 33).
+    fn takes_averaged_volume(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+
     fn starts_stressed(&self) -> Result<(), &'static str> {
         Err("the yield stress bounds the whole stress, of which the law knows its own part only")
     }
@@ -195,7 +201,7 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
         checkpoint.visit(&mut self.flowed);
     }
 
-    /// That of the elastic strain.
+    /// Energy of the elastic strain.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let density = |p: usize, f: &Matrix<D>| {
             let before = self.flowed.get(p).unwrap_or(&Flowed::NOT);
@@ -253,7 +259,7 @@ fn trial<const D: usize>(
     )
 }
 
-/// F in three dimensions: nothing stretches along the axes that are left out.
+/// F in three dimensions, without stretch along the missing axes.
 fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
     Matrix::from_fn(|i, k| if i < D && k < D { f[(i, k)] } else { f64::from(u8::from(i == k)) })
 }
@@ -295,7 +301,7 @@ pub(super) mod path {
     }
 
     /// Asserts the principal Kirchhoff stresses (Pa) at the end of a path through these principal
-    /// logarithmic strains, in all dimensions that have room for it and with the axes exchanged.
+    /// logarithmic strains, in all dimensions that contain the path, and with the axes exchanged.
     pub(in super::super) fn principal(plan: MaterialPlan, path: &[[f64; 3]], expected: [f64; 3]) {
         for axes in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2]] {
             let turned = |values: &[f64; 3]| axes.map(|axis| values[axis]);

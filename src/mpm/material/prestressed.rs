@@ -1,9 +1,9 @@
 //! A law with a stress that its body has in the reference configuration.
 //!
-//! Where the law gives the stress of F, the initial stress S0 is a second Piola-Kirchhoff stress
-//! beside it, `sigma = sigma_law(F) + F S0 F^T/J`: it turns with the body, and derives from the
+//! If the law is a function of F, the initial stress S0 is an additional second Piola-Kirchhoff
+//! stress, `sigma = sigma_law(F) + F S0 F^T/J`: it rotates with the body, and derives from the
 //! energy `W_law + S0 : E`, `E = (F^T F - I)/2` (Merodio, Ogden & Rodriguez 2013, Int. J.
-//! Non-Linear Mech. 56). A law in rate form goes on from the Cauchy stress S0 by itself.
+//! Non-Linear Mech. 56). A law in rate form starts from the Cauchy stress S0.
 
 use super::contract::Material;
 use super::stress_update::StressUpdate;
@@ -19,8 +19,8 @@ pub struct Prestressed<const D: usize> {
 }
 
 impl<const D: usize> Prestressed<D> {
-    /// `law` for `particles` that have not moved yet, which get the initial `stress` (Pa), one for
-    /// each.
+    /// Adds the initial `stress` (Pa), one entry per particle, to `law` and sets it in `particles`,
+    /// which have not moved yet.
     pub fn new(
         law: Box<dyn Material<D>>,
         stress: Vec<Matrix<D>>,
@@ -68,7 +68,7 @@ impl<const D: usize> Material<D> for Prestressed<D> {
             return None;
         }
         let stored = |((f, s0), vol0): ((&Matrix<D>, &Matrix<D>), &f64)| {
-            // E from H = F - I, which keeps the digits of small strains.
+            // E from H = F - I, without cancellation for small strains.
             let h = f - Matrix::identity();
             vol0 * 0.5 * s0.dot(&(h + h.transpose() + h.transpose() * h))
         };
@@ -182,7 +182,7 @@ mod tests {
         }
     }
 
-    /// `dP/dF = M + S0` along S0 for a law of the whole deformation; the rate form keeps its M.
+    /// `dP/dF = M + S0` along S0 for a law of the total deformation; M for the rate form.
     #[test]
     fn small_waves_along_the_stress_have_their_modulus() {
         let [low, high] = [-1e-6, 1e-6].map(|eps| at(&Matrix::<1>::new(1.0 + eps)));

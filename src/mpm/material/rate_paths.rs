@@ -17,8 +17,8 @@ fn sheared([a, b]: [f64; 2]) -> Matrix<2> {
     Matrix::<2>::new(1.0, a, 0.0, b)
 }
 
-/// Components 11 and 12 of the Kirchhoff stress (Pa) at the end of a path of shears and stretches
-/// with straight sides, and the work per reference volume (J/m3), in so many steps of each side.
+/// Components 11 and 12 of the Kirchhoff stress (Pa) at the end of a polygonal path of shears and
+/// stretches, and the work per reference volume (J/m3), with `steps` steps per side.
 fn follow(plan: MaterialPlan, corners: &[[f64; 2]], steps: u32) -> Vector<3> {
     let mut body = Specimen::<2>::new(plan);
     let (mut before, mut tau, mut work) = (sheared(corners[0]), Matrix::<2>::zeros(), 0.0);
@@ -72,8 +72,8 @@ fn simple_shear_has_the_stress_of_its_rate(
     assert!(plan == LOGARITHMIC || (1.98..2.02).contains(&order), "order {order}");
 }
 
-/// A closed cycle of shear and stretch: stress and work are left, except by the logarithmic rate.
-/// The stress of the reversed cycle differs, its work does not.
+/// A closed cycle of shear and stretch: stress and work remain, except with the logarithmic rate.
+/// The reversed cycle leaves another stress, but the same work.
 #[rstest]
 #[case::jaumann(JAUMANN, [-0.002_977_508_1, -0.003_181_719_0], [0.003_081_891_7, 0.003_080_719_7], 9.494_445e-6)]
 #[case::green_naghdi(GREEN_NAGHDI, [0.001_516_992_8, 0.001_567_942_8], [f64::NAN; 2], 2.379_856e-6)]

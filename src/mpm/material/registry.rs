@@ -11,8 +11,8 @@ macro_rules! materials {
             pub use $file::$member;
         )+
 
-        /// A material as suites write it: its name, its parameters and its density, each
-        /// an `N`, which stands for a number.
+        /// A material in the notation of suites: its name, its parameters and its density, each a
+        /// number type `N`.
         #[derive(Debug, Clone, PartialEq, serde::Deserialize)]
         #[cfg_attr(
             feature = "schemas",
@@ -51,7 +51,7 @@ macro_rules! materials {
         }
 
         impl<N> MaterialSpec<N> {
-            /// The name as suites and reports spell it.
+            /// The name in suites and reports.
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$member { .. } => $name,)+
@@ -78,7 +78,7 @@ macro_rules! materials {
         }
 
         impl MaterialPlan {
-            /// The name as suites and reports spell it.
+            /// The name in suites and reports.
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$member { .. } => $name,)+
@@ -129,7 +129,7 @@ macro_rules! materials {
                 }
             }
 
-            /// One of every registered material: what enrols them in the law tests.
+            /// One of every registered material, for the law tests.
             pub fn every(value: impl Fn(&MaterialParameter) -> f64) -> Vec<Self> {
                 vec![$(Self::$member { $($field: value(&$parameter)),* }),+]
             }

@@ -32,8 +32,8 @@ impl SoilPath {
         Self { strains, stresses }
     }
 
-    /// Asserts the stresses of a material along the path, on axes that turn by `angle` about the
-    /// third axis in all.
+    /// Asserts the stresses of a material along the path, on axes that rotate by `angle` about the
+    /// third axis in total.
     fn assert(&self, plan: MaterialPlan, angle: f64) {
         let mut soil = Specimen::<3>::new(plan);
         let largest = self.stresses.iter().flatten().fold(0.0, |m: f64, tau| m.max(tau.abs()));
@@ -81,7 +81,7 @@ impl Cone {
         MaterialPlan::DruckerPrager { young, poisson, friction, dilation, strength }
     }
 
-    /// Uniaxial strain that has not turned back.
+    /// Uniaxial strain without reversal.
     fn uniaxial(self, e: f64) -> [f64; 3] {
         let Self([bulk, mu], [eta, etab, k]) = self;
         let (sign, a) = (e.signum(), 2.0 * mu / 3.0_f64.sqrt());
@@ -129,11 +129,11 @@ impl Pyramid {
         [sine(phi), sine(psi), 2.0 * cohesion * libm::cos(phi.to_radians())]
     }
 
-    /// Uniaxial strain that has not turned back: on an edge beyond yield.
+    /// Uniaxial strain without reversal: on an edge beyond yield.
     fn uniaxial(self, e: f64) -> [f64; 3] {
         let (Self([l, mu], _), [s, sp, strength]) = (self, self.surface());
         let m = l + 2.0 * mu;
-        // The multiplier, and the stresses that it takes from the axis and from the others.
+        // The multiplier, and the changes of the axial and of the other stresses by it.
         let (towards, axial, lateral) = if e < 0.0 {
             let axial = -4.0 * l * sp + 4.0 * mu * (1.0 - sp);
             let lateral = -4.0 * l * sp - 2.0 * mu * (1.0 + sp);
@@ -167,7 +167,7 @@ impl Pyramid {
     }
 }
 
-/// Compression, and extension to the apex, on fixed axes and on axes that turn by two radians.
+/// Compression, and extension to the apex, on fixed axes and on axes that rotate by two radians.
 #[rstest]
 fn drucker_prager_has_its_closed_forms_along_a_path(
     #[values(-0.05, -0.02, 0.0012, 0.005)] end: f64,
@@ -190,7 +190,7 @@ fn mohr_coulomb_has_its_closed_forms_along_a_path(
     let soil = Pyramid::soil(angles);
     let path = SoilPath::through(up_to(end), along_first, |e| soil.uniaxial(e));
     path.assert(soil.plan(), angle);
-    // The face is left for an edge beyond.
+    // Beyond this strain the stress is on an edge.
     let path = SoilPath::through(up_to(end.abs().min(0.01)), isochoric, |e| soil.isochoric(e));
     path.assert(soil.plan(), angle);
 }
@@ -212,7 +212,7 @@ fn unloading_is_elastic_and_leaves_no_trace(#[values(0.0, 2.0)] angle: f64) {
     unload(pyramid.plan(), |e| pyramid.uniaxial(e), [lambda + 2.0 * mu, lambda], angle);
 }
 
-/// With the moduli (Pa) of the driven axis and of the others.
+/// With the moduli (Pa) of the driven axis and of the other axes.
 fn unload(
     plan: MaterialPlan,
     loading: impl Fn(f64) -> [f64; 3],

@@ -9,8 +9,8 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::{Block, Particles};
 use crate::subject::{Checkpoint, PlaneState};
 
-/// Length of a step (s) in which nothing viscous counts, and of one in which nothing else does.
-/// Powers of two, so that velocity gradients times the step are exact.
+/// Length (s) of a step in which viscous stresses are negligible, and of one in which all others
+/// are. Powers of two, so that velocity gradients times the step are exact.
 pub(super) const SLOW: f64 = 1_099_511_627_776.0;
 pub(super) const FAST: f64 = 1.0 / SLOW;
 
@@ -47,7 +47,7 @@ impl<const D: usize> Specimen<D> {
         Self(material, particles)
     }
 
-    /// A particle of a body in this state across its plane, if the law is known there.
+    /// A particle of a body with this state across the plane, if the law supports it.
     pub(super) fn in_plane(plan: MaterialPlan, plane: PlaneState) -> Option<Self> {
         let Self(_, mut particles) = Self::new(plan);
         particles.across = vec![1.0];
@@ -66,7 +66,7 @@ impl<const D: usize> Specimen<D> {
         particles.sigma[0]
     }
 
-    /// The same at this rate (1/s) of the hoops.
+    /// The stress after a step at this velocity gradient and this hoop strain rate (1/s).
     pub(super) fn flow_in_hoops(&mut self, grad_v: &Matrix<D>, rate: f64, dt: f64) -> Matrix<D> {
         self.1.rate_across[0] = rate;
         self.1.across[0] *= 1.0 + rate * dt;
@@ -86,7 +86,7 @@ impl<const D: usize> Specimen<D> {
         particles.sigma[0]
     }
 
-    /// Another one, made of `plan`, that goes on from the state of this one.
+    /// Another specimen of `plan`, resumed from the state of this one.
     pub(super) fn interrupted(&mut self, plan: MaterialPlan) -> Self {
         let mut checkpoint = Checkpoint::empty();
         self.0.checkpoint(&mut checkpoint);
@@ -99,7 +99,7 @@ impl<const D: usize> Specimen<D> {
         other
     }
 
-    /// The stored energy (J), of a volume of one.
+    /// The stored energy (J) of a unit volume.
     pub(super) fn energy(&self) -> Option<f64> {
         self.0.energy(&self.1)
     }

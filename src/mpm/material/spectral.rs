@@ -1,18 +1,19 @@
 //! Eigenvalues and axes of a small symmetric matrix by Jacobi's rotations.
 //!
-//! Golub & Van Loan, *Matrix Computations* (4th ed., 2013), section 8.5. Nothing but products,
-//! quotients and square roots, in a fixed order: the same bits everywhere. Eigenvalues that
-//! coincide are no special case, and those of a positive definite matrix are accurate relative to
-//! their own size (Demmel & Veselic 1992), which the logarithm of a small one needs.
+//! Golub & Van Loan, *Matrix Computations* (4th ed., 2013), section 8.5. Only products, quotients
+//! and square roots in a fixed order: bit-identical everywhere. Equal eigenvalues are no special
+//! case, and those of a positive definite matrix have a small relative error (Demmel & Veselic
+//! 1992), as the logarithm of a small eigenvalue requires.
 //!
-//! Jacobi's rotations for a batch of particles: the operations of [`spectral`] for
-//! all of them at a time, without its branches, so that the compiler fills registers with them. A
-//! test holds them to the same bits.
+//! Jacobi's rotations for a batch of particles: the operations of [`spectral`] for all of them at a
+//! time, without its branches, so that the compiler vectorises them. A test checks that the bits
+//! are equal.
 
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
 
-/// A few suffice, as each sweep squares what is left; NaN ends here.
+/// Maximum number of sweeps. A few suffice, as each sweep squares the off-diagonal entries; the
+/// limit ends the loop for NaN.
 const MOST_SWEEPS: usize = 12;
 
 /// Eigenvalues of the symmetric matrix `m`, and their axes as columns: `m = A diag(values) A^T`.
@@ -59,7 +60,7 @@ fn rotate<const D: usize>(m: &mut Matrix<D>, axes: &mut Matrix<D>, p: usize, q: 
     turn[(q, p)] = -tangent * cosine;
     *m = turn.transpose() * *m * turn;
     *axes *= turn;
-    // What the products give up to rounding, without the cancellation.
+    // These are the entries of the product above, computed without cancellation.
     m[(p, p)] = low - tangent * coupling;
     m[(q, q)] = high + tangent * coupling;
     m[(p, q)] = 0.0;
@@ -214,7 +215,7 @@ fn rotate_batch<const D: usize>(
         let cotangent = (high - low) / (2.0 * coupling);
         let tangent =
             1.0_f64.copysign(cotangent) / (cotangent.abs() + (1.0 + cotangent * cotangent).sqrt());
-        // An angle of zero leaves every number as it is.
+        // A zero angle changes no number.
         let tangent = if settled { 0.0 } else { tangent };
         cosine.0[lane] = 1.0 / (1.0 + tangent * tangent).sqrt();
         sine.0[lane] = tangent * cosine.0[lane];
@@ -282,7 +283,7 @@ mod tests {
         }
     }
 
-    /// Two and three that coincide, up to rounding or exactly, seen along oblique axes.
+    /// Two and three equal eigenvalues, up to rounding or exactly, with oblique axes.
     #[test]
     fn eigenvalues_may_coincide() {
         let (_, axes) = spectral(&symmetric::<3>(&[0.3, 0.5, -0.2, 0.1, 0.4, 0.7, 0.9, 0.2, -0.6]));
@@ -351,7 +352,7 @@ mod tests {
         }
     }
 
-    /// Some need no rotation, some of their eigenvalues coincide, and one is no number.
+    /// Some matrices need no rotation, some have equal eigenvalues, and one is not finite.
     #[test]
     fn extremes_have_the_bits_of_single_particles() {
         let shear = |s: f64| Matrix::<3>::new(1.0, s, 0.0, s, 1.0 + s * s, 0.0, 0.0, 0.0, 1.0);

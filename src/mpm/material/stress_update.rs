@@ -25,8 +25,8 @@ pub struct StressUpdate<'a, const D: usize> {
     least_j: Option<f64>,
 }
 
-/// Columns of some of the particles, as a law reads and writes them; those that the body does not
-/// have are empty.
+/// Columns of some particles, which a law reads and writes; columns that the body does not have are
+/// empty.
 #[derive(Debug)]
 pub struct StressBlock<'a, const D: usize> {
     /// F at the end of the step.
@@ -45,17 +45,17 @@ pub struct StressBlock<'a, const D: usize> {
     pub stress_across: &'a mut [f64],
 }
 
-/// The part of a law in a visit: a block of particles, with what the law keeps of each.
+/// Function of a law for one block of particles, with the state of the law for each.
 type BlockLaw<'a, const D: usize, S> = dyn Fn(&mut StressBlock<'_, D>, &mut [S]) + Sync + 'a;
 
 impl<'a, const D: usize> StressUpdate<'a, D> {
-    /// An update over `dt` (s) of particles whose F is that of the end of the step already.
+    /// An update over `dt` (s) of particles whose F is already that of the end of the step.
     pub fn new(dt: f64, particles: &'a mut Particles<D>) -> Self {
         Self { dt, particles, awaits_strain: false, least_j: None }
     }
 
-    /// The same, with F of the start of the step: it advances by the velocity gradients, in the
-    /// visit of the law.
+    /// An update over `dt` (s) of particles whose F is that of the start of the step. F is advanced
+    /// by the velocity gradients in the same visit as the law.
     pub(in crate::mpm) fn straining(dt: f64, particles: &'a mut Particles<D>) -> Self {
         Self { awaits_strain: true, ..Self::new(dt, particles) }
     }
@@ -84,7 +84,8 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
         self.by_block_with(&mut Vec::<()>::new(), &|block, _| law(block));
     }
 
-    /// The same for a law that keeps a `state` of each particle, from the first call on.
+    /// Calls `law` with all particles, block by block, on all threads, and with its `state` of each
+    /// particle, which the first call creates.
     pub fn by_block_with<S: Clone + Default + Send>(
         &mut self,
         state: &mut Vec<S>,
@@ -95,8 +96,8 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
         self.least_j = visit(StressBlock::from_particles(self.particles), state, strain, law);
     }
 
-    /// The smallest J, of none infinity; none unless every J is positive and finite and all
-    /// stresses are finite.
+    /// The smallest J (infinity without particles); `None` unless every J is positive and finite
+    /// and all stresses are finite.
     pub(in crate::mpm) fn least_j(mut self) -> Option<f64> {
         if self.least_j.is_none() {
             self.by_block(|_| {});
@@ -111,7 +112,7 @@ impl<'a, const D: usize> StressBlock<'a, D> {
         Self { def_grad, grad_v, vol0, vol, sigma, across, stress_across }
     }
 
-    /// Takes the first `count` particles off, or as many as there are.
+    /// Splits off the first `count` particles, or all if there are fewer.
     fn take_first(&mut self, count: usize) -> Self {
         Self {
             def_grad: first_mut(&mut self.def_grad, count),
@@ -132,14 +133,14 @@ impl<'a, const D: usize> StressBlock<'a, D> {
     }
 }
 
-/// Takes the first `count` entries off `column`, or as many as there are.
+/// Splits off the first `count` entries of `column`, or all if there are fewer.
 #[allow(clippy::mut_mut, reason = "what is taken is gone from the column")]
 fn first_mut<'a, T>(column: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     column.split_off_mut(..count.min(column.len())).unwrap_or_default()
 }
 
-/// Strains over the time `strain` (s), if any, and calls `law`, block by block; the smallest J, see
-/// [`StressUpdate::least_j`].
+/// Strains over the time `strain` (s), if any, and calls `law`, block by block. Returns the
+/// smallest J, see [`StressUpdate::least_j`].
 fn visit<S: Send, const D: usize>(
     mut body: StressBlock<'_, D>,
     mut state: &mut [S],
@@ -192,8 +193,8 @@ fn strain_by<const D: usize>(dt: f64, grad_v: &[Matrix<D>], def_grad: &mut [Matr
 /// Ratios computed together.
 const TOGETHER: usize = 4;
 
-/// The smallest `a / b`, if all are positive and finite; infinity of none. As all are in most
-/// steps, the loop has no early exit, and divides several at a time.
+/// The smallest `a / b`, if all are positive and finite; infinity for empty slices. The loop has no
+/// early exit, because failures are rare, and divides several numbers at a time.
 fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
     let (many_a, rest_a) = a.as_chunks::<TOGETHER>();
     let (many_b, rest_b) = b.as_chunks::<TOGETHER>();
@@ -226,7 +227,7 @@ mod tests {
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 
-    /// Squares at rest, each with a velocity gradient of its own (1/s).
+    /// Squares at rest, each with its own velocity gradient (1/s).
     fn squares(total: usize) -> Particles<2> {
         let (from, to) = (Vector::zeros(), Vector::<2>::new(total as f64, 1.0));
         let mut squares = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);

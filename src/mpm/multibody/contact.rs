@@ -1,17 +1,17 @@
 //! Contact with friction, at the nodes where bodies meet (Bardenhagen, Brackbill & Sulsky 2000,
 //! CMAME 187, section 3).
 //!
-//! Each body has its own velocity at such a node. Two that approach, `(v_a - v_b) . n > 0`, are
-//! given equal and opposite impulses, so that they go on with one velocity along the normal and
-//! with one along the surface too, or, if that takes more than mu times the normal impulse, with as
-//! much as that changes. Bodies that part are left alone.
+//! Each body has its own velocity at such a node. Two bodies that approach, `(v_a - v_b) . n > 0`,
+//! get equal and opposite impulses. Then they have a common normal velocity, and also a common
+//! tangential velocity, unless this requires more than mu times the normal impulse, which is the
+//! limit of friction. Bodies that separate are not changed.
 //!
-//! The normal is the direction of `grad ln m_a - grad ln m_b`. Bardenhagen et al. take that of each
-//! body's own mass, and two such normals are not opposite: impulses along them would not be either.
-//! With one normal for both, momentum is kept to rounding, however many bodies meet, pair after
-//! pair. The logarithm, because a smooth basis sees the mass inside a body waver: where one body is
-//! there with its last particles and the other with its inside, `grad m_a - grad m_b` may point the
-//! wrong way.
+//! The normal is the direction of `grad ln m_a - grad ln m_b`. Bardenhagen et al. use that of each
+//! body's own mass; two such normals are not opposite, and impulses along them would not be either.
+//! With one normal for both, momentum is conserved to rounding, for any number of bodies, pair
+//! after pair. The logarithm is used because the mass field of a smooth basis oscillates inside a
+//! body: at a node with the last particles of one body and the inside of the other,
+//! `grad m_a - grad m_b` may have the wrong sign.
 //!
 //! Impulses go into accelerations, `a_i = (v*_i - v_i)/dt`, so that particles are given all of
 //! them. Velocities that strain the bodies before or after are corrected likewise, for the strain
@@ -37,7 +37,7 @@ pub(in crate::mpm) struct Contact<const D: usize> {
     pairs: Vec<[usize; 2]>,
     /// For each node and every two bodies: the contact state after the last impulse.
     states: Vec<ContactState>,
-    /// For each body: velocities as they were mapped (m/s), if strains are updated first.
+    /// For each body: the mapped velocities (m/s), if strains are updated first.
     mapped: Vec<Vec<Vector<D>>>,
 }
 
@@ -88,7 +88,7 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// Contact law: contact state and change of a velocity relative to the other body.
+    /// Contact law: contact state, and change of a velocity relative to the other body.
     fn law(&self, relative: &Vector<D>, normal: &Vector<D>) -> (ContactState, Vector<D>) {
         let approach = relative.dot(normal);
         if !(approach > 0.0) {

@@ -38,7 +38,7 @@ impl InterfaceNodes {
         Self(Vec::with_capacity(bodies.first().map_or(0, |body| body.grid().nodes())))
     }
 
-    /// Finds the nodes anew.
+    /// Finds the nodes at which bodies meet in the current step.
     pub(in crate::mpm) fn find<const D: usize>(&mut self, bodies: &[Solver<D>]) {
         self.0.clear();
         let Some(first) = bodies.first() else { return };

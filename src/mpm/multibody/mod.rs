@@ -4,10 +4,9 @@
 //! grid over the same geometry. Each pass is run by all of them; at nodes to which more than one
 //! body gives mass they are then coupled:
 //!
-//! - [`SharedVelocity`]: they have one velocity and one acceleration there, as in the original
-//!   MPM, which does not know bodies (Sulsky, Chen & Schreyer 1994): they stick together
-//!   permanently;
-//! - [`Contact`]: each keeps its own, and they push each other apart where they approach.
+//! - [`SharedVelocity`]: they have one velocity and one acceleration there, as in the original MPM,
+//!   which does not distinguish bodies (Sulsky, Chen & Schreyer 1994): they are bonded permanently;
+//! - [`Contact`]: each has its own velocity, and they exchange impulses if they approach.
 //!
 //! A single body has no coupling.
 
@@ -25,7 +24,7 @@ use crate::subject::{
 use contact::Contact;
 use coupling::{Coupling, SharedVelocity};
 
-/// Bodies that meet on a grid; particles are those of all bodies, one after the other.
+/// Bodies on a common grid; particles are those of all bodies, one after the other.
 pub struct Bodies<const D: usize> {
     solvers: Vec<Solver<D>>,
     /// None of a single body.
@@ -81,7 +80,7 @@ impl<const D: usize> Bodies<D> {
         Tally::take(&tallies.collect::<Vec<_>>())
     }
 
-    /// Compiles the schedule, that of the first body with the coupling of all.
+    /// Compiles the schedule: that of the first body with the coupling of all.
     fn compile(&mut self, fixed_configuration: bool) {
         let reads_velocity = self.coupling.as_ref().is_some_and(|c| c.reads_velocity());
         let coupled = Coupled { bodies: self.coupling.is_some(), reads_velocity };
@@ -128,7 +127,7 @@ impl<const D: usize> Subject for Bodies<D> {
         for solver in &self.solvers {
             solver.particles().sample(samples);
         }
-        // A column that some body lacks is none.
+        // A column is empty if a body does not have it.
         if samples.deformation_gradient.len() != samples.len() * D * D {
             samples.deformation_gradient.clear();
         }
@@ -153,7 +152,7 @@ impl<const D: usize> Subject for Bodies<D> {
         }
     }
 
-    /// Those of the first body, as is the schedule, with the coupling of all.
+    /// Passes of the first body, whose schedule all bodies share, and of the coupling.
     fn passes(&self) -> Vec<String> {
         let state = self.solvers.first().map(|one| one.setup.state_passes());
         self.schedule.texts(&state.unwrap_or_default())
@@ -169,7 +168,7 @@ impl<const D: usize> Subject for Bodies<D> {
     }
 }
 
-/// The failure of a body whose particles come after `first` others.
+/// Renumbers the particle in a failure of a body whose first particle has the number `first`.
 pub(in crate::mpm) fn among(failure: Failure, first: usize) -> Failure {
     let shifted = |site: Site| match site {
         Site::Particle(p) => Site::Particle(first + p),
@@ -187,7 +186,8 @@ pub(in crate::mpm) fn among(failure: Failure, first: usize) -> Failure {
     }
 }
 
-/// One profile of all bodies and their coupling. Every body has a grid, so nodes are those of all.
+/// One profile of all bodies and their coupling. Every body has a grid: nodes are summed over all
+/// grids.
 pub(in crate::mpm) fn joint_profile<const D: usize>(
     bodies: impl Iterator<Item = Profile>,
     coupling: Option<&dyn Coupling<D>>,
@@ -211,8 +211,8 @@ pub(in crate::mpm) fn joint_profile<const D: usize>(
     all
 }
 
-/// Adds the columns of one body to those of others, each to the one that is the same; a second of
-/// the same body (two walls) to the second.
+/// Adds the columns of one body to `all`. A column is added to the one of the same kind; the second
+/// column of a kind (two walls) to the second one.
 fn add_columns(all: &mut Vec<ColumnSize>, body: Vec<ColumnSize>) {
     let kind = |column: &ColumnSize| (column.name, column.holder, column.bytes);
     let known = all.len();

@@ -72,8 +72,8 @@ impl<const D: usize> Particles<D> {
 }
 
 impl<const D: usize> Particles<D> {
-    /// Makes a body of revolution of the particles in its meridian plane, r being the first axis
-    /// and z the second: masses (kg/rad) and volumes (m^3/rad) are those of one radian.
+    /// Converts the particles, in the meridian plane with the axes r and z, to a body of
+    /// revolution: masses (kg/rad) and volumes (m^3/rad) are those of one radian.
     pub fn revolve(&mut self) {
         for (p, x0) in self.x0.iter().enumerate() {
             for column in [&mut self.mass, &mut self.vol0, &mut self.vol] {

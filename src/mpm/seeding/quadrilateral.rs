@@ -4,8 +4,8 @@
 use crate::mpm::foundation::algebra::{Matrix, Vector, det};
 use crate::mpm::foundation::particles::Particles;
 
-/// A panel in the plane: its corners (m), counter-clockwise, each side turning to the left of the
-/// one before; the first is where the side begins that runs along X most.
+/// A panel in the plane: its corners (m), counter-clockwise, with a left turn at each corner; the
+/// first corner starts the side whose direction is closest to X.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quadrilateral {
     corners: [Vector<2>; 4],
@@ -15,7 +15,7 @@ impl Quadrilateral {
     /// The panel with these corners.
     ///
     /// # Errors
-    /// The number of the first corner at which the sides do not turn to the left.
+    /// The number of the first corner without a left turn.
     pub fn new(corners: [Vector<2>; 4]) -> Result<Self, usize> {
         let panel = Self { corners };
         let turns = |i: &usize| {
@@ -27,9 +27,8 @@ impl Quadrilateral {
         }
     }
 
-    /// The same panel from another corner on, so that the first axis of its map runs along X as far
-    /// as it can: GIMP has boxes in place of domains, and takes the diagonal of their vectors for
-    /// the sides.
+    /// Renumbers the corners so that the first axis of the map is as close to X as possible: GIMP
+    /// replaces domains by boxes, whose sides are the diagonal entries of the domain vectors.
     fn upright(self) -> Self {
         let along = |i: &usize| self.side(*i)[0] - self.side((i + 2) % 4)[0];
         let first = (1..4).fold(0, |best, i| if along(&i) > along(&best) { i } else { best });
@@ -63,8 +62,8 @@ impl Quadrilateral {
         self.corners[(i + 1) % 4] - self.corners[i]
     }
 
-    /// As near to `per_axis` particles per cell of size `h` (m) along each axis of the map as the
-    /// mean length of its two sides allows, and two at least.
+    /// Numbers of particles along each axis of the map: as close to `per_axis` particles per cell
+    /// of size `h` (m) as the mean length of the two sides allows, at least two.
     pub fn counts(&self, h: f64, per_axis: usize) -> [usize; 2] {
         [0, 1].map(|i| {
             let length = f64::midpoint(self.side(i).norm(), self.side(i + 2).norm());
@@ -144,7 +143,7 @@ mod tests {
             for (x, domain) in particles.x0.iter().zip(&particles.domain0) {
                 prop_assert!(is_inside(&panel, x), "{:?}", x);
                 for axis in 0..2 {
-                    // Middles of a domain's sides are inside, but for rounding where sides meet.
+                    // Middles of a domain's sides are inside, up to rounding where sides meet.
                     let towards = domain.column(axis) * (1.0 - 1e-9);
                     prop_assert!(is_inside(&panel, &(x + towards)));
                     prop_assert!(is_inside(&panel, &(x - towards)));
@@ -202,8 +201,8 @@ mod tests {
         (0..grid.nodes()).filter(is_far_inside).map(|i| total[i].norm()).fold(0.0, f64::max)
     }
 
-    /// Parallelograms tile any panel, boxes of their diagonals one with two upright sides; boxes of
-    /// one size do not, nor any boxes in a panel that is turned. No refinement helps.
+    /// Parallelograms tile any panel. Boxes of their diagonals tile a panel with two upright sides.
+    /// Boxes of one size do not, and no boxes tile a rotated panel, at any refinement.
     #[test]
     fn boxes_of_gimp_tile_a_panel_with_two_upright_sides() {
         let (sin, cos) = libm::sincos(std::f64::consts::PI / 6.0);

@@ -9,11 +9,11 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 
 impl<const D: usize> Particles<D> {
-    /// Brings the particles into the order of the cells of `grid`, and returns the old index of
-    /// each. Particles of one cell keep their order; those outside the grid come last. To be called
-    /// before effects or transfers keep columns of their own.
+    /// Sorts the particles by the cells of `grid`, and returns the old index of each. Particles of
+    /// one cell keep their order; those outside the grid come last. Must be called before effects
+    /// or transfers create their own columns.
     pub fn sort_by_cell(&mut self, grid: &Grid<D>) -> Vec<usize> {
-        // Behind all cells, what is in none.
+        // Particles outside all cells come last.
         let nowhere = grid.cells.iter().product();
         let place = |x: &Vector<D>| {
             grid.cell(x).map_or(nowhere, |cell| {
@@ -21,8 +21,7 @@ impl<const D: usize> Particles<D> {
             })
         };
         let cells: Vec<usize> = self.x.iter().map(place).collect();
-        // Counted, not compared: where the particles of a cell begin is how many are in those
-        // before.
+        // A counting sort: the first place of a cell is the number of particles in previous cells.
         let mut next = vec![0; nowhere + 2];
         for cell in &cells {
             next[cell + 1] += 1;
@@ -63,8 +62,8 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Puts entry `order[k]` at place k, in the columns that are there. Each leaves its memory to the
-/// next: new memory costs more than the moves.
+/// Moves entry `order[k]` to place k, in all existing columns. Each column reuses the memory of the
+/// previous one, because allocation costs more than the moves.
 fn permute<T: Copy, const N: usize>(columns: [&mut Vec<T>; N], order: &[usize]) {
     let mut spare = Vec::new();
     for column in columns.into_iter().filter(|column| !column.is_empty()) {

@@ -12,8 +12,8 @@ use std::array;
 /// The cells of all particles, with counters.
 #[derive(Debug)]
 pub(in crate::mpm) struct CellTracker<const D: usize> {
-    /// Index of the cell along each axis, counted on beyond a periodic face: whole numbers, with
-    /// which positions are compared.
+    /// Index of the cell along each axis, as a whole number to compare positions with. On a
+    /// periodic axis it keeps counting beyond the face.
     cells: Vec<[f64; D]>,
     /// Changes of cell so far.
     pub(in crate::mpm) crossings: u64,
@@ -70,8 +70,7 @@ struct CellChanges {
     lost: Option<usize>,
 }
 
-/// Puts particles, of which `first` is the number of the first, into the cells of their positions,
-/// on all threads.
+/// Updates the `cells` of the particles `first..` from their positions, on all threads.
 fn enter_all<const D: usize>(
     grid: &Grid<D>,
     cells: &mut [[f64; D]],
@@ -184,8 +183,8 @@ mod tests {
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 
-    /// A row of particles, one to a cell, of which some go to the next cell, some leave the grid
-    /// and one is nowhere.
+    /// A row of particles, one per cell: some go to the next cell, some leave the grid, and one has
+    /// no valid position.
     #[rstest]
     fn particles_are_counted_alike_on_any_number_of_threads(#[values(1, 3)] threads: usize) {
         let total = 2 * FEW + 37;
@@ -209,7 +208,7 @@ mod tests {
         assert_eq!((tracker.crossings, tracker.left_domain), (5, 3));
     }
 
-    /// Moves of one particle in cells of size 1, one after the other: the crossings that each adds.
+    /// Moves of one particle in cells of size 1, one after the other, and the crossings of each.
     #[rstest]
     #[case::within_its_cell(false, &[(0.25, 0), (1.0, 1), (1.75, 0)])]
     #[case::back_and_forth(false, &[(1.0, 1), (0.5, 1)])]

@@ -1,13 +1,15 @@
 //! Combinations of the parts of a method.
 
+use super::volume_average::VolumeName;
 use crate::mpm::basis::{BasisName, Domain, with_basis};
 use crate::mpm::foundation::particles::FrameName;
 use crate::mpm::mass::MassName;
+use crate::mpm::material::MaterialPlan;
 use crate::mpm::transfer::{TransferChoice, TransferKind};
 use crate::subject::{PlaneState, Start};
 use thiserror::Error;
 
-/// A combination of parts that means nothing: one line that names the parts and gives the reason.
+/// An invalid combination of parts: one line with the parts and the reason.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct CombinationError(String);
@@ -19,10 +21,10 @@ macro_rules! refusal {
     };
 }
 
-/// Refuses a combination that means nothing.
+/// Refuses an invalid combination.
 ///
 /// # Errors
-/// One line that names both parts and says why they do not go together.
+/// One line with both parts and the reason.
 pub fn combine(
     basis: BasisName,
     transfer: impl Into<TransferChoice>,
@@ -77,11 +79,11 @@ pub fn combine(
     Ok(())
 }
 
-/// Refuses a combination that means nothing for several bodies on one grid, with `contact` or one
-/// velocity field.
+/// Refuses an invalid combination for several bodies on one grid, with `contact` or one velocity
+/// field.
 ///
 /// # Errors
-/// One line that names the part and says why it does not go with several bodies.
+/// One line with the part and the reason.
 pub fn combine_bodies(
     transfer: TransferChoice,
     mass: MassName,
@@ -110,10 +112,10 @@ pub fn combine_bodies(
     }
 }
 
-/// Refuses a combination that means nothing in a body with this state across its plane.
+/// Refuses an invalid combination in a body with this state across its plane.
 ///
 /// # Errors
-/// One line that names the part and says why it does not go with the state.
+/// One line with the part and the reason.
 pub fn combine_across(
     plane: PlaneState,
     basis: BasisName,
@@ -133,6 +135,55 @@ pub fn combine_across(
         "the transfer `{t}` integrates over cells in the plane, and in `plane: {p}` volumes are not \
          those of the plane"
     ))
+}
+
+/// Refuses volume ratios that mean nothing in this frame, or for a body of this material in a scene
+/// of this `dimension` and state across its plane.
+///
+/// # Errors
+/// One line that names the volume ratio and says why it does not go with the other part.
+pub fn combine_volume(
+    volume: VolumeName,
+    frame: FrameName,
+    material: &MaterialPlan,
+    dimension: usize,
+    plane: PlaneState,
+) -> Result<(), CombinationError> {
+    if volume == VolumeName::Particle {
+        return Ok(());
+    }
+    let (v, f, p, law) = (volume.name(), frame.name(), plane.name(), material.name());
+    if frame == FrameName::Total {
+        return Err(refusal!(
+            "`volume: {v}` averages with the weights of current positions, and the frame `{f}` has \
+             those of the reference"
+        ));
+    }
+    if dimension == 1 {
+        return Err(refusal!(
+            "`volume: {v}` would average the whole strain in 1-D, where the volume ratio is the \
+             stretch and nothing locks"
+        ));
+    }
+    match plane {
+        PlaneState::Strain => {}
+        PlaneState::Stress => {
+            return Err(refusal!(
+                "`volume: {v}` averages the volume ratio of the plane, and in `plane: {p}` the \
+                 stretch across the plane is free, so that nothing locks"
+            ));
+        }
+        PlaneState::Axisymmetric => {
+            return Err(refusal!(
+                "`volume: {v}` averages the volume ratio of the plane, and in `plane: {p}` the \
+                 stretch around the axis is part of it"
+            ));
+        }
+    }
+    material
+        .properties()
+        .takes_averaged_volume()
+        .map_err(|reason| refusal!("`volume: {v}` does not go with the law `{law}`: {reason}"))
 }
 
 fn domain(basis: BasisName) -> Domain {

@@ -1,8 +1,9 @@
 //! Initial state of the particles: columns, stresses and domains before the first step.
 //!
 //! A body may start deformed ([`Particles::deform`]): stress then follows from F by the material
-//! ([`Material::start_deformed`]), and domains from F by the basis, as they would have had the body
-//! been brought there. A viscous fluid that starts in motion has the stress of its velocities too.
+//! ([`Material::start_deformed`]), and domains from F by the basis, as if the body had been
+//! deformed to this state. A viscous fluid that starts in motion also has the stress of its
+//! velocities.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::foundation::particles::Particles;
@@ -37,7 +38,7 @@ pub(in crate::mpm) fn complete<const D: usize>(
     let mut min_j = f64::INFINITY;
     for (p, (vol, vol0)) in particles.vol.iter().zip(&particles.vol0).enumerate() {
         let j = vol / vol0;
-        // Before the stress is looked at, which is no number where the material is inside out.
+        // Must precede the check of the stress, which is NaN for inverted particles.
         if deformed && j <= 0.0 {
             return Err(Failure::Inverted { site: Site::Particle(p), j });
         }

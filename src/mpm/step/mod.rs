@@ -10,3 +10,4 @@ pub(in crate::mpm) mod schedule;
 pub(in crate::mpm) mod setup;
 pub(in crate::mpm) mod solver;
 pub(in crate::mpm) mod subject;
+pub(in crate::mpm) mod volume_average;

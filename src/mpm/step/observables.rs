@@ -1,11 +1,11 @@
-//! Observables of a body: sums that a motion without external forces conserves, samples of the
-//! particles, and the reaction of walls on which the body stands still.
+//! Observables of a body: conserved sums, samples of the particles, and the reaction of fixed
+//! walls.
 //!
-//! The reaction follows from the weak form with the functions of held nodes: their force would
-//! accelerate them, `m_i a_i = f_i` with a lumped mass, and the wall takes it away. So the reaction
-//! is `-sum f_i` over the held components, internal and external forces together. The functions of
-//! those nodes are the only ones that do not vanish on the wall, and their sum there is one: in the
-//! limit of small cells the reaction is the integral of the traction.
+//! The reaction follows from the weak form with the functions of fixed nodes: their force would
+//! accelerate them, `m_i a_i = f_i` with a lumped mass, and the wall balances it. So the reaction
+//! is `-sum f_i` over the fixed components, of internal and external forces together. The functions
+//! of these nodes are the only ones that do not vanish on the wall, and their sum there is one: in
+//! the limit of small cells the reaction is the integral of the traction.
 
 use super::solver::Solver;
 use crate::mpm::boundary::Side;
@@ -14,9 +14,9 @@ use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Reaction, Samples, Totals};
 
 impl<const D: usize> Particles<D> {
-    /// Mass, momenta and kinetic energy now; the strain energy is left to the material. `own` is
-    /// the first moment of the velocity field that a particle has about itself, if the transfer
-    /// gives it one (Jiang et al. 2015).
+    /// Current mass, momenta and kinetic energy, without the strain energy of the material. `own`
+    /// is the first moment of the velocity field of a particle about itself, if the transfer has
+    /// one (Jiang et al. 2015).
     pub fn totals(&self, own: impl Fn(usize) -> Option<Matrix<D>>) -> Totals {
         let mut totals = Totals::default();
         for (p, (m, v)) in self.mass.iter().zip(&self.v).enumerate() {
@@ -34,8 +34,7 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// `(M_zy - M_yz, M_xz - M_zx, M_yx - M_xy)`: x cross v for `M = v x^T`, of as many dimensions as
-/// there are.
+/// `(M_zy - M_yz, M_xz - M_zx, M_yx - M_xy)`: x cross v for `M = v x^T`, in any dimension.
 fn axial<const D: usize>(m: &Matrix<D>) -> [f64; 3] {
     let part = |i: usize, j: usize| if i.max(j) < D { m[(i, j)] - m[(j, i)] } else { 0.0 };
     [part(2, 1), part(0, 2), part(1, 0)]
@@ -66,8 +65,8 @@ impl<const D: usize> Particles<D> {
 }
 
 impl<const D: usize> Solver<D> {
-    /// Reaction at the beginning of the last step, of all walls on which the body stands still, or
-    /// of that on one face of the grid (axis of the normal, and its end).
+    /// Reaction at the beginning of the last step, of all fixed walls, or of that on one face of
+    /// the grid (axis of the normal, and its end).
     pub fn reaction(&self, of: Option<(usize, Side)>) -> Reaction {
         let force = &self.setup.grid.force;
         let mut unheld = force.clone();

@@ -1,8 +1,8 @@
 //! Schedule of a step: scheme, transfer, conditions and coupling, compiled once to a list of
 //! passes.
 //!
-//! A pass of P2G or G2P computes the weights of all particles anew, so that neighbouring stages
-//! share one wherever no stage between them changes particles (P2G) or nodal velocities (G2P):
+//! A pass of P2G or G2P recomputes the weights of all particles. So neighbouring stages share a
+//! pass if no stage between them changes particles (P2G) or nodal velocities (G2P):
 //!
 //! ```text
 //! USL:  P2G(mass, momentum, force)  G2P(particle velocity, stress, position)
@@ -30,7 +30,7 @@ pub(in crate::mpm) enum Pass {
     Couple(CouplingPoint),
 }
 
-/// Points of a step at which bodies are coupled, each after all bodies have come to it.
+/// Points of a step at which bodies are coupled, after all bodies have reached the point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::mpm) enum CouplingPoint {
     /// After particles have moved; nodal masses are up to date.
@@ -39,7 +39,7 @@ pub(in crate::mpm) enum CouplingPoint {
     Velocity,
     /// After P2G of velocities that strain the bodies next.
     StrainVelocity,
-    /// After strains from velocities that are still to be advanced.
+    /// After strains from velocities that are advanced later.
     Strained,
     /// After accelerations.
     Acceleration,
@@ -131,7 +131,7 @@ impl StepSchedule {
         }
     }
 
-    /// Passes of each step as reports list them; `state` are those of the effects' own state.
+    /// Passes of each step, as in reports; `state` are those of the state of effects.
     pub(in crate::mpm) fn texts(&self, state: &[&str]) -> Vec<String> {
         self.passes.iter().flat_map(|pass| pass.texts(state)).collect()
     }

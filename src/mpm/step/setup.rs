@@ -1,5 +1,6 @@
 //! Parts of a solver, and their columns as a profile of memory and as fields.
 
+use super::volume_average::VolumeName;
 use crate::mpm::boundary::Boundary;
 use crate::mpm::effect::Effect;
 use crate::mpm::foundation::grid::Grid;
@@ -25,6 +26,8 @@ pub struct Setup<const D: usize> {
     pub mass: Box<dyn MassMatrix<D>>,
     /// Configuration in which the basis lives.
     pub frame: FrameName,
+    /// Volume ratio at which the law computes its stress.
+    pub volume: VolumeName,
     /// The constitutive law.
     pub material: Box<dyn Material<D>>,
     /// Effects that the scene lists.
@@ -57,8 +60,11 @@ impl<const D: usize> Setup<D> {
     }
 
     /// All columns for particles and nodes, with those `of_solver`; the factors of a consistent
-    /// mass matrix, computed anew in each step, are left out.
-    pub(in crate::mpm) fn columns<'a>(&'a self, of_solver: [Column<'a>; 2]) -> Vec<Column<'a>> {
+    /// mass matrix, which are recomputed in each step, are excluded.
+    pub(in crate::mpm) fn columns<'a>(
+        &'a self,
+        of_solver: impl IntoIterator<Item = Column<'a>>,
+    ) -> Vec<Column<'a>> {
         let Self { grid, particles, transfer, material, effects, boundary, .. } = self;
         let mut columns = particles.columns();
         columns.extend(of_solver);

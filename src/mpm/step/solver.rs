@@ -1,9 +1,10 @@
-//! The solver: the passes of a step, one by one. [`schedule`](super::schedule) has their order.
+//! The solver: the passes of a step. [`schedule`](super::schedule) has their order.
 
 use super::cell_tracker::CellTracker;
 use super::initial;
 use super::schedule::{Coupled, Pass, StepSchedule};
 use super::setup::{Setup, profile};
+use super::volume_average::{PASSES, VolumeAverage, VolumeName};
 use crate::mpm::basis::Domain;
 use crate::mpm::boundary::Advance;
 use crate::mpm::effect::strain;
@@ -13,7 +14,7 @@ use crate::mpm::foundation::particles::{FrameName, Particles};
 use crate::mpm::foundation::simd::vectorized;
 use crate::mpm::foundation::threads::PIECES;
 use crate::mpm::kernel::contract::Tally;
-use crate::mpm::material::StressUpdate;
+use crate::mpm::material::{Material, StressUpdate};
 use crate::mpm::scheme::Stage;
 use crate::mpm::transfer::{Transfer, g2p};
 use crate::subject::{Column, Failure, Profile, Site};
@@ -23,7 +24,7 @@ pub struct Solver<const D: usize> {
     pub(in crate::mpm) setup: Setup<D>,
     pub(in crate::mpm) schedule: StepSchedule,
     pub(in crate::mpm) time: f64,
-    /// Time of the velocities (s): once steps are made, half a step behind.
+    /// Time of the velocities (s): after the first step, half a step behind.
     pub(in crate::mpm) velocity_time: f64,
     /// The last advance of velocities.
     pub(in crate::mpm) advance: Advance,
@@ -33,6 +34,8 @@ pub struct Solver<const D: usize> {
     pub(in crate::mpm) cell_tracker: CellTracker<D>,
     /// Position of each particle after the step (m), from G2P until positions change.
     pub(in crate::mpm) advected: Vec<Vector<D>>,
+    /// The average of volume ratios, if the method has one.
+    pub(in crate::mpm) volume_average: Option<VolumeAverage<D>>,
 }
 
 impl<const D: usize> Solver<D> {
@@ -43,13 +46,26 @@ impl<const D: usize> Solver<D> {
     /// starts outside the grid; [`Failure::Inverted`] or [`Failure::NotOfDeformation`] if the body
     /// starts deformed in a way that has no meaning.
     pub fn new(mut setup: Setup<D>) -> Result<Self, Failure> {
-        let Setup { particles, kernel, material, effects, .. } = &mut setup;
+        let Setup { grid, particles, kernel, material, effects, volume, .. } = &mut setup;
+        let mut volume_average = match volume {
+            VolumeName::Particle => None,
+            VolumeName::Averaged => {
+                Some(VolumeAverage::new(particles, grid, material.reads_deformation())?)
+            }
+        };
         if effects.iter().any(|effect| effect.reads_deformation()) {
             particles.track_deformation();
         }
-        let min_j = initial::complete(particles, kernel.domain(), material.as_mut())?;
+        let mut averaged;
+        let law: &mut dyn Material<D> = if let Some(average) = &mut volume_average {
+            averaged = average.law(material.as_mut(), kernel.as_ref(), grid);
+            &mut averaged
+        } else {
+            material.as_mut()
+        };
+        let min_j = initial::complete(particles, kernel.domain(), law)?;
         for effect in effects {
-            effect.start(material.as_mut(), particles);
+            effect.start(law, particles);
         }
         particles.deformed_finite()?;
         particles.stressed_finite()?;
@@ -69,11 +85,12 @@ impl<const D: usize> Solver<D> {
             min_j,
             cell_tracker,
             advected: vec![Vector::zeros(); setup.particles.len()],
+            volume_average,
             setup,
         })
     }
 
-    /// The particles as they are now.
+    /// The particles in their current state.
     pub fn particles(&self) -> &Particles<D> {
         &self.setup.particles
     }
@@ -97,7 +114,9 @@ impl<const D: usize> Solver<D> {
     /// All columns for particles and nodes.
     pub(in crate::mpm) fn columns(&self) -> Vec<Column<'_>> {
         let advected = Column::of_particles("advected x", &self.advected);
-        self.setup.columns([self.cell_tracker.columns(), advected])
+        let of_average = self.volume_average.iter().flat_map(VolumeAverage::columns);
+        let own = [self.cell_tracker.columns(), advected];
+        self.setup.columns(own.into_iter().chain(of_average))
     }
 
     /// Parts of passes since the last call, with the particles visited; counted from the first call
@@ -258,7 +277,15 @@ impl<const D: usize> Solver<D> {
         for effect in effects.iter_mut() {
             self.transfers += effect.map_velocity(dt, kernel.as_ref(), grid, particles);
         }
-        let least_j = strain(effects, material.as_mut(), StressUpdate::straining(dt, particles));
+        let update = StressUpdate::straining(dt, particles);
+        let least_j = if let Some(average) = &mut self.volume_average {
+            let mut law = average.law(material.as_mut(), kernel.as_ref(), grid);
+            let least_j = strain(effects, &mut law, update);
+            self.count(PASSES);
+            least_j
+        } else {
+            strain(effects, material.as_mut(), update)
+        };
         if let Some(least) = least_j {
             self.min_j = self.min_j.min(least);
         } else {
@@ -272,7 +299,7 @@ impl<const D: usize> Solver<D> {
         if least_j.is_none() { particles.stressed_finite() } else { Ok(()) }
     }
 
-    /// `J = V / V0` of every particle, of which one may fail: the smallest so far is kept.
+    /// Checks `J = V / V0` of every particle and updates the smallest J of the run.
     fn jacobians(&mut self) -> Result<(), Failure> {
         let Particles { vol, vol0, .. } = &self.setup.particles;
         for (p, (vol, vol0)) in vol.iter().zip(vol0).enumerate() {

@@ -1,12 +1,12 @@
 //! A solver as a [`Subject`]: the step, checkpoints, and the state as a row of numbers.
 //!
-//! A step is the passes of the schedule in their order. In checkpoints every field is named, so
-//! that the compiler asks for a new one; the grid and the advected positions are computed in each
-//! step.
+//! A step executes the passes of the schedule in order. In checkpoints every field is named, so
+//! that the compiler reports a missing new field; the grid and the advected positions are
+//! recomputed in each step.
 //!
-//! The row of numbers is what a step reads and changes: velocities, stresses, volumes, F where it
-//! is a column, and the affine state of the transfer. The grid keeps nothing from step to step.
-//! State of a material alone (plastic flow) is left out, and positions and domains are the
+//! The row of numbers is the state that a step reads and changes: velocities, stresses, volumes, F
+//! if it is a column, and the affine state of the transfer. The grid has no state between steps.
+//! State of a material alone (plastic flow) is excluded, and positions and domains are the
 //! configuration.
 
 use super::schedule::{Coupled, Pass, StepSchedule};
@@ -24,11 +24,11 @@ use crate::subject::{
 use nalgebra::SMatrix;
 
 impl<const D: usize> Solver<D> {
-    /// The step of [`Subject::step`]; `after` is called with the name of each pass when it is done,
-    /// for those who time passes.
+    /// The step of [`Subject::step`]; `after` is called with the name of each completed pass, so
+    /// that a caller can time the passes.
     ///
     /// # Errors
-    /// Those of [`Subject::step`].
+    /// As [`Subject::step`].
     pub fn step_by_pass(&mut self, dt: f64, after: &mut dyn FnMut(String)) -> Result<(), Failure> {
         self.step_with(dt, &mut |pass| after(pass.name()))
     }
@@ -80,7 +80,7 @@ impl<const D: usize> Solver<D> {
     pub(in crate::mpm) fn open(&mut self, dt: f64) {
         self.drive(0.0);
         if self.setup.start == Start::HalfStepBack {
-            // a(0) is that of the whole step around t = 0.
+            // a(0) acts over the whole step around t = 0.
             self.velocity_time = -0.5 * dt;
         }
     }
@@ -115,7 +115,9 @@ impl<const D: usize> Subject for Solver<D> {
 
     fn totals(&self) -> Option<Totals> {
         let Setup { particles, transfer, material, .. } = &self.setup;
-        let strain_energy = material.energy(particles);
+        // The force of averaged volume ratios does not derive from the energy of F.
+        let is_averaged = self.volume_average.is_some();
+        let strain_energy = if is_averaged { None } else { material.energy(particles) };
         Some(Totals { strain_energy, ..particles.totals(|p| transfer.moment(p)) })
     }
 
@@ -155,7 +157,7 @@ impl<const R: usize, const C: usize> Memory for SMatrix<f64, R, C> {
     }
 }
 
-/// Columns that are there from the start, but for those that never change.
+/// The columns that change during a run.
 impl<const D: usize> Memory for Particles<D> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let Self {
@@ -208,6 +210,7 @@ impl<const D: usize> Memory for Setup<D> {
             // Assembled in each step.
             mass: _,
             frame: _,
+            volume: _,
             material,
             effects,
             boundary,
@@ -239,6 +242,8 @@ impl<const D: usize> Memory for Solver<D> {
             min_j,
             cell_tracker,
             advected: _,
+            // Written in each update before it is read.
+            volume_average: _,
         } = self;
         checkpoint.visit(setup);
         for number in [time, velocity_time, min_j] {

@@ -15,7 +15,7 @@ pub enum TransferKind {
     Velocity,
     /// Particles carry an affine velocity field.
     Field,
-    /// As [`Field`](Self::Field), with gradients of its fit in place of those of the basis.
+    /// As [`Field`](Self::Field), with gradients of its fit instead of those of the basis.
     Fit,
     /// A series in the lumped mass matrix.
     Series,
@@ -23,12 +23,12 @@ pub enum TransferKind {
     Cells,
 }
 
-/// Parameter of a transfer, a whole number: its range and the words of messages.
+/// Integer parameter of a transfer: its range and its text in messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TransferParameter {
-    /// Least and greatest value.
+    /// Minimum and maximum value.
     pub range: (u32, u32),
-    /// Words before and after the value, as in `a series of 8 terms`.
+    /// Text before and after the value, as in `a series of 8 terms`.
     pub words: (&'static str, &'static str),
 }
 
@@ -37,18 +37,19 @@ impl TransferParameter {
     pub(super) const TERMS: Self = Self { range: (1, 64), words: ("a series of", "terms") };
 }
 
-/// Exchange of velocities between particles and grid, by passes of a [`Kernel`]. Methods that pass
-/// over the particles return how many passes the work counter counts: one for each part of a
+/// Exchange of velocities between particles and grid, by passes of a [`Kernel`]. Methods with a
+/// loop over particles return the number of passes for the work counter: one for each part of a
 /// request, not one for each visit to the nodes.
 ///
-/// A transfer keeps the columns that only it needs.
+/// A transfer stores its own columns.
 pub trait Transfer<const D: usize>: Send + Sync {
     /// Kind of the transfer.
     fn kind(&self) -> TransferKind {
         TransferKind::Velocity
     }
 
-    /// Prepares for these particles, whose `grad_v` holds the gradient of their initial velocity.
+    /// Initialises the transfer for these particles, whose `grad_v` has the gradient of their
+    /// initial velocity.
     fn start(&mut self, _: &dyn Kernel<D>, _: &Grid<D>, _: &Particles<D>) {}
 
     /// Columns for particles or nodes.
@@ -56,7 +57,7 @@ pub trait Transfer<const D: usize>: Send + Sync {
         Vec::new()
     }
 
-    /// All parts of P2G. A divergence by fit goes with velocity gradients by fit.
+    /// All parts of P2G. A divergence by fit is combined with velocity gradients by fit.
     fn p2g_request<'a>(&'a self, particles: &'a Particles<D>) -> P2gRequest<'a, D> {
         let momentum = Some(ParticleField { v: &particles.v, affine: None });
         P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) }
@@ -121,8 +122,8 @@ pub(super) fn p2g<const D: usize>(
 }
 
 /// G2P over `dt` (s) for `stages`: new velocities, velocity gradients into `particles.grad_v`, and
-/// positions after the step into `advected` (m), in one pass. Returns how many passes its parts
-/// count as, without that of positions, which counts once these have moved.
+/// positions after the step into `advected` (m), in one pass. Returns the number of passes of its
+/// parts, without that of positions, which is counted when they are moved.
 pub fn g2p<const D: usize>(
     transfer: &mut dyn Transfer<D>,
     kernel: &dyn Kernel<D>,
@@ -142,7 +143,7 @@ pub fn g2p<const D: usize>(
         (std::mem::take(&mut particles.v), std::mem::take(&mut particles.grad_v));
     request.value = stages.contains(&Stage::ParticleVelocity).then_some(&mut v);
     let wants_gradient = stages.contains(&Stage::Stress);
-    // The transfer's own gradient is that of the same velocities.
+    // The gradient of the transfer is computed from the same velocities.
     let is_copied = wants_gradient && !is_fit && request.gradient.is_some();
     if wants_gradient && is_fit {
         request.fit = Some(&mut grad_v);

@@ -60,12 +60,12 @@ objects_with_parameter! {
 impl TransferName {
     /// Kind of the transfer.
     pub fn kind(self) -> TransferKind {
-        // The same in every dimension.
+        // The kind does not depend on the dimension.
         transfer::<1>(self).kind()
     }
 }
 
-/// A transfer, ready to be made.
+/// A transfer with its parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TransferChoice {
     /// A registered one.

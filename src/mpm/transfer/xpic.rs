@@ -1,10 +1,10 @@
-//! XPIC(m): PIC whose filter spares what the grid can represent.
+//! XPIC(m): PIC with a filter that preserves modes that the grid can represent.
 //!
 //! With S the map from grid to particles and S+ its lumped counterpart from particles to grid,
-//! `V <- (I - (I - S S+)^m) V + S a dt` (Hammerquist & Nairn 2017, CMAME 318, eq. 21): PIC for
-//! m = 1; what lies in the null space of S+ is removed in one step, and a mode with the eigenvalue
-//! l is multiplied by 1 - (1 - l)^m. The filter knows no walls, which may be driven; walls act
-//! through the accelerations.
+//! `V <- (I - (I - S S+)^m) V + S a dt` (Hammerquist & Nairn 2017, CMAME 318, eq. 21): the
+//! case m = 1 is PIC. The part in the null space of S+ is removed in one step, and a mode with the
+//! eigenvalue l is multiplied by 1 - (1 - l)^m. The filter does not include walls, which may be
+//! driven; walls act through the accelerations.
 
 use super::contract::{Transfer, TransferKind, TransferParameter};
 use crate::mpm::foundation::algebra::Vector;

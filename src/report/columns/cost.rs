@@ -1,4 +1,4 @@
-//! Columns of the tables of cost: the work that methods take for an error.
+//! Columns of the tables of cost: the work of methods for an error.
 
 use super::{Cell, TableColumn, decimals, json_object, short};
 use crate::report::columns::number;
@@ -21,16 +21,19 @@ pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
         MethodColumn::new(
             "best error",
             "best",
-            "least error, over the size of the solution",
+            "smallest error, relative to the size of the solution",
             |row| Cell::number(row.best, short),
         ),
-        MethodColumn::new("not reached", "not_reached", "why the finest target is not", |row| {
-            Cell::plain(row.obstacle().map(End::words))
-        }),
+        MethodColumn::new(
+            "not reached",
+            "not_reached",
+            "reason why the smallest target error is not reached",
+            |row| Cell::plain(row.obstacle().map(End::words)),
+        ),
         MethodColumn::new(
             "Pareto front",
             "pareto_front",
-            "levels that no other one beats",
+            "levels for which no level of any method has both a smaller error and less work",
             |row| {
                 let (count, all) = (row.front.len(), row.method.samples.len());
                 let text = (count > 0).then(|| format!("{count} of {all}"));
@@ -46,7 +49,7 @@ fn name<'a>(heading: &'static str) -> MethodColumn<'a> {
         .flush_left()
 }
 
-/// The table of exponents, where they are known.
+/// The table of exponents, if they are known.
 pub(crate) fn exponents<'a>() -> Vec<MethodColumn<'a>> {
     let columns = exponent().map(|column| column.within(|row: &Ranked| row.exponent.as_ref()));
     std::iter::once(name("work ~ error^k")).chain(columns).collect()
@@ -70,7 +73,7 @@ fn exponent<'a>() -> [TableColumn<'a, Exponent>; 5] {
         TableColumn::<Exponent>::new(
             "",
             "agrees",
-            "whether theory is met, or else the difference",
+            "whether the exponent agrees with theory, or else the difference",
             |e| Cell::new(agreement(e), e.agreement() == Agreement::Agrees),
         )
         .flush_left(),
@@ -95,7 +98,7 @@ pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     columns
 }
 
-/// A target, and how many times the least work it takes.
+/// Where a target is reached, and its work over the least work of all methods.
 type Reached = (Reach, Option<f64>);
 
 fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
@@ -144,7 +147,7 @@ pub(crate) fn models<'a>() -> Vec<TableColumn<'a, FittedModel>> {
     std::iter::once(name.flush_left()).chain(terms).chain([finest]).collect()
 }
 
-/// Whether theory is met, and if not, what differs.
+/// Text on the agreement with theory, or on the main difference.
 fn agreement(found: &Exponent) -> String {
     match found.agreement() {
         Agreement::Agrees => "agrees".to_owned(),
@@ -159,13 +162,13 @@ fn agreement(found: &Exponent) -> String {
     }
 }
 
-/// With as many decimals as tell the numbers apart.
+/// Observed and expected number, with as many decimals as distinguish them.
 fn differing(name: &str, observed: f64, expected: f64) -> String {
     let decimals = if (observed - expected).abs() < 0.015 { 4 } else { 2 };
     format!("{name} {observed:.decimals$}, not {expected:.decimals$}")
 }
 
-/// Work: at most so much where the coarsest level is good enough.
+/// The work as text; an upper bound if the coarsest level is accurate enough.
 pub(crate) fn reach_text(reach: Reach) -> String {
     match reach {
         Reach::At { work, .. } => short(work),
@@ -174,7 +177,7 @@ pub(crate) fn reach_text(reach: Reach) -> String {
     }
 }
 
-/// How many times: two decimals, more digits being noise.
+/// A ratio with two decimals: further digits are noise.
 fn ratio(times: f64) -> String {
     if times < 1000.0 { format!("{times:.2}") } else { short(times) }
 }

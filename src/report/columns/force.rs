@@ -30,10 +30,10 @@ pub(crate) fn columns<'a>() -> [TableColumn<'a, ForceRow>; 6] {
         TableColumn::<ForceRow>::new(
             "predicted",
             "predicted",
-            "force by the formula of the suite (N)",
+            "force predicted by the formula of the suite (N)",
             |row| Cell::number(row.predicted, scientific),
         ),
-        TableColumn::<ForceRow>::text("difference", "force less the predicted one (N)", |row| {
+        TableColumn::<ForceRow>::text("difference", "force minus predicted force (N)", |row| {
             format!("{:.0e}", row.force - row.predicted)
         }),
     ]

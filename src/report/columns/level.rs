@@ -40,7 +40,7 @@ fn ppc<'a>() -> LevelColumn<'a> {
     LevelColumn::new("ppc", "ppc", "particles per cell (MPM)", |row| Cell::plain(row.level.ppc))
 }
 
-/// The refined axis, by which tables name a level.
+/// The spacing of the refined axis, which names a level in tables.
 pub(crate) fn name<'a>(axis: Axis) -> LevelColumn<'a> {
     match axis {
         Axis::Space => cells(),
@@ -49,7 +49,7 @@ pub(crate) fn name<'a>(axis: Axis) -> LevelColumn<'a> {
     }
 }
 
-/// Names of the levels of a study, by which its tables are headed.
+/// Names of the levels of a study, as headings of its tables.
 pub(crate) fn names(study: &Convergence) -> Vec<String> {
     let name = name(study.axis);
     rows(study).map(|row| name.cell(&row).text).collect()
@@ -57,7 +57,7 @@ pub(crate) fn names(study: &Convergence) -> Vec<String> {
 
 /// The judged error.
 pub(crate) fn judged<'a>() -> LevelColumn<'a> {
-    let about = "the judged error; between brackets if its level does not count for the verdict";
+    let about = "judged error; in brackets if the level does not count for the verdict";
     LevelColumn::new("error", "judged", about, |row| {
         let cell = row.error(row.level.error);
         let text = if row.counts() { cell.text } else { format!("({})", cell.text) };
@@ -87,7 +87,7 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
     ]
 }
 
-/// The largest error at the end, where another norm is judged, and its order.
+/// The largest error at the end and its order, if another norm is judged.
 pub(crate) fn largest_error<'a>() -> [LevelColumn<'a>; 2] {
     let about = "order of linf between the next coarser level and this one";
     [
@@ -95,7 +95,7 @@ pub(crate) fn largest_error<'a>() -> [LevelColumn<'a>; 2] {
             let shown = row.error(row.linf()).text;
             (shown != row.error(row.level.error).text).then_some(shown)
         }),
-        LevelColumn::text("its order", about, |row| {
+        LevelColumn::text("linf order", about, |row| {
             let index = row.index.checked_sub(1)?;
             let coarser = LevelRow { study: row.study, index, level: row.study.levels.get(index)? };
             let level = |row: &LevelRow<'_>| Level::new(row.level.spacing, row.linf());
@@ -118,14 +118,14 @@ pub(crate) fn spread<'a>() -> LevelColumn<'a> {
 
 /// The error of the observed velocity.
 pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
-    let about = "error of the observed velocity over the largest exact one";
+    let about = "error of the observed velocity, divided by its largest exact value";
     LevelColumn::text("velocity", about, |row| {
         let history = row.level.run.history.as_ref();
         history.and_then(History::relative_error).map(scientific)
     })
 }
 
-/// Work, and what a reader must know beside an error.
+/// Columns of the work, and of figures that explain the error of a level.
 pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
     vec![
         LevelColumn::new("particles", "particles", "particles (MPM)", |row| {
@@ -138,12 +138,16 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
         LevelColumn::new("crossings", "crossings", "changes of cell (MPM)", |row| {
             Cell::plain(row.level.run.counters.crossings)
         }),
-        LevelColumn::text("from", "coarsest level on which particles change their cell", |row| {
-            let crosses = |level: &&LevelOutcome| level.run.counters.crossings.unwrap_or(0) > 0;
-            let (index, level) =
-                row.study.levels.iter().enumerate().find(|(_, level)| crosses(level))?;
-            Some(name(row.study.axis).cell(&LevelRow { study: row.study, index, level }).text)
-        }),
+        LevelColumn::text(
+            "crossings from",
+            "coarsest level on which particles change cells",
+            |row| {
+                let crosses = |level: &&LevelOutcome| level.run.counters.crossings.unwrap_or(0) > 0;
+                let (index, level) =
+                    row.study.levels.iter().enumerate().find(|(_, level)| crosses(level))?;
+                Some(name(row.study.axis).cell(&LevelRow { study: row.study, index, level }).text)
+            },
+        ),
         LevelColumn::new(
             "outside",
             "left_domain",
@@ -156,7 +160,7 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
         LevelColumn::new(
             "min J",
             "min_j",
-            "smallest det F met; a particle that is turned inside out along two axes at once has a positive one",
+            "smallest det F of the run; it remains positive if a particle is inverted along two axes at once",
             |row| {
                 let known = Some(row.level.run.counters.min_j).filter(|j| !j.is_nan());
                 Cell::number(known, decimals(4))
@@ -165,13 +169,13 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
         LevelColumn::new(
             "speed/c",
             "residual_speed",
-            "of a body that comes to rest: largest speed towards the end over the wave speed",
+            "for an equilibrium: largest speed in the last tenth of the run, divided by the wave speed",
             |row| row.unless_failed(row.level.run.residual_speed),
         ),
         LevelColumn::new(
             "dt/stable",
             "stable_time_step",
-            "time step over the stable one; in JSON the latter (s)",
+            "time step divided by the stable time step; in JSON the stable time step (s)",
             |row| {
                 let stable = row.level.stable_time_step;
                 let ratio = Cell::number(stable.map(|stable| row.level.dt / stable), decimals(3));
@@ -208,8 +212,8 @@ pub(crate) fn energy_rate<'a>() -> [LevelColumn<'a>; 3] {
     };
     [
         column("rate", "rate of the energy, d ln E/dt (1/s)", |rate| rate.value),
-        column("from", "lower end of its 95 % interval (1/s)", |rate| rate.low),
-        column("to (95 %)", "upper end of its 95 % interval (1/s)", |rate| rate.high),
+        column("low", "lower end of its 95 % interval (1/s)", |rate| rate.low),
+        column("high (95 %)", "upper end of its 95 % interval (1/s)", |rate| rate.high),
     ]
 }
 
@@ -237,7 +241,7 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
             |row| row.level.rounding_bound.map(number),
         ),
         LevelColumn::json("h", "cell size (m)", |row| number(row.level.h)),
-        LevelColumn::json("drift", "relative drift of each conserved sum", |row| {
+        LevelColumn::json("drift", "relative change of each conserved sum over the run", |row| {
             let columns: Vec<_> = Conserved::ALL.iter().map(|sum| drift(*sum)).collect();
             row.level.run.drift.map(|_| json_object(&columns, row))
         }),
@@ -249,7 +253,7 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
                 row.level.run.energy_rate.map(|_| cells().to_vec())
             },
         ),
-        LevelColumn::json("failure", "why and when the run broke", |row| {
+        LevelColumn::json("failure", "reason and time of the failure", |row| {
             row.level.run.failure.clone()
         }),
     ]);
@@ -257,13 +261,13 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
 }
 
 impl LevelRow<'_> {
-    /// An error, where there is a truth to compare with.
+    /// An error, if there is a solution to compare with.
     fn error(&self, error: f64) -> Cell {
         let error = self.study.compared.then_some(error);
         Cell::number(error, scientific).or_failed(self.level.run.failure.as_ref())
     }
 
-    /// The largest error at the end, of the primary unknown of the study.
+    /// The largest error at the end, for the primary unknown of the study.
     fn linf(&self) -> f64 {
         let run = &self.level.run;
         let errors =
@@ -271,7 +275,7 @@ impl LevelRow<'_> {
         errors.at_end.linf
     }
 
-    /// A figure printed with one digit; a dash also on a failed level that has none.
+    /// A figure printed with one digit; a dash if the level failed and has none.
     fn unless_failed(&self, figure: Option<f64>) -> Cell {
         let cell = Cell::number(figure, |value| format!("{value:.0e}"));
         cell.or_failed(figure.and(self.level.run.failure.as_ref()))

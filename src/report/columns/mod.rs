@@ -1,4 +1,4 @@
-//! Columns of tables, each declared once: heading, JSON key, meaning, and value.
+//! Columns of tables. Each is declared once with its heading, JSON key, meaning, and value.
 //!
 //! Text, JSON, Markdown and `docs/columns.md` read the same lists. To add a column is to add an
 //! entry to a list.
@@ -44,19 +44,19 @@ impl Cell {
         Self::new(value.clone(), value)
     }
 
-    /// A number, in text as `format` writes it.
+    /// A number, with its text by `format`.
     pub(crate) fn number(value: impl Into<Option<f64>>, format: impl Fn(f64) -> String) -> Self {
         let value = value.into();
         Self::new(value.map(format), value.map(number))
     }
 
-    /// The same with the word `failed` as text, if there is a failure.
+    /// This cell with the text `failed`, if there is a failure.
     pub(crate) fn or_failed(self, failure: Option<&String>) -> Self {
         if failure.is_some() { Self { text: "failed".to_owned(), ..self } } else { self }
     }
 }
 
-/// A name or a count as text; a dash for none.
+/// A name or a count as text; a dash for `None`.
 pub(crate) trait Text {
     fn text(self) -> String;
 }
@@ -78,7 +78,7 @@ impl<T: Text> Text for Option<T> {
     }
 }
 
-/// A number with so many decimals.
+/// A number with `count` decimals.
 pub(crate) fn decimals(count: usize) -> impl Fn(f64) -> String {
     move |value| format!("{value:.count$}")
 }
@@ -112,7 +112,7 @@ pub(crate) struct TableColumn<'a, R: ?Sized> {
     pub(crate) key: &'static str,
     /// Meaning, with the unit.
     pub(crate) about: &'static str,
-    /// Whether text is set flush left; numbers are set flush right.
+    /// Whether text is aligned to the left; numbers are aligned to the right.
     pub(crate) flush_left: bool,
     cell: Box<dyn Fn(&R) -> Cell + 'a>,
 }
@@ -146,12 +146,12 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self::new("", key, about, move |row| Cell::json(json(row)))
     }
 
-    /// The same column, set flush left.
+    /// This column, aligned to the left.
     pub(crate) fn flush_left(self) -> Self {
         Self { flush_left: true, ..self }
     }
 
-    /// The same column of a table whose rows hold an `R`; dashes in rows without one.
+    /// This column for a table whose rows contain an optional `R`; dashes in rows without it.
     pub(crate) fn within<S: 'a>(self, part: impl Fn(&S) -> Option<&R> + 'a) -> TableColumn<'a, S> {
         let Self { heading, key, about, flush_left, cell } = self;
         let cell = move |row: &S| part(row).map_or_else(|| Cell::json(Value::Null), &cell);

@@ -12,7 +12,7 @@ type TrialColumn<'a> = TableColumn<'a, Trial>;
 
 /// The value of the parameter that is swept.
 fn swept(study: &StabilityStudy) -> RowColumn<'_> {
-    RowColumn::new(study.swept.as_str(), "value", "value of the parameter that is swept", |row| {
+    RowColumn::new(study.swept.as_str(), "value", "value of the swept parameter", |row| {
         Cell::new(row.value.to_string(), number(row.value))
     })
 }
@@ -27,7 +27,7 @@ fn figure<'a>(figure: RunFigure) -> TrialColumn<'a> {
 }
 
 fn verdict<'a>() -> TrialColumn<'a> {
-    TrialColumn::new("verdict", "verdict", "how the run ended", |trial| {
+    TrialColumn::new("verdict", "verdict", "verdict of the run", |trial| {
         Cell::new(trial.verdict.words(), trial.verdict.name())
     })
     .flush_left()
@@ -37,7 +37,7 @@ fn steps<'a>() -> TrialColumn<'a> {
     TrialColumn::new("steps", "steps", "steps taken", |trial| Cell::plain(trial.steps))
 }
 
-/// The table of runs, where no limit is sought.
+/// The table of runs, if no limit is sought.
 pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     let figures = study.figures.iter().map(|one| figure(*one));
     let columns = [verdict(), steps()].into_iter().chain(figures);
@@ -52,7 +52,7 @@ pub(crate) fn limits<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColu
         RowColumn::new(
             format!("predicted {sought}"),
             "predicted",
-            "where the spectral radius of a step leaves one",
+            "limit at which the spectral radius of a step exceeds one",
             |row| limit_cell(predicted(row).map(|prediction| prediction.limit)),
         ),
         RowColumn::text("critical eigenvalue", "eigenvalue that leaves the unit circle", |row| {
@@ -88,13 +88,17 @@ fn confirmed(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
 pub(crate) fn json_columns(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     let mut columns = limits(study, study.sought.as_deref().unwrap_or_default());
     columns.extend([
-        RowColumn::json("run", "verdict and figures, where no limit is sought", |row| {
+        RowColumn::json("run", "verdict and figures, if no limit is sought", |row| {
             row.trial.as_ref().map(run)
         }),
-        RowColumn::json("confirmed", "runs at shares of the predicted limit", |row| {
+        RowColumn::json("confirmed", "runs at fractions of the predicted limit", |row| {
             row.critical.as_ref().map(confirmations)
         }),
-        RowColumn::json("refused", "why there is neither", |row| row.refused.clone()),
+        RowColumn::json(
+            "refused",
+            "reason why there is neither a prediction nor an observation",
+            |row| row.refused.clone(),
+        ),
     ]);
     columns
 }

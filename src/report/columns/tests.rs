@@ -6,7 +6,7 @@ use rstest::rstest;
 
 const DOCUMENT: &str = include_str!("../../../docs/columns.md");
 
-/// A section of the document: one row for each column, those of several tables once.
+/// A section of the document: one row for each column, without duplicates from several tables.
 fn section<R>(title: &str, tables: Vec<Vec<TableColumn<'_, R>>>) -> String {
     let mut rows = vec!["| column | JSON key | meaning |".to_owned(), "|---|---|---|".to_owned()];
     for column in tables.into_iter().flatten() {

@@ -45,7 +45,7 @@ pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
         TimedColumn::new("ppc", "ppc", "particles per cell (MPM)", |row| {
             Cell::plain(row.level.ppc)
         }),
-        TimedColumn::new("error", "error", "error over the size of the solution", |row| {
+        TimedColumn::new("error", "error", "error, relative to the size of the solution", |row| {
             let error = Cell::number(row.level.error / row.size, short);
             error.or_failed(row.level.run.failure.as_ref())
         }),
@@ -76,11 +76,15 @@ pub(crate) fn json_columns<'a>() -> Vec<TimedColumn<'a>> {
             row.load.updates as u64
         }),
         TimedColumn::json("steps", "steps taken", |row| row.level.run.steps),
-        TimedColumn::json("bytes", "particle data passed over (B)", |row| {
-            let bytes = row.case.profile.as_ref().map(bytes_of_a_particle);
-            bytes.map(|bytes| bytes as u64 * row.load.updates as u64)
-        }),
-        TimedColumn::json("failure", "why and when the run broke", |row| {
+        TimedColumn::json(
+            "bytes",
+            "size of the particle columns, summed over all particle updates (B)",
+            |row| {
+                let bytes = row.case.profile.as_ref().map(bytes_of_a_particle);
+                bytes.map(|bytes| bytes as u64 * row.load.updates as u64)
+            },
+        ),
+        TimedColumn::json("failure", "reason and time of the failure", |row| {
             row.level.run.failure.clone()
         }),
     ]);

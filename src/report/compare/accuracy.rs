@@ -10,8 +10,8 @@ use crate::verify::Quantity;
 /// Largest relative difference of two spacings that are the same.
 const SAME_SPACING: f64 = 1e-6;
 
-/// Errors below this share of what is judged, of a case without an order, are made of rounding:
-/// their changes say nothing.
+/// Maximum error that counts as rounding, as a share of the size of the judged quantity, for a case
+/// without an order: changes of such errors are not compared.
 const ROUNDING: f64 = 1e-11;
 
 /// Verdict of the gate on errors that rounding explains.
@@ -22,7 +22,7 @@ pub(super) type LevelPair<'a> = (&'a LevelDocument, &'a LevelDocument);
 
 /// Levels that both runs have, coarse to fine.
 pub(super) fn common<'a>(old: &'a CaseDocument, new: &'a CaseDocument) -> Vec<LevelPair<'a>> {
-    // Each level has one counterpart at most, also where a plan lists the same spacing twice.
+    // Each level has at most one counterpart, also if a plan has a spacing twice.
     let mut left: Vec<&LevelDocument> = old.levels.iter().collect();
     let counterpart = |level: &'a LevelDocument| {
         let at = left.iter().position(|old| same(old, level))?;
@@ -41,14 +41,14 @@ fn same(a: &LevelDocument, b: &LevelDocument) -> bool {
 pub(super) fn is_rounding(old: &CaseDocument, new: &CaseDocument) -> bool {
     let tiny = |case: &CaseDocument| {
         let small = |level: &LevelDocument| relative(case.judge.as_ref(), level) < ROUNDING;
-        // Roundings may have an order by chance, which the gate does not take for one.
+        // Rounding errors may have an order by chance, which the gate does not accept as one.
         let has_no_order = case.observed_order.is_none() || case.verdict == AT_ROUNDING;
         has_no_order && case.levels.iter().all(small)
     };
     tiny(old) && tiny(new)
 }
 
-/// The error over the natural size of what is judged; NaN where that is not known.
+/// The error over the natural size of the judged quantity; NaN if the size is unknown.
 fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     let Some(error) = level.error() else { return f64::NAN };
     let (JsonNumber(h), length) = (level.h, level.cells as f64);
@@ -62,8 +62,8 @@ fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     }
 }
 
-/// How the error moved: of the finest level that broke or was mended, else of the finest, else of
-/// the one that moved most. Nothing if none moved.
+/// Change of the error: on the finest level that newly fails or no longer fails, otherwise on the
+/// finest level, otherwise on the level with the largest change. `None` without a change.
 pub(super) fn error(
     pairs: &[LevelPair<'_>],
     axis: Option<&str>,
@@ -72,7 +72,7 @@ pub(super) fn error(
     let counts = |level: &LevelDocument| level.counts.unwrap_or(true);
     let counting: Vec<LevelPair<'_>> =
         pairs.iter().filter(|(old, new)| counts(old) || counts(new)).copied().collect();
-    // Where no level counts, as on a floor, all say something.
+    // If no level counts, as on a floor, all levels are compared.
     let pairs = if counting.is_empty() { pairs } else { &counting };
     let moves: Vec<ErrorMove> =
         pairs.iter().filter_map(|pair| error_of(*pair, axis, tolerance)).collect();
@@ -96,8 +96,8 @@ fn error_of((old, new): LevelPair<'_>, axis: Option<&str>, tolerance: f64) -> Op
     }
 }
 
-/// Transfers of the new run over those of the old one: on the finest level, or else where they
-/// moved most.
+/// Transfers of the new run over those of the old run: on the finest level, or else on the level
+/// with the largest change.
 pub(super) fn work(pairs: &[LevelPair<'_>], tolerance: f64) -> Option<f64> {
     let ratio = |(old, new): &LevelPair<'_>| match (old.transfers, new.transfers) {
         (a, b) if a == b => 1.0,
@@ -117,7 +117,7 @@ pub(super) fn points(case: &CaseDocument) -> Vec<ErrorAndWork> {
     case.levels.iter().map(point).collect()
 }
 
-/// Name of the level among those of its study.
+/// Name of the level in its study.
 fn name(level: &LevelDocument, axis: Option<&str>) -> String {
     let JsonNumber(spacing) = level.spacing;
     match (axis, level.ppc) {

@@ -12,23 +12,23 @@ pub enum Rank {
     WorseVerdict,
     /// Its verdict is another one, neither better nor worse.
     OtherVerdict,
-    /// Its verdict is a better one, or it meets its expectations again.
+    /// Its verdict is better, or it meets its expectations again.
     BetterVerdict,
     /// An error is larger, or a level has begun to fail.
     LessAccurate,
-    /// A limit of stability is lower.
+    /// A stability limit is lower.
     LessStable,
-    /// The same error takes more transfers; where that cannot be told, the same level does.
+    /// An equal error takes more transfers; if this cannot be compared, a level takes more.
     MoreExpensive,
     /// It is more accurate, more stable or cheaper.
     Better,
-    /// Its problem is another one, so that its figures say nothing about the method.
+    /// Its problem has changed, so that a change of its figures says nothing about the method.
     OtherProblem,
-    /// It is judged or refined otherwise, so that there is nothing to compare.
+    /// Its judged quantity or its refinement has changed, so that there is nothing to compare.
     Otherwise,
-    /// It was not there before.
+    /// It is new.
     New,
-    /// It is not there any more.
+    /// It was removed.
     Gone,
 }
 
@@ -49,7 +49,7 @@ impl Rank {
         Self::Gone,
     ];
 
-    /// In plain words.
+    /// Text in reports.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Broken => "no longer as expected",
@@ -83,21 +83,21 @@ impl Rank {
 /// Two runs side by side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportComparison {
-    /// Suites whose problem is another one.
+    /// Suites whose problem has changed.
     pub(super) problems: Vec<ProblemMove>,
     /// Cases that changed, the most important first.
     pub(super) moved: Vec<Moved>,
-    /// Words that tell the cases that got worse from the others.
+    /// Words in the names of worse cases that other cases do not have.
     pub(super) shared_words: Vec<SharedWord>,
     /// Target errors whose least work moved, the more expensive first.
     pub(super) cheapest: Vec<CheapestMove>,
-    /// Cases of both runs that are the same.
+    /// Number of cases without a change.
     pub(super) unchanged: usize,
-    /// Largest relative change of a figure that counts as none.
+    /// Largest relative change of a figure that counts as no change.
     pub(super) tolerance: f64,
 }
 
-/// A suite whose problem is another one: its figures say nothing about a solver.
+/// A suite whose problem has changed: its figures say nothing about a solver.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ProblemMove {
     pub(super) suite: String,
@@ -120,38 +120,38 @@ pub(super) struct Moved {
     pub(super) work: Option<f64>,
     /// Transfers for the same error.
     pub(super) equal: Option<EqualError>,
-    /// Remarks besides the columns.
+    /// Remarks in addition to the columns.
     pub(super) notes: Vec<String>,
-    /// Within a rank, the larger comes first.
+    /// Sort key within a rank, in decreasing order.
     pub(super) weight: f64,
 }
 
 /// An error that moved.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ErrorMove {
-    /// None where the level broke.
+    /// `None` if the level failed.
     pub(super) old: Option<f64>,
-    /// None where the level breaks.
+    /// `None` if the level fails.
     pub(super) new: Option<f64>,
     pub(super) worse: bool,
-    /// On which level.
+    /// The level.
     pub(super) level: String,
 }
 
-/// Least work for a target error.
+/// Change of the minimum work for a target error.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CheapestMove {
-    /// The suite, and the problem in it where it has several.
+    /// The suite, and its problem if it has several.
     pub(super) place: String,
     pub(super) target: f64,
-    /// Least work and the method that needs no more; none if no method reaches the target.
+    /// Minimum work in the old run, and its method; `None` if no method reaches the target.
     pub(super) old: Option<(f64, String)>,
     pub(super) new: Option<(f64, String)>,
 }
 
 impl CheapestMove {
-    /// New work over old; endless where the target is not reached any more, zero where it is
-    /// reached now.
+    /// New work over old work; infinite if the target is no longer reached, zero if only the new
+    /// run reaches it.
     pub(super) fn ratio(&self) -> f64 {
         match (&self.old, &self.new) {
             (Some((old, _)), Some((new, _))) => new / old,
@@ -167,7 +167,7 @@ impl ErrorMove {
         Some(self.new? / self.old?)
     }
 
-    /// How much it moved, in either direction; endless where a level breaks.
+    /// Size of the change, in either direction; infinite if a level newly fails.
     pub(super) fn weight(&self) -> f64 {
         self.ratio().map_or(f64::INFINITY, |ratio| libm::log(ratio).abs())
     }

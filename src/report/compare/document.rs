@@ -1,24 +1,24 @@
 //! Parsed form of a document that [`json()`](crate::report::json()) has written.
 //!
-//! Keys that are not asked for may be there: documents of later versions have more. Keys that were
-//! added since the first version may be missing.
+//! Unknown keys are ignored: documents of later versions have more keys. Keys that were added after
+//! the first version may be missing.
 
 use serde::{Deserialize, Deserializer, de};
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// The results of a run, as far as they are compared.
+/// The compared part of the results of a run.
 #[derive(Debug, Clone, Deserialize)]
 pub struct ReportDocument {
     pub(super) suites: Vec<SuiteDocument>,
 }
 
-/// Why a text is no such document, and where.
+/// Why a text is not such a document, and the place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unreadable {
     /// Description.
     pub message: String,
-    /// Line and column, both from one, where there is a place.
+    /// Line and column, both from one; `None` without a place.
     pub place: Option<(usize, usize)>,
 }
 
@@ -48,7 +48,7 @@ pub(super) struct RankingDocument {
 pub(super) struct MethodDocument {
     #[serde(rename = "case")]
     pub(super) name: String,
-    /// Target by target; nothing where it is not reached.
+    /// One entry per target; `None` if the target is not reached.
     pub(super) reached: Vec<Option<ReachedDocument>>,
 }
 
@@ -130,8 +130,8 @@ impl ReportDocument {
     /// Reads a document.
     ///
     /// # Errors
-    /// If the text is no JSON, if a key is missing or holds something else, or if a case is there
-    /// twice, which leaves open what is to be compared with what.
+    /// If the text is not JSON, if a key is missing or has another type, or if a case occurs twice,
+    /// so that the comparison would be ambiguous.
     pub fn read(text: &str) -> Result<Self, Unreadable> {
         let document: Self = serde_json::from_str(text).map_err(|error| {
             let (line, column) = (error.line(), error.column());
@@ -166,7 +166,7 @@ pub(super) fn name(suite: &SuiteDocument, case: &CaseDocument) -> String {
 }
 
 impl LevelDocument {
-    /// The judged error, unless the level failed or has none that is finite.
+    /// The judged error; `None` if the level failed or the error is not finite.
     pub(super) fn error(&self) -> Option<f64> {
         let JsonNumber(error) = self.judged?;
         (self.failure.is_none() && error.is_finite()).then_some(error)

@@ -1,17 +1,17 @@
 //! Work for the same error in two runs.
 //!
-//! Methods and versions reach different errors on the same grid; what a user pays is the work for
-//! the error that is wanted. Between two levels of a series that converges, ln(work) is taken as
-//! linear in ln(error), which is exact for `error = C h^p` and `work = c h^-q`. Nothing is
-//! extrapolated: beyond the last level a series may well have a floor.
+//! Methods and versions reach different errors on the same grid; the relevant cost is the work for
+//! a target error. Between two levels of a converging series, ln(work) is interpolated linearly in
+//! ln(error), which is exact for `error = C h^p` and `work = c h^-q`. There is no extrapolation:
+//! beyond the last level a series may have a floor.
 
 /// Error and work of a level.
 pub(super) type ErrorAndWork = (f64, f64);
 
-/// Fewest levels in a row over which an error falls that are taken for convergence.
+/// Minimum number of consecutive levels with falling error that count as convergence.
 const LEAST_LEVELS: usize = 3;
 
-/// An error that both runs reach, and the work for it.
+/// An error that both runs reach, and the ratio of work for it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct EqualError {
     /// The error: 1, 2 or 5 times a power of ten.
@@ -21,7 +21,7 @@ pub(super) struct EqualError {
 }
 
 /// Work of `new` over that of `old` at the smallest round error (1, 2 or 5 times a power of ten)
-/// which the converging parts of both pass through; nothing if there is none.
+/// that the converging parts of both contain; `None` if there is none.
 pub(super) fn compare(old: &[ErrorAndWork], new: &[ErrorAndWork]) -> Option<EqualError> {
     let (old, new) = (converging(old)?, converging(new)?);
     let lowest = f64::max(old.last()?.0, new.last()?.0);
@@ -31,8 +31,8 @@ pub(super) fn compare(old: &[ErrorAndWork], new: &[ErrorAndWork]) -> Option<Equa
     Some(EqualError { target, ratio })
 }
 
-/// The longest run of levels over which the error falls and the work grows; of equally long ones
-/// the coarser.
+/// The longest run of levels with falling error and growing work; the coarser of two equally long
+/// ones.
 fn converging(points: &[ErrorAndWork]) -> Option<&[ErrorAndWork]> {
     let usable = |(error, work): ErrorAndWork| error > 0.0 && work > 0.0;
     let goes_on =
@@ -48,12 +48,12 @@ fn round_above(x: f64) -> Option<f64> {
     }
     let power = libm::floor(libm::log10(x)) as i32;
     let ladder = [(1, power), (2, power), (5, power), (1, power + 1)];
-    // Through the decimal text, so that the target is the number that is printed.
+    // Parsed from the decimal text, so that the target is the printed number.
     let rungs = ladder.iter().filter_map(|(k, power)| format!("{k}e{power}").parse().ok());
     rungs.into_iter().find(|rung| *rung >= x)
 }
 
-/// The work for an error between those of two neighbours.
+/// The work for an error between those of two neighbouring levels.
 fn work(run: &[ErrorAndWork], target: f64) -> Option<f64> {
     let (a, b) = run.windows(2).map(|pair| (pair[0], pair[1])).find(|(_, b)| b.0 <= target)?;
     let share = libm::log(a.0 / target) / libm::log(a.0 / b.0);
@@ -98,7 +98,7 @@ mod tests {
         assert_eq!(converging(points).map(<[ErrorAndWork]>::len), levels);
     }
 
-    /// Both converge, and at no error that the other has: nothing is extrapolated.
+    /// Both series converge, but have no common error: nothing is extrapolated.
     #[test]
     fn series_that_do_not_meet_are_not_compared() {
         assert_eq!(compare(&series(1.0, 1.0, 4), &series(1e-4, 1.0, 4)), None);

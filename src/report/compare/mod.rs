@@ -1,12 +1,12 @@
-//! Two runs side by side: what moved between two JSON documents, the most important first.
+//! Comparison of two runs: the changes between two JSON documents, the most important first.
 //!
-//! A pull request that makes a method less accurate, less stable or more expensive shows it here.
-//! Cases are paired by suite and name, their levels by cells, spacing and particles per cell, so
-//! that like is held against like; what has no counterpart is named and not judged. Work is counted
-//! in transfers between particles and nodes, which are the same on every machine, and is compared
-//! at equal error where the errors of both runs fall far enough to meet (`equal_error`).
+//! It shows whether a pull request makes a method less accurate, less stable or more expensive.
+//! Cases are paired by suite and name, levels by cells, spacing and particles per cell. Cases and
+//! levels without counterpart are listed, but not judged. Work is counted in transfers between
+//! particles and nodes, which are the same on every machine. It is compared at equal error if the
+//! errors of both runs have a common range (`equal_error`).
 //!
-//! Cases judged by bounds on drifts alone have no error to compare, only a verdict.
+//! Cases with bounds on drifts only have no error to compare, only a verdict.
 
 mod accuracy;
 mod changes;
@@ -25,8 +25,8 @@ pub use changes::{Rank, ReportComparison};
 pub use document::{ReportDocument, Unreadable};
 pub use output::{json, markdown, text};
 
-/// Largest relative change of a figure that counts as none, unless a caller says otherwise: that of
-/// the [drift gate](super::text::drift).
+/// Default of the largest relative change of a figure that counts as no change, as in the [drift
+/// gate](super::text::drift).
 pub const TOLERANCE: f64 = super::text::drift::RELATIVE;
 
 /// Changes from `old` to `new` by more than the relative `tolerance`.

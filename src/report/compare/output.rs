@@ -5,7 +5,7 @@ use crate::report::columns::{TableColumn, number};
 use crate::report::text::table::{Table, printable};
 use serde_json::{Value, json};
 
-/// A comparison as aligned text: a line that says what happened, then a table for each rank.
+/// A comparison as aligned text: a summary line, then a table for each rank.
 pub fn text(comparison: &ReportComparison) -> String {
     let head = if comparison.is_worse() { "worse" } else { "nothing worse" };
     let mut lines = vec![format!("{head}: {}", comparison.headline())];
@@ -48,8 +48,8 @@ const MAX_ROWS: usize = 40;
 
 /// A comparison as Markdown, for a comment on a pull request.
 ///
-/// One line says what happened. Tables of worse results are open, the others are folded. Every text
-/// comes from a file and is escaped: it cannot contain markup, mention a user or end a table.
+/// The first line is a summary. Tables of worse results are unfolded, the others are folded. Every
+/// text from a file is escaped: it cannot contain markup, mention a user or end a table.
 pub fn markdown(comparison: &ReportComparison) -> String {
     let head = if comparison.is_worse() { "Worse" } else { "Nothing worse" };
     let mut page = format!("**mpm-verify: {head}**: {}\n", comparison.headline());
@@ -85,7 +85,7 @@ pub fn markdown(comparison: &ReportComparison) -> String {
     )
 }
 
-/// Cases that moved; columns with nothing but dashes are left out.
+/// Changed cases; columns with dashes only are dropped.
 fn changes(moved: &[&Moved]) -> String {
     let mut columns: Vec<_> = cases().into();
     let joined = |moved: &Moved| Some(notes(moved).join("; ")).filter(|notes| !notes.is_empty());
@@ -97,7 +97,7 @@ fn changes(moved: &[&Moved]) -> String {
     table(&columns, moved)
 }
 
-/// Least work for target errors: open if one takes more.
+/// Table of the least work for target errors, unfolded if an error takes more work.
 fn cheapest(comparison: &ReportComparison) -> String {
     let moved: Vec<&CheapestMove> = comparison.cheapest.iter().collect();
     let Some(first) = moved.first() else { return String::new() };
@@ -181,7 +181,7 @@ fn cheapest_json(target: &CheapestMove) -> Value {
 /// Maximum number of notes shown for a case; the others are counted.
 const MAX_NOTES: usize = 3;
 
-/// Changes of a case; dashes where nothing moved or nothing is known.
+/// Changes of a case; dashes without a change or a value.
 pub(super) fn cases<'a>() -> [TableColumn<'a, Moved>; 8] {
     [
         TableColumn::<Moved>::text("case", "suite and case", |moved| moved.name.clone())
@@ -216,7 +216,7 @@ fn errors(error: &ErrorMove) -> String {
     format!("{} -> {}", text(error.old), text(error.new))
 }
 
-/// Least work for a target error.
+/// Columns of the least work for target errors.
 pub(super) fn targets<'a>() -> [TableColumn<'a, CheapestMove>; 5] {
     [
         TableColumn::<CheapestMove>::text("suite", "suite, and its problem", |moved| {
@@ -256,7 +256,7 @@ pub(super) fn notes(moved: &Moved) -> Vec<String> {
     notes
 }
 
-/// `old -> new`, or what both are; for a case of one run only, what that has.
+/// `old -> new`, or the common value; for a case in one run only, its value there.
 fn change(moved: &Moved, [old, new]: [Option<String>; 2]) -> String {
     match (moved.rank, old, new) {
         (Rank::New, _, only) | (Rank::Gone, only, _) => only.unwrap_or_else(dash),
@@ -271,7 +271,7 @@ fn dash() -> String {
     "-".to_owned()
 }
 
-/// A ratio: `1.80 x`, and `1.004 x` where it is close to one.
+/// A ratio: `1.80 x`, or `1.004 x` close to one.
 fn times(ratio: f64) -> String {
     match ratio {
         r if !r.is_finite() => "-".to_owned(),
@@ -281,7 +281,7 @@ fn times(ratio: f64) -> String {
     }
 }
 
-/// A code span, in which nothing is markup but its own end, and the bar of a table.
+/// A code span, in which only its own end and the bar of a table are escaped.
 pub(super) fn code(text: &str) -> String {
     let plain = |c: char| match c {
         '`' => "'".to_owned(),
@@ -292,7 +292,7 @@ pub(super) fn code(text: &str) -> String {
     format!("`{}`", text.chars().map(plain).collect::<String>())
 }
 
-/// Text without any markup, also as an attribute; the arrow of a change is one.
+/// Escaped text without markup, also as an attribute; the arrow of a change is kept.
 pub(super) fn prose(text: &str) -> String {
     let plain = |c: char| match c {
         c if c.is_control() => "\u{fffd}".to_owned(),

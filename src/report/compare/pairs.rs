@@ -82,12 +82,12 @@ fn lone(name: String, rank: Rank, case: &CaseDocument) -> Moved {
     }
 }
 
-/// The verdict, and whether it is not what the suite expects.
+/// The verdict, with a mark if it is not the expected one.
 fn shown(case: &CaseDocument) -> String {
     if case.passed { case.verdict.clone() } else { format!("{} (FAIL)", case.verdict) }
 }
 
-/// How a case moved, if it did.
+/// The change of a case; `None` without a change.
 fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) -> Option<Moved> {
     let comparable = old.judge == new.judge || old.judge.is_none() || new.judge.is_none();
     let common = accuracy::common(old, new);
@@ -128,7 +128,7 @@ fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) ->
     Some(found)
 }
 
-/// Differences of the problem itself, in words.
+/// Differences of the problem itself, as text.
 fn otherwise(
     old: &CaseDocument,
     new: &CaseDocument,
@@ -180,7 +180,7 @@ fn verdict_rank(
     Some((rank, 0.0))
 }
 
-/// The larger, the worse; words that are not known stand in the middle.
+/// Severity of a verdict, from 0 (good) to 3 (failed); 1 for an unknown verdict.
 fn severity(verdict: &str) -> u8 {
     match verdict {
         "converging" | "within bounds" | "agrees" | "smooth" => 0,
@@ -190,7 +190,7 @@ fn severity(verdict: &str) -> u8 {
     }
 }
 
-/// The rank of figures that moved under the same verdict, and how much they did.
+/// The rank of changed figures with an unchanged verdict, and the size of the change.
 fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(Rank, f64)> {
     let error = found.error.as_ref();
     let work = found.equal.map(|equal| equal.ratio).or(found.work);
@@ -207,7 +207,7 @@ fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(R
     }
 }
 
-/// Rows of a statement that choose levels and figures, which are compared one by one.
+/// Rows of a statement about levels and figures, which are compared separately.
 const OF_LEVELS: [&str; 7] =
     ["cells", "dt", "instants", "particles", "--full adds", "judged", "crossing levels"];
 
@@ -221,7 +221,7 @@ fn problem_moves(old: &ReportDocument, new: &ReportDocument) -> Vec<ProblemMove>
     new.suites.iter().filter_map(moved).collect()
 }
 
-/// Rows that differ, of two statements; none where one of the two was not kept.
+/// Rows that differ between two statements; empty if one of the two was not stored.
 fn differing(old: &[(String, String)], new: &[(String, String)]) -> Vec<[String; 3]> {
     if old.is_empty() || new.is_empty() {
         return Vec::new();
@@ -254,11 +254,11 @@ fn shortened(old: &str, new: &str) -> Option<[String; 2]> {
     is_list.then(|| [old.join(", "), new.join(", ")])
 }
 
-/// Target errors whose least work moved, the more expensive first; a target that no method reaches
-/// any more before all. Suites of another problem are left out.
+/// Target errors with a changed minimum work, sorted by decreasing ratio; targets that no method
+/// reaches any more come first. Suites with a changed problem are excluded.
 ///
-/// Documents list under `cost` what each method takes for each target of its problem. Documents
-/// without that key are not compared in this respect.
+/// Documents list under `cost` the work of each method for each target of its problem. Documents
+/// without this key are not compared in this respect.
 fn cheapest_moves(
     old: &ReportDocument,
     new: &ReportDocument,

@@ -1,15 +1,16 @@
-//! Words in the names of cases that got worse, by which a reader sees what they have in common.
+//! Common words in the names of worse cases, as a hint to the cause.
 
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
-/// Least share of the cases with a word that got worse, and of the worse cases that the words tell.
+/// Minimum share of worse cases among the cases with a word, and minimum share of the worse cases
+/// that have a shared word.
 const MOST: f64 = 0.5;
 
-/// Fewest cases that have something in common.
+/// Minimum number of worse cases with a shared word.
 const FEWEST: usize = 3;
 
-/// A word with the number of worse cases that have it, and of all cases that do.
+/// A word with the number of worse cases, and of all cases, whose names contain it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SharedWord {
     pub(super) word: String,
@@ -17,9 +18,9 @@ pub(super) struct SharedWord {
     pub(super) all: usize,
 }
 
-/// The words of the worse cases, the one of most of them first, and of two alike that of fewer
-/// others; a case counts for its first word only. None if they tell less than half of the cases.
-/// `cases` are `SUITE::CASE`, and whether each got worse.
+/// Words shared by worse cases, sorted by the number of worse cases with the word, then by fewer
+/// other cases. A case counts only for the first of its words. Empty if at most half of the worse
+/// cases have a shared word. `cases` are pairs of `SUITE::CASE` and whether the case got worse.
 pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
     let words = |name: &str| -> BTreeSet<String> {
         let case = name.rsplit("::").next().unwrap_or_default();
@@ -38,7 +39,7 @@ pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
             all: cases.iter().filter(|(words, _)| words.contains(word)).count(),
         };
         let tells = |shared: &SharedWord| {
-            // A word of all cases tells none from the others.
+            // A word of all cases does not distinguish any.
             shared.all < cases.len()
                 && shared.worse >= FEWEST
                 && shared.worse as f64 > MOST * shared.all as f64

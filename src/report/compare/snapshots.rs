@@ -1,15 +1,15 @@
-//! The results of a run as its snapshots keep them: the overview of all cases, and the reports of
-//! the suites for the problems.
+//! The results of a run from its snapshots: the overview of all cases, and the reports of the
+//! suites for the problems.
 
 use super::document::JsonNumber;
 use super::document::{CaseDocument, LevelDocument, OrderDocument, ReportDocument, SuiteDocument};
 
-/// Axis of a study whose finest level alone is known.
+/// Axis of a study with a known finest level only.
 pub(super) const FINEST: &str = "finest";
 
 impl ReportDocument {
-    /// Reads the overview of all suites, `report` giving the text of the report of a suite by its
-    /// group and name, if it is there.
+    /// Reads the overview of all suites. `report` returns the text of the report of a suite by its
+    /// group and name, if it exists.
     pub fn of_snapshots(overview: &str, report: impl Fn(&str, &str) -> Option<String>) -> Self {
         let mut suites: Vec<SuiteDocument> = Vec::new();
         let (mut group, mut headings) = ("", Vec::new());
@@ -47,7 +47,7 @@ impl ReportDocument {
     }
 }
 
-/// The cells of a line of a table, which two spaces part at least.
+/// The cells of a line of a table, which are separated by at least two spaces.
 fn cells(line: &str) -> Vec<&str> {
     line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect()
 }

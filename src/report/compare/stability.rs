@@ -4,14 +4,14 @@ use super::changes::ratio_moved;
 use super::document::JsonNumber;
 use super::document::{LimitDocument, StabilityDocument, StabilityRowDocument};
 
-/// How a stability study moved.
+/// Changes of a stability study.
 #[derive(Debug, Default)]
 pub(super) struct StabilityMove {
-    /// Rows whose verdict changed, each in words.
+    /// Rows whose verdict changed, each as text.
     pub(super) verdicts: Vec<String>,
     /// Whether one of these is worse, and whether one is better.
     pub(super) verdict: [bool; 2],
-    /// Rows whose limit moved, each in words.
+    /// Rows whose limit changed, each as text.
     pub(super) limits: Vec<String>,
     /// Whether one of these is lower, and whether one is higher.
     pub(super) limit: [bool; 2],
@@ -90,7 +90,7 @@ fn severity(word: &str) -> usize {
     known.iter().position(|known| *known == word).unwrap_or(known.len())
 }
 
-/// The number by which limits are ordered: none is the worst.
+/// Sort key of a limit: `None` is the worst.
 fn bound(limit: Option<LimitDocument>) -> f64 {
     match limit {
         None => 0.0,

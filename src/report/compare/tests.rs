@@ -33,7 +33,7 @@ fn document(cases: &[Value]) -> ReportDocument {
     ReportDocument::read(&text).expect("a document")
 }
 
-/// The same case, of a suite that states its problem so.
+/// A document with `case` in a suite whose parameters are `young`.
 fn stating(young: &str, case: &Value) -> ReportDocument {
     let statement = json!([["parameters", young], ["dt", "h"]]);
     let suite = json!({"suite": "bar", "statement": statement, "cases": [case]});
@@ -142,11 +142,11 @@ fn one_change(#[case] path: &str, #[case] value: Value, #[case] expected: Option
 #[test]
 fn a_small_change_is_seen() {
     let found = after(&case("a", 1.0, 1.0), set("/levels/3/transfers", json!(6426)));
-    // Between the two finest levels the share of it is less: 1.004^0.82.
+    // Between the two finest levels only a share of the change applies: 1.004^0.82.
     assert!(text(&found).contains("  1.004 x     1.003 x at 2e-4"), "{}", text(&found));
 }
 
-/// NaN before and after is the same failure; a number in its place is an improvement.
+/// NaN before and after is the same failure; a number instead of NaN is an improvement.
 #[test]
 fn what_failed_before_is_not_worse_now() {
     let broken = {
@@ -159,7 +159,7 @@ fn what_failed_before_is_not_worse_now() {
     assert_eq!(rank(&after(&broken, set("/levels/3/judged", json!(1e-4)))), Some(Rank::Better));
 }
 
-/// Figures that are right are not overlooked for those that moved elsewhere.
+/// A new failure is reported even if the finest level has improved.
 #[test]
 fn a_new_failure_outweighs_a_better_finest_level() {
     let found = after(&case("a", 1.0, 1.0), |case| {
@@ -185,7 +185,7 @@ fn work_is_compared_at_equal_error(
         compare(&document(&[case("a", 1.0, 1.0)]), &document(&[case("a", c, w)]), TOLERANCE);
     let page = text(&found);
     assert!(page.contains(shown), "{page}");
-    // Better on the same grid, and yet more expensive for the same error.
+    // More accurate on the same grid, but more expensive for the same error.
     let expected = if shown.starts_with("2.00 x at 2e-4") { Rank::MoreExpensive } else { expected };
     assert_eq!(rank(&found), Some(expected), "{page}");
 }
@@ -210,7 +210,7 @@ fn other_grids_are_compared_at_equal_error() {
     assert!(text(&found).contains("3.00 x at 2e-4"), "{}", text(&found));
 }
 
-/// A rigid translation is exact to rounding; other roundings are no other accuracy.
+/// A rigid translation is exact to rounding; a change of rounding errors is no change of accuracy.
 #[rstest]
 #[case::rounding(1e-13, 3e-13, None)]
 #[case::rounding_is_lost(1e-13, 1e-9, Some(Rank::LessAccurate))]
@@ -224,7 +224,7 @@ fn rounding(#[case] old: f64, #[case] new: f64, #[case] expected: Option<Rank>) 
     assert_eq!(rank(&after(&before, set("/levels/0/judged", json!(new)))), expected);
 }
 
-/// Small errors with an order are no rounding.
+/// Small errors with an order are not rounding errors.
 #[test]
 fn a_small_error_with_an_order_counts() {
     let small = case("a", 1e-12, 1.0);
@@ -271,7 +271,7 @@ fn limits_of_a_sweep(#[case] old: Value, #[case] new: Value, #[case] expected: O
     assert_eq!(rank(&after(&study(&old), |case| *case = new.clone())), expected);
 }
 
-/// The most important first, whatever the order of the suites; within a rank, the largest change.
+/// The most important change is first, for any order of the suites; within a rank, the largest.
 #[test]
 fn what_moved_is_sorted_by_importance() {
     let names = ["gone", "cheap", "costly", "costlier", "worse", "worst", "verdict", "unmet"];
@@ -365,7 +365,7 @@ fn a_case_that_is_there_twice_is_refused() {
     assert_eq!(error.message, "the case `bar::a` is there twice");
 }
 
-/// Names and verdicts come from a file: they may be no markup, end no table and mention nobody.
+/// Names and verdicts come from a file: they must not add markup, end a table or mention a user.
 #[test]
 fn markdown_is_escaped() {
     let hostile = "a|b`c`\n<img src=x onerror=alert(1)> @someone ![x](http://y) **bold**";
@@ -461,7 +461,7 @@ proptest! {
         prop_assert!(!found.is_worse());
     }
 
-    /// Swapping the runs swaps new and gone, better and worse; nothing panics.
+    /// Swapping the runs swaps new and removed, better and worse; nothing panics.
     #[test]
     fn the_other_way_round_is_the_opposite(a in any_case(), b in any_case()) {
         let (a, b) = (document(&[a]), document(&[b, case("b", 1.0, 1.0)]));

@@ -1,5 +1,5 @@
-//! Colours of numbers, from dark to light in steps of equal lightness, so that they survive grey
-//! print.
+//! Colours of numbers, from dark to light in steps of equal lightness, so that they are
+//! distinguishable in grey print.
 
 use super::plot::scale::{Pad, Scale};
 use super::plot::style::INK;
@@ -36,8 +36,7 @@ impl ColourScale {
         self.0.fraction(value)
     }
 
-    /// A bar of all colours with numbers below, its upper left corner at `corner`, and `label` on
-    /// its left.
+    /// A colour bar with numbers below, its upper left corner at `corner`, and `label` on its left.
     pub(super) fn bar(self, corner: Pt, label: &str) -> SvgElement {
         let (x, y) = corner;
         let mut group = SvgElement::new("g");
@@ -46,7 +45,7 @@ impl ColourScale {
             let (fill, _) = colour((f64::from(k) + 0.5) / f64::from(SHADES));
             let at = x + step * f64::from(k);
             let shade = SvgElement::new("rect").at("x", at).at("y", y);
-            // Wider than its place, so that no gap shows between neighbours.
+            // Wider than its place, so that there is no gap between neighbours.
             let wide = if k + 1 < SHADES { step + 0.6 } else { step };
             group.add(&shade.at("width", wide).at("height", BAR).set("fill", &fill));
         }
@@ -67,8 +66,8 @@ impl ColourScale {
     }
 }
 
-/// Texts over dark and over light fields. They are not colours of the palette: a field keeps its
-/// colour on dark paper, and so does the text in it.
+/// Text colours on dark and on light fields. They are not colours of the palette: fields, and so
+/// their texts, have the same colours on dark paper.
 const OVER_DARK: &str = "#fff";
 const OVER_LIGHT: &str = "#222";
 
@@ -82,7 +81,7 @@ const COLOURS: [[f64; 3]; 6] = [
     [253.0, 234.0, 69.0],
 ];
 
-/// The colour at `share` of the way from dark to light, and that of a text over it.
+/// The colour at `share` between dark and light, and that of a text on it.
 pub(super) fn colour(share: f64) -> (String, &'static str) {
     let last = COLOURS.len() - 1;
     let place = share.clamp(0.0, 1.0) * last as f64;

@@ -5,14 +5,14 @@ use super::{LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::verify::{Ranked, Ranking, Sample, SuiteOutcome, pareto_front};
 use std::ops::Range;
 
-/// Most lines with a colour and a name: a reader cannot tell more apart.
+/// Maximum number of lines with a colour and a name: a reader cannot distinguish more.
 const MOST_NAMED: usize = 7;
 
-/// Points of two methods that differ by less than this share lie on each other.
+/// Maximum relative difference of points of two methods that are drawn as one line.
 const SAME: f64 = 0.02;
 
-/// The diagram of each ranking of a suite; `work` labels the horizontal axis, `unit` goes into the
-/// name of the file.
+/// The diagram of each ranking of a suite; `work` labels the horizontal axis, `unit` is part of the
+/// file name.
 pub fn cost_figures(
     outcome: &SuiteOutcome,
     rankings: &[Ranking],
@@ -20,7 +20,7 @@ pub fn cost_figures(
     unit: &str,
 ) -> Vec<Figure> {
     let SuiteOutcome { suite, title, cases, .. } = outcome;
-    // Those that vary a setting come behind the cases of the suite.
+    // Methods that vary a setting come after the cases of the suite.
     let rows = rankings.iter().flat_map(|ranking| &ranking.rows);
     let mut methods: Vec<&str> = cases.iter().map(|case| case.case.as_str()).collect();
     for row in rows {
@@ -49,7 +49,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
             None => groups.push((row, 0)),
         }
     }
-    // Those on the front first, then by rank.
+    // Methods on the Pareto front first, then by rank.
     let mut named = groups;
     named.sort_by_key(|(row, _)| row.front.is_empty());
     let others = named.split_off(named.len().min(MOST_NAMED));
@@ -75,7 +75,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
     }
 }
 
-/// Whether one line would hide the other.
+/// Whether one line would cover the other.
 fn coincide(a: &Ranked, b: &Ranked) -> bool {
     let (a, b) = (&a.method.samples, &b.method.samples);
     let near = |x: f64, y: f64| (x / y - 1.0).abs() <= SAME;
@@ -87,7 +87,8 @@ fn coincide(a: &Ranked, b: &Ranked) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(same)
 }
 
-/// The levels; those in the window of a series that diverges are not in that of one that converges.
+/// The points of the levels. Levels in the window of a divergent series are not marked like those
+/// of a converging one.
 fn points(row: &Ranked) -> Vec<PlotPoint> {
     let levels = row.method.samples.iter().enumerate();
     levels.map(|(level, one)| point(&row.part.levels, level, one)).collect()

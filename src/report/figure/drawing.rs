@@ -7,7 +7,7 @@ pub struct Figure {
     pub file: String,
     /// The SVG document.
     pub svg: String,
-    /// The same figure as a LaTeX document that uses the package PGFPlots.
+    /// This figure as a LaTeX document that uses the package PGFPlots.
     pub pgfplots: String,
 }
 

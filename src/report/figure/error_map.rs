@@ -1,5 +1,5 @@
-//! The error of each part of the body, a panel for each case: all of one scale of lengths and one
-//! of colours, so that cases can be compared by eye.
+//! The error of each part of the body, with a panel for each case: all panels share the scales of
+//! lengths and colours, so that cases are comparable by eye.
 
 use super::colour_scale::{ColourScale, colour};
 use super::plot::canvas::{Heading, canvas, shorten, wrap};
@@ -11,15 +11,17 @@ use std::fmt::Write;
 
 const LEFT: f64 = 14.0;
 const GAP: f64 = 16.0;
-/// Panels of planes beside each other.
+/// Number of panels in a row, for plane bodies.
 const PLANES: usize = 2;
-/// Highest panel of a plane, and height of that of a line.
+/// Maximum height of the panel of a plane body.
 const HIGHEST: f64 = 260.0;
+/// Height of the panel of a bar.
 const LINE: f64 = 14.0;
-/// Most lines of a name, and their height.
+/// Maximum number of lines of a name.
 const LINES: usize = 2;
+/// Height of a line of a name.
 const LEADING: f64 = 14.0;
-/// Shades that are told apart: a part is drawn in the nearest.
+/// Number of distinct shades: a part is drawn in the nearest one.
 const SHADES: f64 = 24.0;
 
 /// Errors over the bodies of several cases.
@@ -41,9 +43,9 @@ struct BodyWindow {
     zoom: f64,
     width: f64,
     height: f64,
-    /// Room between a panel and that below it.
+    /// Distance between a panel and the one below it.
     gap: f64,
-    /// Panels beside each other.
+    /// Number of panels in a row.
     columns: usize,
 }
 
@@ -103,7 +105,7 @@ impl ErrorMap {
     }
 }
 
-/// A path of squares for each shade; crosses where an error is no number.
+/// A path of squares for each shade; crosses where an error is not finite.
 fn drawn(panel: &mut SvgElement, field: &ErrorField, window: &BodyWindow, scale: ColourScale) {
     let BodyWindow { low, high, zoom, width, height, .. } = window;
     let mut paths: BTreeMap<i64, String> = BTreeMap::new();
@@ -113,7 +115,7 @@ fn drawn(panel: &mut SvgElement, field: &ErrorField, window: &BodyWindow, scale:
         let across = libm::round((x - low[0]) * zoom - 0.5 * side);
         let down = if field.is_plane { (high[1] - y) * zoom - 0.5 * side } else { 0.0 };
         let down = libm::round(down);
-        // An error of zero has the darkest shade, one that is no number none.
+        // An error of zero has the darkest shade; an error that is not finite has none.
         let share = if *error > 0.0 { scale.share(*error) } else { 0.0 };
         let shade = if error.is_finite() { libm::round(share * SHADES) as i64 } else { -1 };
         let path = paths.entry(shade).or_default();
@@ -160,7 +162,8 @@ mod tests {
         assert!(svg.contains("v14h-"), "{svg}");
     }
 
-    /// Beside another panel there is room for a name, and what is said behind it goes on below.
+    /// Next to another panel there is space for the name of a case; a note after the name continues
+    /// on the next line.
     #[test]
     fn what_is_said_behind_a_long_name_is_seen() {
         let field = ErrorField { is_plane: true, size: 0.5, parts: vec![[0.0; 3], [1.0; 3]] };

@@ -26,14 +26,14 @@ pub struct HistoryPlot {
 pub struct Curve {
     /// Name in the legend; a curve without a name has no entry.
     pub name: String,
-    /// Number of its colour: the same for a method in all figures of a suite. The exact solution
-    /// has a colour of its own.
+    /// Index of its colour, equal for a method in all figures of a suite. The exact solution has a
+    /// separate colour.
     pub look: usize,
     /// The points in drawing order; one which is not finite interrupts the curve.
     pub points: Vec<(f64, f64)>,
     /// Whether this is the exact solution, drawn as a thick light line.
     pub exact: bool,
-    /// Whether points are marked, as far as the markers do not overlap.
+    /// Whether points have markers, as long as these do not overlap.
     pub markers: bool,
 }
 
@@ -53,7 +53,7 @@ impl HistoryPlot {
         self.to_svg_among(std::slice::from_ref(self))
     }
 
-    /// The figure with the axes that hold all of `figures`, itself among them.
+    /// The figure with axes that contain all of `figures`, including this one.
     pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
         let plot = self.plot(figures);
         let lines: Vec<CurveLine> = self

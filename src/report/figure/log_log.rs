@@ -26,11 +26,11 @@ pub struct LogLogPlot {
     pub others: Vec<PlotSeries>,
     /// Pareto front (work, error) in ascending order of work: a broad band below the lines.
     pub front: Vec<(f64, f64)>,
-    /// Orders shown as slope triangles; an order that is not positive is left out.
+    /// Orders shown as slope triangles; orders that are not positive are ignored.
     pub reference_orders: Vec<f64>,
 }
 
-/// Share of an axis that is kept free at both ends.
+/// Free share of an axis at both ends.
 const MARGIN: f64 = 0.06;
 
 /// Width of the band of the Pareto front (px).
@@ -42,7 +42,7 @@ impl LogLogPlot {
         self.to_svg_among(std::slice::from_ref(self))
     }
 
-    /// The figure, with axes that hold all of `figures`. `figures` contains this figure.
+    /// The figure, with axes that contain all of `figures`. `figures` contains this figure.
     pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
         let plot = self.plot(figures);
         let lines = self.lines();
@@ -66,7 +66,7 @@ impl LogLogPlot {
         self.others.iter().map(SeriesLine::in_grey).chain(named).collect()
     }
 
-    /// The frame whose axes hold all of `figures`, with a free strip below the data where slope
+    /// The frame whose axes contain all of `figures`, with a free strip below the data if slope
     /// triangles need one.
     fn plot(&self, figures: &[Self]) -> Plot<'_> {
         let all: Vec<Vec<SeriesLine>> = figures.iter().map(Self::lines).collect();
@@ -88,7 +88,7 @@ impl LogLogPlot {
         if foot > MARGIN { frame(foot) } else { draft }
     }
 
-    /// The slope triangles; none if there is no data to compare them with.
+    /// The slope triangles; none if there are no data to compare with.
     fn triangles(&self, lines: &[SeriesLine], plot: &Plot) -> TriangleRow {
         let positive = |order: &f64| order.is_finite() && *order > 0.0;
         let has_data = lines.iter().any(|line| line.count() > 0);
@@ -102,14 +102,14 @@ impl LogLogPlot {
             |point: &&Pt| [point.0, point.1].iter().all(|value| value.is_finite() && *value > 0.0);
         let mut points: Vec<Pt> =
             self.front.iter().filter(has_place).map(|point| plot.place(*point)).collect();
-        // A line of no length has round ends, and is seen.
+        // A line of zero length has round ends, and is visible.
         if let [only] = points[..] {
             points.push(only);
         }
         if points.is_empty() { SvgElement::new("g") } else { band(&points) }
     }
 
-    /// The named lines, the front, the others, and the marks that occur.
+    /// Legend entries: the named lines, the front, the other lines, and the marks that occur.
     fn entries(&self, lines: &[SeriesLine]) -> Vec<LegendEntry> {
         let mut entries = series::names(lines);
         if !self.front.is_empty() {

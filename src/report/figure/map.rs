@@ -1,8 +1,8 @@
 //! The map: a table of numbers over coloured fields, a row for each case.
 //!
-//! Numbers are printed in the fields, so that colours only guide the eye; they run from dark to
-//! light in steps of equal lightness and survive grey print. A gap parts rows whose names begin
-//! otherwise.
+//! Numbers are printed in the fields, so that colours are only a guide; they run from dark to light
+//! in steps of equal lightness and are distinguishable in grey print. A gap separates rows whose
+//! names have different beginnings.
 
 use super::colour_scale::{BAR_WIDTH, ColourScale, colour};
 use super::plot::canvas::{Heading, canvas, text_width};
@@ -28,7 +28,7 @@ pub struct Map {
 /// One field.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapField {
-    /// Value that gives the colour; white for none, or one that is not finite.
+    /// Value that determines the colour; white for `None` or a value that is not finite.
     pub value: Option<f64>,
     /// Text printed in it.
     pub text: String,
@@ -36,12 +36,12 @@ pub struct MapField {
 
 const LEFT: f64 = 14.0;
 const ROW: f64 = 17.0;
-/// Least width of a field: wider where the name of a column is.
+/// Minimum width of a field; a longer column name makes it wider.
 const FIELD: f64 = 62.0;
-/// Between rows whose names begin with another word.
+/// Distance between rows whose names begin with different words.
 const GAP: f64 = 5.0;
 
-/// A swept value as the head of a column: a third has five digits, not sixteen.
+/// A swept value as the head of a column, rounded to five digits.
 pub(crate) fn column_head(value: f64) -> String {
     rounded(value, 5).to_string()
 }
@@ -77,7 +77,7 @@ impl Map {
         svg.render() + "\n"
     }
 
-    /// Where rows lie that start at `y`, and where they end.
+    /// Positions of the rows from `y` on, and their end.
     fn places(&self, mut y: f64) -> (Vec<f64>, f64) {
         let mut places = Vec::new();
         let mut group = None;
@@ -121,8 +121,8 @@ fn row(name: &str, fields: &[MapField], place: RowPlace, scale: ColourScale) -> 
     group
 }
 
-/// Rows with names without what all begin with, of which neighbours that show the same and are
-/// called the same but for the last word are one: `flip-usf/musl`.
+/// Removes the first word of the names if all rows share it. Merges neighbouring rows with equal
+/// fields whose names differ only in the last word: `flip-usf/musl`.
 pub(crate) fn merged_fields(rows: Vec<(String, Vec<MapField>)>) -> Vec<(String, Vec<MapField>)> {
     let first =
         |name: &str| name.split_once('-').map_or(String::new(), |(word, _)| word.to_owned());

@@ -1,12 +1,12 @@
 //! Figures as standalone SVG documents.
 //!
-//! Four kinds are drawn: the [`LogLogPlot`] (error against cell size, time step or work), the
+//! There are four kinds: the [`LogLogPlot`] (error against cell size, time step or work), the
 //! [`HistoryPlot`] (curves over linear axes), the [`Map`] (numbers over colours) and the
-//! [`ErrorMap`] (errors over bodies). All are pure functions of their input, so that a figure can
-//! be compared byte by byte: every coordinate is printed with two decimals and every transcendental
-//! comes from `libm`.
+//! [`ErrorMap`] (errors over bodies). All are pure functions of their input, so that figures can be
+//! compared byte by byte: coordinates have two decimals, and transcendental functions come from
+//! `libm`.
 //!
-//! No input can make a figure fail. A value which has no place on its axis is marked as failed,
+//! No input can make a figure fail. A value without a position on its axis is marked as failed,
 //! interrupts its curve, or is counted in a note under the figure.
 //!
 //! ```

@@ -7,13 +7,14 @@ use super::plot::style::{CONTEXT, EXACT, MarkerShape, NEUTRAL, look};
 use super::{ErrorMap, HistoryPlot, LogLogPlot, Map, Mark, PlotPoint, PlotSeries};
 use crate::report::latex::escaped;
 
-/// Most points of a curve: TeX is slow, and a page has no more pixels across.
+/// Maximum number of points of a curve: TeX is slow, and a page is not wider in pixels.
 const MOST_POINTS: usize = 400;
 
 /// Place of the legend.
 const LEGEND: &str = "legend pos=outer north east, legend cell align=left";
 
-/// Decades of a logarithmic axis below which it is labelled at 1, 2 and 5 times powers of ten.
+/// Number of decades of a logarithmic axis below which it has labels at 1, 2 and 5 times powers of
+/// ten.
 const SHORT: f64 = 2.0;
 
 /// Panels of an error map that are next to each other.
@@ -42,7 +43,7 @@ impl PgfDocument {
         self.text.push('\n');
     }
 
-    /// A colour `#rrggbb`, for what follows.
+    /// Sets the colour `#rrggbb` for the following elements.
     fn colour(&mut self, name: &str, colour: &str) {
         let digits = colour.trim_start_matches('#').to_uppercase();
         self.line(&format!("\\definecolor{{{name}}}{{HTML}}{{{digits}}}"));
@@ -78,7 +79,7 @@ fn number(value: f64) -> String {
     if value.is_finite() { format!("{value:e}") } else { "nan".to_owned() }
 }
 
-/// The option for the labels of a logarithmic axis with these values, if it is short: powers of ten
+/// The option for the labels of a short logarithmic axis with these values, for which powers of ten
 /// alone would be too few.
 fn log_ticks(axis: &str, values: impl Iterator<Item = f64> + Clone) -> String {
     let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(0.0, f64::max));
@@ -195,7 +196,7 @@ impl LogLogPlot {
     }
 }
 
-/// An order with as many decimals as it needs, at most two.
+/// An order with at most two decimals, without trailing zeros.
 fn rounded(order: f64) -> String {
     let text = format!("{order:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

@@ -23,7 +23,7 @@ pub struct PlotPoint {
 pub enum Mark {
     /// In the asymptotic window: filled, joined by a solid line.
     Window,
-    /// Measured and not judged: drawn as in the window, without an entry in the legend.
+    /// Measured but not judged: drawn as in the window, without an entry in the legend.
     Measured,
     /// Outside the window: hollow, joined by a thin dashed line.
     OutsideWindow,
@@ -44,13 +44,13 @@ pub struct PlotSeries {
     pub points: Vec<PlotPoint>,
 }
 
-/// A point as it is drawn.
+/// A point with its pixel position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PlotLevel {
     x: f64,
     /// The error, unless the level failed.
     error: Option<f64>,
-    /// The mark; [`Mark::Failed`] exactly where there is no error.
+    /// The mark; [`Mark::Failed`] exactly if there is no error.
     mark: Mark,
 }
 
@@ -80,13 +80,13 @@ pub(super) struct SeriesLine<'a> {
 }
 
 impl<'a> SeriesLine<'a> {
-    /// A series in its colour.
+    /// A series in its own colour.
     pub(super) fn new(series: &'a PlotSeries) -> Self {
         let look = look(series.look);
         Self { name: &series.name, look, grey: false, levels: levels(&series.points) }
     }
 
-    /// A series that is there for comparison: a thin line without markers.
+    /// A series for comparison: a thin line without markers.
     pub(super) fn in_grey(series: &'a PlotSeries) -> Self {
         let look = Look { colour: CONTEXT, ..look(0) };
         Self { name: &series.name, look, grey: true, levels: levels(&series.points) }
@@ -220,10 +220,10 @@ pub(super) struct FailedLevel {
 const ARROW: f64 = 13.0;
 const FAILED_ROW: f64 = 13.0;
 
-/// Largest part of the frame that failed levels take from the others.
+/// Maximum share of the frame for failed levels.
 const LARGEST_HEAD: f64 = 0.4;
 
-/// The failed levels; those of different series at the same `x` stand in a column.
+/// The failed levels; failed levels of several series at the same `x` form a column.
 pub(super) fn failures(lines: &[SeriesLine]) -> Vec<FailedLevel> {
     let mut failures: Vec<FailedLevel> = Vec::new();
     for line in lines {
@@ -236,7 +236,7 @@ pub(super) fn failures(lines: &[SeriesLine]) -> Vec<FailedLevel> {
     failures
 }
 
-/// The part of the frame to be kept free above the errors for failed levels.
+/// The part of the frame above the errors that is reserved for failed levels.
 pub(super) fn headroom(failures: &[FailedLevel]) -> f64 {
     let rows = failures.iter().map(|failure| failure.rank + 1).max();
     rows.map_or(0.0, |rows| (ARROW + FAILED_ROW * rows as f64) / FRAME_HEIGHT).min(LARGEST_HEAD)

@@ -9,17 +9,17 @@ use crate::verify::{
     Axis, Convergence, ErrorField, InternalForce, LevelOutcome, SuiteOutcome, Verdict,
 };
 
-/// Most curves in one plot: a reader cannot tell more apart.
+/// Maximum number of curves in one plot: a reader cannot distinguish more.
 const MOST_SERIES: usize = 6;
 
-/// Most panels in one figure of errors over bodies.
+/// Maximum number of panels in one figure of errors over bodies.
 const MOST_PANELS: usize = 24;
 
-/// Ratio of the highest to the lowest of curves up to which they share an axis.
+/// Maximum ratio of the highest to the lowest curve for a shared axis.
 const MOST_ALIKE: f64 = 3.0;
 
-/// Convergence plots, as many as keep each readable; where the errors are; the observed velocity of
-/// each case that watched one; the energies that were asked for.
+/// Convergence plots, split to stay readable; maps of the errors; the velocity histories of cases
+/// with an observed point; the requested energies.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures = convergence(outcome);
     figures.extend(error_maps(outcome));
@@ -53,8 +53,8 @@ fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
 /// Width and height of a thumbnail (px).
 const THUMBNAIL: (f64, f64) = (96.0, 40.0);
 
-/// The lines of all convergence plots of a suite, without axes and texts; none if there is nothing
-/// to draw.
+/// The lines of all convergence plots of a suite, without axes and texts; `None` if there is
+/// nothing to draw.
 pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
     let line = |(name, study): &(&str, &Convergence)| {
         let drawn = |value: f64| value.is_finite() && value > 0.0;
@@ -90,7 +90,7 @@ pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
     Some(svg.render())
 }
 
-/// Number of a case in its suite, which gives it its colour in all figures.
+/// Index of a case in its suite, which determines its colour in all figures.
 fn look(outcome: &SuiteOutcome, case: &str) -> usize {
     outcome.cases.iter().position(|known| known.case == case).unwrap_or(0)
 }
@@ -125,7 +125,7 @@ fn spacing(axis: Axis) -> &'static str {
     }
 }
 
-/// Where the error of each case is, on the finest level.
+/// Maps of the error of each case on the finest level.
 fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
     let field = |(name, study): (&str, &Convergence)| {
         let level = study.levels.last()?;
@@ -151,13 +151,13 @@ fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
     parts.map(figure).collect()
 }
 
-/// Observed order of a series that converges: the slope that a reader should see beside it.
+/// Observed order of a converging series, which is drawn as a reference slope.
 fn order(study: &Convergence) -> Option<f64> {
     let order = study.judgement.order.filter(|_| study.verdict() == Verdict::Converging)?;
     Some(order.value)
 }
 
-/// Slopes of observed orders: the simple fractions next to them, each once.
+/// Reference slopes: observed orders, rounded to thirds, without duplicates.
 fn slopes(orders: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut slopes: Vec<f64> = orders.map(|order| libm::round(order * 3.0) / 3.0).collect();
     slopes.sort_by(f64::total_cmp);
@@ -217,7 +217,7 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
     };
     let (files, plots): (Vec<String>, Vec<HistoryPlot>) =
         studies(outcome).into_iter().filter_map(figure).unzip();
-    // Beside a method that runs away the others would be flat.
+    // On a shared axis with a diverging method, the other curves would be flat.
     let rises = || plots.iter().map(HistoryPlot::rise);
     let least = rises().fold(f64::INFINITY, f64::min);
     let alike = rises().fold(0.0, f64::max) <= MOST_ALIKE * least;
@@ -231,8 +231,8 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
     files.into_iter().zip(&plots).map(figure).collect()
 }
 
-/// The energy over time, relative to that of the start, on the finest level of every case that is
-/// asked for its rate.
+/// The energy over time, relative to its initial value, on the finest level of every case whose
+/// energy rate is reported.
 fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
     let curve = |(name, study): (&str, &Convergence)| {
         let account = &study.levels.last().filter(|_| study.rated)?.run.account;

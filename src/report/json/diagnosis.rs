@@ -5,9 +5,9 @@ use crate::report::text::diagnosis::paragraph;
 use crate::verify::{Cause, ChangedRun, Diagnosis};
 use serde_json::{Value, json};
 
-/// The diagnosis of one case: the paragraph of the text, and the runs behind it.
+/// The diagnosis of one case: the paragraph of the text, and its runs.
 pub fn diagnosis_json(found: &Diagnosis) -> Value {
-    // There is no ratio to an error that is not finite.
+    // The ratio to an error that is not finite is undefined.
     let finite = |ratio: f64| Some(ratio).filter(|ratio| ratio.is_finite());
     let run = |run: &ChangedRun| {
         json!({

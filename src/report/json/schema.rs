@@ -1,5 +1,5 @@
-//! JSON Schema (draft 2020-12) of the document that `run --format json` prints. Rows have the keys
-//! and the meanings of the columns that write them; tests hold the rest to documents.
+//! JSON Schema (draft 2020-12) of the document that `run --format json` prints. The keys and
+//! descriptions of rows come from their columns; tests compare the rest with documents.
 
 use crate::report::columns::{TableColumn, cost, force, gradient, level, stability};
 use crate::verify::{

@@ -12,10 +12,10 @@
 //!   "cost": [{"work": "seconds", ...}, {"work": "transfers", ...}], "best_candidate": null}]}
 //! ```
 //!
-//! `error` is over the size of the solution, `bytes` the particle data that the steps have passed
-//! over at least: those of a particle times particle updates. `cost` is that of reports.
-//! `best_candidate` is what came of a budget; then there is nothing else. Its `error` is predicted
-//! with the ends of a 95 % interval, and measured.
+//! `error` is over the size of the solution, `bytes` the minimum traffic of particle data: bytes of
+//! a particle times particle updates. `cost` is that of reports. `best_candidate` is the result for
+//! a budget; the document then has no other keys. Its `error` has a prediction with a 95 %
+//! interval, and a measured value.
 
 use super::cost::rankings;
 use crate::report::columns::cost::{model, models};

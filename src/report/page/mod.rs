@@ -1,9 +1,9 @@
 //! One HTML page for a run: everything that was found, in one file that needs no network.
 //!
-//! It is read without JavaScript; a small script only sorts and filters its tables and unfolds what
-//! a link leads to. Figures are inline SVG and share one style sheet for dark colours. Nothing on
-//! the page depends on the time or the machine, except the commit that a CI service names: the same
-//! run gives the same bytes.
+//! It is readable without JavaScript; a small script only sorts and filters tables and unfolds the
+//! target of a link. Figures are inline SVG and share one style sheet for dark colours. The page
+//! does not depend on the time or the machine, except for the commit that a CI service names: equal
+//! runs give equal bytes.
 //!
 //! A section shows all that a suite reports: every figure of [`svg()`](super::svg()) and the whole
 //! of [`text()`](super::text()). What is added to either is on the page.
@@ -27,12 +27,12 @@ use html::Html;
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
-/// Nothing may be fetched from anywhere, whatever a suite says.
+/// Content security policy: the page may not fetch anything, also if a suite contains HTML.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
-/// The page, which says too how many suites could not be run. Names of suites must differ: they
-/// become the ids of sections.
+/// The page, including the number of suites that could not be run. Names of suites must differ:
+/// they become the ids of sections.
 pub fn page(sources: &[SuiteSource<'_>], refused: usize) -> String {
     let mut body = vec![
         head(sources, refused),
@@ -66,7 +66,7 @@ fn meta() -> Vec<Html> {
         Html::void("meta", &policy),
         meta("viewport", "width=device-width, initial-scale=1"),
         meta("color-scheme", "light dark"),
-        // Otherwise browsers ask for one.
+        // Without this, browsers request an icon.
         Html::void("link", &[("rel", "icon"), ("href", "data:,")]),
         Html::tag("title", &[], "MPM verification"),
         Html::tag("style", &[], Html::trusted(style_sheet() + STYLE)),

@@ -108,7 +108,7 @@ fn file(source: &SuiteSource<'_>) -> Html {
     folded(&id, source.file, &format!("File {}", source.file), source.yaml.into())
 }
 
-/// Preformatted text that is shown when asked for.
+/// Preformatted text that is folded at first.
 fn folded(id: &str, words: &str, label: &str, text: Html) -> Html {
     let summary = Html::tag("summary", &[], words);
     let text = scrolled(label, Html::tag("pre", &[], text));
@@ -118,7 +118,7 @@ fn folded(id: &str, words: &str, label: &str, text: Html) -> Html {
 /// Smallest size of a text on the screen (px).
 const LEGIBLE: f64 = 9.0;
 
-/// All figures, the scene first; nothing where there are none.
+/// All figures, the scene first; `None` without figures.
 fn figures(source: &SuiteSource<'_>) -> Option<Html> {
     let outcome = source.outcome;
     let scene = source.sketch.map(|svg| {
@@ -134,7 +134,7 @@ fn figures(source: &SuiteSource<'_>) -> Option<Html> {
     (!figures.is_empty()).then(|| Html::block("div", &[("class", "figures")], &figures))
 }
 
-/// A figure; one that is wider than others scrolls where its texts would become too small.
+/// A figure; a wide one scrolls if its texts would become too small.
 fn figure(id: &str, svg: &str, name: &str) -> Html {
     let caption = Html::tag("figcaption", &[("class", "muted")], name);
     let width = svg_width(svg).unwrap_or(WIDTH);
@@ -152,7 +152,7 @@ fn figure(id: &str, svg: &str, name: &str) -> Html {
 ///
 /// An `id` must be unique on the page, which contains many figures; references to an id get the
 /// same prefix. The page has the style sheet of figures once, so the copy in the document is
-/// removed. The style sheet of the page sets the size; the `viewBox` keeps the shape.
+/// removed. The style sheet of the page sets the size; the `viewBox` preserves the shape.
 pub(super) fn inline_svg(document: &str, prefix: &str) -> Html {
     let ids = ids(document);
     let mut inline = document.trim().to_owned();
@@ -179,7 +179,7 @@ fn svg_width(document: &str) -> Option<f64> {
     view.split([' ', '"']).nth(2)?.parse().ok()
 }
 
-/// The ids of a document, each once.
+/// The ids of a document, without duplicates.
 fn ids(document: &str) -> Vec<&str> {
     let mut ids: Vec<&str> = document
         .match_indices(" id=\"")

@@ -9,7 +9,7 @@ use crate::report::figure::study::thumbnail;
 use crate::report::matrix::{COLUMNS, FindingClass, LEGEND, by_group, classes, findings, shares};
 use crate::verify::{CaseOutcome, SuiteOutcome};
 
-/// A suite that has run, and the file that it came from.
+/// The outcome of a suite, with its source file.
 #[derive(Debug, Clone, Copy)]
 pub struct SuiteSource<'a> {
     /// Results.
@@ -18,7 +18,7 @@ pub struct SuiteSource<'a> {
     pub file: &'a str,
     /// Text of the file.
     pub yaml: &'a str,
-    /// SVG sketch of the scene, where the suite has one.
+    /// SVG sketch of the scene, if the suite has a scene.
     pub sketch: Option<&'a str>,
 }
 
@@ -51,7 +51,7 @@ pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
     )
 }
 
-/// How many cases have the expected order; a colour for all, most, some and none.
+/// The number of cases with the expected order; a colour for all, most, some and none.
 fn share((kept, all): (usize, usize)) -> Html {
     if all == 0 {
         return Html::tag("td", &[], "-");
@@ -65,8 +65,8 @@ fn share((kept, all): (usize, usize)) -> Html {
     coloured(class, format!("{kept} of {all}"))
 }
 
-/// A cell with the colour of a class. The colour is that of the text only: a cell with a background
-/// would hide the shadow that shows that a table goes on.
+/// A cell with the colour of a class. Only the text is coloured: a background would hide the shadow
+/// that shows that a table continues.
 fn coloured(class: FindingClass, text: String) -> Html {
     Html::tag("td", &[], Html::tag("span", &[("class", class.name())], text))
 }
@@ -76,7 +76,7 @@ fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_whitespace() { '_' } else { c }).collect()
 }
 
-/// Every suite with what came of it, below the name of its group.
+/// Every suite with its results, below the name of its group.
 pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
     let head = |name: &str| Html::tag("th", &[("scope", "col"), ("class", "word")], name);
     let heads = Html::tag(
@@ -103,7 +103,7 @@ pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
     Html::block("nav", &[("id", "suites"), ("aria-label", "Suites")], &parts)
 }
 
-/// The legend, its words for findings as code.
+/// The legend, with the names of findings as code.
 fn legend() -> Html {
     let part = |(k, part): (usize, &str)| match k % 2 {
         0 => Html::text(part),
@@ -112,7 +112,7 @@ fn legend() -> Html {
     LEGEND.split('`').enumerate().map(part).collect()
 }
 
-/// Meaning of the colours; the texts of cells say the same.
+/// Meaning of the colours, which repeat the texts of the cells.
 fn key() -> Html {
     let item = |class: FindingClass| Html::tag("span", &[("class", class.name())], class.meaning());
     Html::tag("p", &[("class", "key")], FindingClass::SHOWN.map(item).to_vec())
@@ -196,14 +196,14 @@ fn case_row(source: &SuiteSource<'_>, case: &CaseOutcome) -> Html {
     )
 }
 
-/// A region that scrolls by itself where it is wider than the screen; by keyboard too.
+/// A region that scrolls separately if it is wider than the screen, also by keyboard.
 pub(super) fn scrolled(label: &str, content: Html) -> Html {
     let attributes =
         [("class", "wide"), ("role", "region"), ("tabindex", "0"), ("aria-label", label)];
     Html::tag("div", &attributes, content)
 }
 
-/// Whether the case is as expected: in words, not by colour alone.
+/// Whether the case is as expected: as text, not by colour alone.
 pub(super) fn result(case: &CaseOutcome) -> Html {
     match (case.result(), case.passed()) {
         (word, true) => Html::tag("span", &[("class", "ok")], word),

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 const HOSTILE: &str = "</pre></script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&lt;";
 
-/// An internal-force study whose every text is `words`.
+/// An internal-force study in which every text is `words`.
 fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
     let word = || words.to_owned();
     let row = |position| ForceRow { position, left: 1, right: 2, force: position, predicted: 0.5 };
@@ -42,7 +42,7 @@ fn of(outcomes: &[SuiteOutcome], yaml: &str) -> String {
     page(&outcomes.iter().map(source).collect::<Vec<_>>(), 0)
 }
 
-/// Every start tag with its attributes; fails unless each is closed where it must be.
+/// Every start tag with its attributes; fails unless each is closed correctly.
 fn tags(page: &str) -> Vec<(String, String)> {
     let (mut open, mut seen): (Vec<String>, _) = (Vec::new(), Vec::new());
     let mut rest = page.strip_prefix("<!DOCTYPE html>").expect("a document type");
@@ -102,8 +102,8 @@ fn ids_are_unique_and_links_lead_somewhere() {
     }
 }
 
-/// The place where cost tables and work-precision diagrams appear once suites report them: every
-/// line of the text report and every figure is on the page.
+/// Cost tables and work-precision diagrams of a suite appear on the page: every line of the text
+/// report and every figure does.
 #[test]
 fn whatever_a_suite_reports_is_on_the_page() {
     let outcome = outcome("a", "words & more", &[]);
@@ -153,7 +153,7 @@ fn the_finding_comes_first() {
     tags(&none);
 }
 
-/// Nothing is asked of a network, and the browser is told so.
+/// The page loads nothing from a network, and its content security policy forbids it.
 #[test]
 fn nothing_is_loaded() {
     let page = of(&[outcome("a", "http://example.org", &[])], "x");

@@ -33,26 +33,27 @@
 //!         "agrees": true}}]}]}]}
 //! ```
 //!
-//! `cost` ranks the methods of each problem of the suite, the cheapest first: errors are over
-//! `size`, `reached` has the work at each of the `targets` and how many `times` the least that is,
-//! `pareto_front` the levels that no other one beats, and `exponent` is k in work ~ error^k.
+//! `cost` ranks the methods of each problem of the suite, the cheapest first. Errors are divided by
+//! `size`. `reached` has the work at each of the `targets`, and its ratio `times` to the least
+//! work. `pareto_front` lists the levels that no other level dominates. `exponent` is k in work ~
+//! error^k.
 //!
-//! `null` stands where a thing does not exist; numbers that are not finite are the strings `"nan"`,
-//! `"inf"`, `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
-//! `{"position", "n_left", "n_right", "force", "predicted"}`. Nor have stability studies; their
-//! `stability` is `{"swept", "sought", "rows"}`, each row with the `value` of what is swept, and
-//! the `run` with its verdict and figures, or the limit of what is sought: `predicted`, `observed`
-//! (each with `at`, or `above` or `below` the range) and the runs that `confirmed` it. `axis` is
-//! what was refined (`space`, `time`, `particles`) and `spacing` that of this axis; where particles
-//! are, there is no formal order. `energy_rate` is d ln E/dt (1/s), and both ends of its 95 %
-//! interval; of a law without an energy the drift of `energy` is `"nan"`. `stable_time_step` (s) is
-//! there where a rule chose the step or a stated one is longer. `profile` is what one step takes on
-//! the coarsest level, from a subject that says (MPM): its `passes` in their order, the particles
-//! that each part of them `visits`, and the `columns` of memory, with the `bytes` of one entry.
-//! `floor` is what became of the finest level's error with another spacing halved, where that was
-//! tried; its `cause` is one of the axes, or `none`, or null where it could not be told.
-//! Keys may be added; none is renamed or removed without a new major version. `docs/columns.md`
-//! lists those of rows.
+//! `null` marks a missing value; numbers that are not finite are the strings `"nan"`, `"inf"`,
+//! `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
+//! `{"position", "n_left", "n_right", "force", "predicted"}`. Stability studies have no levels
+//! either; their `stability` is `{"swept", "sought", "rows"}`. Each row has the `value` of the
+//! swept parameter and either the `run`, with its verdict and figures, or the limit of the sought
+//! parameter: `predicted`, `observed` (each with `at`, or `above` or `below` the range) and the
+//! runs that `confirmed` it. `axis` is the refined axis (`space`, `time`, `particles`) and
+//! `spacing` the spacing on this axis; there is no formal order for `particles`. `energy_rate` is d
+//! ln E/dt (1/s), and both ends of its 95 % interval. For a law without an energy the drift of
+//! `energy` is `"nan"`. `stable_time_step` (s) is present if the step is automatic, or if the
+//! stated step is longer. `profile` is the cost of one step on the coarsest level, if the subject
+//! reports it (MPM): its `passes` in their order, the particles that each part of them `visits`,
+//! and the `columns` of memory, with the `bytes` of one entry. `floor` has the error of the finest
+//! level with another spacing halved, if that was run. Its `cause` is one of the axes, or `none`,
+//! or null if it could not be determined. Keys may be added; no key is renamed or removed without a
+//! new major version. `docs/columns.md` lists the keys of rows.
 
 use crate::report::json::cost;
 use crate::report::study::KINDS;
@@ -68,7 +69,7 @@ pub fn json(outcomes: &[SuiteOutcome]) -> String {
     format!("{:#}\n", json!({ "version": version, "commit": commit(), "suites": suites }))
 }
 
-/// The commit that is tested, where a CI service says so.
+/// The tested commit, if a CI service names it.
 pub(crate) fn commit() -> Option<String> {
     let said = |name: &&str| std::env::var(name).ok().filter(|commit| !commit.is_empty());
     ["GITHUB_SHA", "CI_COMMIT_SHA"].iter().find_map(said)

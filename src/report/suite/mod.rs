@@ -1,4 +1,4 @@
-//! The report of a suite as text, JSON and figures, whatever its kinds of study.
+//! The report of a suite as text, JSON and figures, for any kind of study.
 
 pub(crate) mod json;
 pub(crate) mod overview;

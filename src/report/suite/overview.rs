@@ -23,7 +23,7 @@ const WIDTHS: [(&str, usize); 16] = [
     ("finest error", 12),
     ("floor", 9),
     ("for 1e-3", 8),
-    ("found", 66),
+    ("observed", 66),
 ];
 
 /// Width of the orders and verdicts of a basis.
@@ -62,8 +62,8 @@ fn at_a_glance(outcomes: &[SuiteOutcome], lines_of: fn(&Table) -> Vec<String>) -
     lines.join("\n") + "\n"
 }
 
-/// The overview of suites: what they are at a glance, then a line for each case, in groups. Columns
-/// have fixed widths, so that a changed case changes one line.
+/// The overview of suites: a summary, then a line for each case, in groups. Columns have fixed
+/// widths, so that a changed case changes one line.
 pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     let fixed = |table: &Table| table.lines_of_widths(&WIDTHS);
     let mut lines = vec!["Overview of all suites".to_owned(), String::new()];
@@ -79,8 +79,8 @@ pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// How often grid convergence indices cover the true error, which they are meant to do in 95 of 100
-/// cases.
+/// The share of grid convergence indices that cover the true error; the nominal coverage is 95 of
+/// 100.
 fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
     let studies = cases.iter().filter_map(|case| case.convergence());
     let covered = |study: &Convergence| -> Vec<bool> {
@@ -90,8 +90,8 @@ fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
     let hits = all.iter().filter(|covered| **covered).count();
     (!all.is_empty()).then(|| {
         format!(
-            "a grid convergence index (meant for 95 of 100) covers the true error at the observed \
-             place in {hits} of {} triples of levels; reports show both",
+            "grid convergence index at the observed place: nominal coverage of the true error 95 %, \
+             here {hits} of {} triples of levels",
             all.len()
         )
     })
@@ -113,7 +113,7 @@ fn matrix(outcomes: &[SuiteOutcome]) -> Table {
     Table::of_cells(headings.collect(), rows).without_empty_columns()
 }
 
-/// Lines of a table, the names of groups above those of their suites.
+/// Lines of a table, with the names of groups above their suites.
 fn grouped(lines: &mut Vec<String>, outcomes: &[SuiteOutcome], table: Vec<String>) {
     let mut table = table.into_iter();
     lines.push(String::new());

@@ -1,7 +1,7 @@
 //! The report as text: aligned tables that read well in a diff.
 //!
-//! Errors have four significant digits, orders two decimals; counters are exact. Nothing in it
-//! depends on the machine.
+//! Errors have four significant digits, orders two decimals; counters are exact. The report does
+//! not depend on the machine.
 
 use super::verdicts;
 use crate::report::columns::TableColumn;
@@ -61,7 +61,7 @@ pub fn case(outcome: &CaseOutcome) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Settings that all cases have in common; the names of the cases tell where they differ.
+/// Settings that all cases share; the names of the cases show the differences.
 fn in_common(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let Some((first, others)) = cases.split_first() else { return };
     let is_common =
@@ -82,7 +82,7 @@ fn in_common(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     }
 }
 
-/// The first sentence of a text: the whole is in the file of the suite.
+/// The first sentence of a text; the file of the suite has the whole text.
 fn first_sentence(text: &str) -> &str {
     let ends = |(at, _): &(usize, &str)| {
         text[at + 2..].starts_with(char::is_uppercase) && !text[..*at].ends_with(char::is_uppercase)

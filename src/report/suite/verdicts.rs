@@ -1,4 +1,4 @@
-//! The head of a report: what came of each case, and what was expected of it.
+//! The head of a report: results and expectations of each case.
 
 use crate::report::columns::{TableColumn, decimals, scientific};
 use crate::report::grouping::{distinct, grouped};
@@ -9,10 +9,10 @@ use crate::report::text::table::Table;
 use crate::report::text::table::together;
 use crate::verify::{CaseOutcome, Ranking};
 
-/// The target error whose cost stands beside each verdict.
+/// Target error whose cost is shown next to each verdict.
 const TARGET: f64 = 1e-3;
 
-/// Verdicts, what is not as expected, expectations with their reasons, and remarks.
+/// Verdicts, unmet expectations, expectations with their reasons, and remarks.
 pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[Ranking]) {
     row(lines, "result", &result(&cases.iter().collect::<Vec<_>>()));
     for case in cases {
@@ -34,25 +34,29 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
     remarks(lines, cases);
 }
 
-/// How many cases came as expected, in words.
+/// The number of cases with the expected result, as text.
 pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
     let count = |word: &str| cases.iter().filter(|case| case.result() == word).count();
     let (expected, failing) =
         (count("pass"), cases.iter().filter(|case| case.passed() && case.fails()).count());
     let cases =
         |count: usize| if count == 1 { "1 case".to_owned() } else { format!("{count} cases") };
+    let failures = |count: usize| match count {
+        1 => "1 expected failure".to_owned(),
+        count => format!("{count} expected failures"),
+    };
     let mut parts = Vec::new();
     match (expected, failing) {
         (0, _) => {}
         (_, 0) => parts.push(format!("{} as expected", cases(expected))),
         (_, _) if failing == expected => {
-            parts.push(format!("{} as expected, which is to fail", cases(expected)));
+            parts.push(failures(expected));
         }
-        _ => parts.push(format!("{} as expected, of which {failing} to fail", cases(expected))),
+        _ => parts.push(format!("{} as expected ({})", cases(expected), failures(failing))),
     }
     let others = [
         ("FAIL", "NOT AS EXPECTED"),
-        ("explored", "of which nothing is expected"),
+        ("explored", "without an expectation"),
         ("n/a", "not applicable"),
         ("not gated", "not gated"),
         ("excepted", "excepted"),
@@ -98,11 +102,11 @@ fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColu
         CaseColumn::text("for 1e-3", "work over that of the cheapest", |case| {
             cost(case, rankings).map(|times| format!("{times:.2} x"))
         }),
-        CaseColumn::text("found", "figures of other studies", |case| {
+        CaseColumn::text("observed", "figures of other studies", |case| {
             case.convergence().is_none().then(|| case.reason.clone())
         })
         .flush_left(),
-        CaseColumn::text("", "expectation", |case| {
+        CaseColumn::text("note", "letter of the expectation in the list below", |case| {
             expectations.iter().position(|known| *known == case.expectation()).map(letter)
         })
         .flush_left(),
@@ -110,7 +114,7 @@ fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColu
     ]
 }
 
-/// The work of a case for the target error, over that of the cheapest one.
+/// The work of a case for the target error, over that of the cheapest case.
 fn cost(case: &CaseOutcome, rankings: &[Ranking]) -> Option<f64> {
     let of_case = |ranking: &Ranking| {
         let k = ranking.targets.iter().position(|target| *target == TARGET)?;
@@ -138,7 +142,7 @@ fn letter(k: usize) -> String {
     if k < 26 { last.to_string() } else { format!("{}{last}", letter(k / 26 - 1)) }
 }
 
-/// Remarks on single cases beside their figures.
+/// Remarks on single cases.
 fn remarks(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let of_case = |case: &'_ CaseOutcome| {
         let remarks = KINDS.iter().flat_map(|kind| kind.remarks(case));

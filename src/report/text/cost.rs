@@ -1,5 +1,6 @@
-//! Tables of cost: the work of each method for an error and for one more digit, next to theory; and
-//! the reports of timed suites, whose figures depend on the machine and are in no snapshot.
+//! Tables of cost: the work of each method for a target error and for one more digit, compared with
+//! theory. Also the reports of timed suites, whose figures depend on the machine and are not in
+//! snapshots.
 //!
 //! In snapshots work is counted in particle-node transfers, which are the same on every machine.
 
@@ -7,10 +8,10 @@ use super::table::Table;
 use crate::report::columns::{TableColumn, cost as columns, short, timed_level};
 use crate::verify::{BestCandidate, Interval, Machine, Model, Ranked, Ranking, TimedSuite};
 
-/// The unit of work that is counted.
+/// The unit of counted work.
 const TRANSFERS: &str = "particle-node transfers";
 
-/// The tables of a ranking, `work` being its unit.
+/// The tables of a ranking; `work` is the unit of work.
 pub fn cost(ranking: &Ranking, work: &str) -> String {
     let mut lines = vec![format!("== cost, {} ==", ranking.problem)];
     lines.push(format!("  {:18}{}", "error", relative(ranking)));
@@ -42,7 +43,7 @@ pub(crate) fn cheapest(ranking: &Ranking) -> Option<String> {
         .then(|| format!("{} {TRANSFERS}; errors {}", best.join("; "), relative(ranking)))
 }
 
-/// The size that errors are divided by.
+/// The scale of the errors, as text.
 fn relative(ranking: &Ranking) -> String {
     if ranking.size == 1.0 {
         return "as judged, relative to the scale of the suite".to_owned();
@@ -62,7 +63,7 @@ pub fn timed(timed: &TimedSuite) -> String {
     let (by_seconds, by_transfers) = (timed.by_seconds(), timed.by_transfers());
     for (seconds, transfers) in by_seconds.iter().zip(&by_transfers) {
         text += &format!("\n{}", cost(seconds, "seconds"));
-        // A solver of another program has none to count.
+        // An external solver has no counted passes.
         if timed.levels.iter().flatten().any(|(load, _)| load.transfers > 0.0) {
             text += &format!("\n{}", cost(transfers, TRANSFERS));
         }

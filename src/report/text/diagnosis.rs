@@ -6,7 +6,7 @@ use crate::report::columns::TableColumn;
 
 use crate::verify::{Cause, ChangedRun, Diagnosis, Evidence, Interval, Verdict};
 
-/// The diagnosis of one case: a paragraph, and a table of the runs behind it.
+/// The diagnosis of one case: a paragraph, and a table of its runs.
 pub fn diagnosis(found: &Diagnosis) -> String {
     let mut lines = vec![format!("== {} ==", found.case)];
     paragraph_lines(&mut lines, &paragraph(found));
@@ -104,7 +104,7 @@ fn error_of_run(found: &Diagnosis, run: &ChangedRun) -> String {
     format!("the finest error is {after:.3e}, {share} {before:.3e}{relative}")
 }
 
-/// A positive ratio, as what precedes the whole.
+/// A positive ratio as text before `of ...`.
 fn share(ratio: f64) -> String {
     if ratio < 1e-4 {
         format!("{ratio:.0e} of")
@@ -115,7 +115,7 @@ fn share(ratio: f64) -> String {
     }
 }
 
-/// The remedy of a cause, or why there is none.
+/// The remedy of a cause, or the reason why there is none.
 fn remedy(cause: &Cause<'_>) -> Option<String> {
     let label = match cause {
         Cause::Run(_, Evidence::Raised | Evidence::Lowered) => "Partial remedy",

@@ -1,14 +1,15 @@
 //! Has a report drifted? Two texts compared number by number.
 //!
-//! Words must be the same. Whole numbers (counters) must be the same. Decimal numbers may differ
-//! by [`RELATIVE`], or by one unit in the last place that is printed; a number that is not finite
-//! equals nothing, not even itself. So a snapshot keeps its text over the last bits of another
-//! platform, and shows any change that a reviewer should see.
+//! Words must be equal. Whole numbers (counters) must be equal. Decimal numbers may differ by
+//! [`RELATIVE`], or by one unit in the last printed digit; a number that is not finite equals
+//! nothing, not even itself. So a snapshot is not changed by the last bits of another platform, and
+//! shows any relevant change.
 
 /// Largest relative difference of two decimal numbers that count as equal.
 pub const RELATIVE: f64 = 1e-3;
 
-/// Whether `new` says the same as `old`. Runs of spaces count as one: a column may become wider.
+/// Whether `new` and `old` are equal up to tolerances. Runs of spaces count as one: a column may
+/// become wider.
 pub fn same(old: &str, new: &str) -> bool {
     let (old, new) = (old.trim_end(), new.trim_end());
     old.lines().count() == new.lines().count()

@@ -22,7 +22,7 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     richardson(lines, studies);
 }
 
-/// The levels themselves, once for all cases that have the same.
+/// The levels, once for all cases with the same levels.
 fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     for (levels, names) in shared(studies.iter().map(|(name, study)| (*name, setting(study)))) {
         row(lines, "levels", &format!("{levels}{names}"));
@@ -31,7 +31,7 @@ fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
 
 /// `8, 16, 32 cells; h = 0.125 ... 0.03125 m; dt = ... s; 4 ppc; 32 ... 128 particles; ... steps`.
 fn setting(study: &Convergence) -> String {
-    // A level that broke has taken fewer steps than it should.
+    // A failed level has fewer steps than planned.
     let levels = || study.levels.iter().filter(|level| level.run.failure.is_none());
     let span = |value: &dyn Fn(&LevelOutcome) -> Option<String>| {
         let mut values: Vec<String> = levels().filter_map(value).collect();
@@ -78,7 +78,7 @@ fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let Some((_, first)) = studies.first() else { return };
     let judged = first.judged();
     if first.levels.len() == 1 {
-        // Its error stands beside the verdict.
+        // The error is in the row of the verdict.
         return row(lines, "judged", &judged);
     }
     by_level(lines, &judged, studies, &[level::judged(), level::order()]);
@@ -119,7 +119,10 @@ fn by_level<'a>(
         let cells = columns.iter().flat_map(of_column);
         std::iter::once((*name).to_owned()).chain(cells).collect()
     };
-    let rows = studies.iter().map(cells).collect();
+    let rows: Vec<Vec<String>> = studies.iter().map(cells).collect();
+    if rows.iter().all(|row| row[1..].iter().all(String::is_empty)) {
+        return;
+    }
     lines.extend([String::new(), format!("  {heading}")]);
     lines.extend(Table::of_cells(headings, rows).without_empty_columns().merged().lines());
 }
@@ -127,7 +130,7 @@ fn by_level<'a>(
 /// The name of a case and a level of its study.
 type NamedLevel<'a> = (&'a str, LevelRow<'a>);
 
-/// A table of the finest levels, a row for each case, under a heading; none if nothing is in it.
+/// A table of the finest levels under a heading, one row per case; nothing if all cells are empty.
 fn by_case<'a>(
     lines: &mut Vec<String>,
     heading: &str,
@@ -155,7 +158,7 @@ fn finest(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_case(lines, "on the finest level", studies, columns);
 }
 
-/// How far totals drifted, of those that the suite asks for.
+/// Table of the drifts of the conserved sums that the suite reports.
 fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let sums = distinct(studies.iter().flat_map(|(_, study)| study.drifts.iter().copied()));
     let asked: Vec<NamedStudy<'_>> =
@@ -168,7 +171,7 @@ fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     );
 }
 
-/// How fast the energy grows or decays on the finest level, where the suite asks.
+/// Table of the growth or decay rate of the energy on the finest level, if the suite reports it.
 fn rates(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let rated: Vec<NamedStudy<'_>> =
         studies.iter().filter(|(_, study)| study.rated).copied().collect();
@@ -192,7 +195,7 @@ fn richardson(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     };
     let mut rows: Vec<Triple> = studies.iter().flat_map(triples).collect();
     let (Some(place), all @ 1..) = (place, rows.len()) else { return };
-    // Of levels that do not converge monotonically there is no estimate.
+    // Levels that do not converge monotonically have no estimate.
     rows.retain(|row| row.found.extrapolated.is_some());
     let converging = rows.len();
     lines.push(String::new());

@@ -18,13 +18,13 @@ pub fn profile(profile: &Profile) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// The effects that are active, or the word for none.
+/// The active effects, or `none`.
 pub(crate) fn effects(profile: &Profile, none: &str) -> String {
     if profile.effects.is_empty() { none.to_owned() } else { profile.effects.join(", ") }
 }
 
-/// Differences of two profiles: the lines of the first that the second has not, and those that it
-/// has instead.
+/// Differences of two profiles: lines of the first that are missing in the second, and the lines in
+/// their place.
 pub fn difference(with: &Profile, without: &Profile) -> Vec<(&'static str, String)> {
     let rows = profile(with).into_iter().zip(profile(without));
     let changed = rows.filter(|((_, before), (_, after))| before != after);
@@ -42,7 +42,7 @@ fn visits(profile: &Profile) -> String {
     profile.visits.iter().map(part).collect::<Vec<_>>().join(", ")
 }
 
-/// `168 B: X 16, x 16, ...`, the columns with fewer entries than there are holders after them.
+/// `168 B: X 16, x 16, ...`; columns with fewer entries than holders come last.
 fn memory(profile: &Profile, holder: Holder) -> String {
     let holders = profile.holders(holder);
     let (whole, partial): (Vec<&ColumnSize>, Vec<&ColumnSize>) = profile
@@ -89,7 +89,7 @@ pub fn profiles(outcomes: &[SuiteOutcome]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The dimension of the positions that a profile keeps.
+/// The dimension, from the positions in the profile.
 fn dimension(profile: &Profile) -> usize {
     let position = profile.columns.iter().find(|column| column.name == "X");
     position.map_or(0, |column| column.bytes / size_of::<f64>())
@@ -125,7 +125,7 @@ fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     table.flush_left(&["effects"]).lines()
 }
 
-/// Bytes of a holder: everywhere, and where something acts only.
+/// Bytes per holder: everywhere, and only where an effect acts.
 fn bytes(profile: &Profile, holder: Holder) -> [usize; 2] {
     let whole = profile.holders(holder);
     let of_holder = || profile.columns.iter().filter(|column| column.holder == holder);

@@ -1,4 +1,4 @@
-//! Proposed expectations, as the part of a suite that they would be.
+//! Proposed expectations, in the notation of suites.
 
 use super::prose::wrap;
 use crate::verify::{Convergence, Proposal, ProposedKey, SuiteOutcome, propose};
@@ -6,19 +6,18 @@ use crate::verify::{Convergence, Proposal, ProposedKey, SuiteOutcome, propose};
 /// Width of a suite's text.
 const WIDTH: usize = 96;
 
-/// Indent of a list of cases that goes on.
+/// Indent of a continued list of cases.
 const LIST: &str = "           ";
 
 /// Cases with the same proposal.
 struct Group<'a> {
     proposal: Proposal,
-    /// Name, and what was seen.
+    /// Name, and observed value.
     cases: Vec<(&'a str, String)>,
 }
 
-/// The `expect` of a suite, from what its cases gave: one entry for all cases that have the same.
-/// Comments say where each key comes from, and what would make the claim stronger; `remarks` on the
-/// suite come first.
+/// The proposed `expect` of a suite: one entry for all cases with the same proposal. Comments state
+/// the origin of each key, and ways to a stronger expectation; `remarks` on the suite come first.
 pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) -> String {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for (case, study) in outcome.results::<Convergence>() {
@@ -37,7 +36,8 @@ pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) 
     let mut lines = Vec::new();
     remarks.for_each(|remark| folded(&mut lines, "# ", &remark));
     lines.push("expect:".to_owned());
-    // An external solver is one method of its suite, and proposes nothing for others.
+    // An external solver is one method of its suite, and its results give no proposals for other
+    // methods.
     let is_external = outcome.cases.iter().any(|case| case.subject == "external");
     let alone = groups.len() == 1 && !is_external;
     for group in &groups {

@@ -7,12 +7,12 @@ use crate::report::figure::map::{column_head, merged_fields};
 use crate::report::figure::{Map, MapField};
 use crate::verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
 
-/// The studies of a suite that seek a limit, with the names of their cases.
+/// The studies of a suite that search for a limit, with the names of their cases.
 fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_some()).collect()
 }
 
-/// The same as a figure.
+/// Map of the stability limits of all cases of a suite; `None` without such studies.
 pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
     let studies = seeking(outcome);
     let (_, first) = studies.first()?;
@@ -48,7 +48,7 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     trials(lines, &others);
 }
 
-/// Values that could not be tried, and runs that did not come to their end.
+/// Remarks on values without a run, and runs that did not reach their end.
 pub(crate) fn remarks(study: &StabilityStudy) -> Vec<String> {
     let remark = |row: &StabilityRow| {
         let why = row.trial.as_ref().and_then(|trial| trial.why.as_ref());

@@ -4,7 +4,7 @@ use crate::report::columns::TableColumn;
 use crate::report::grouping::{distinct, grouped};
 use std::borrow::Borrow;
 
-/// A line of headings and rows of cells, set flush right unless their column says otherwise.
+/// A line of headings and rows of cells, which are aligned to the right by default.
 #[derive(Debug)]
 pub(crate) struct Table {
     rows: Vec<Vec<String>>,
@@ -27,13 +27,13 @@ impl Table {
         }
     }
 
-    /// Rows of cells under headings, the first column flush left.
+    /// Rows of cells under headings, the first column aligned to the left.
     pub(crate) fn of_cells(headings: Vec<String>, rows: Vec<Vec<String>>) -> Self {
         let flush_left = (0..headings.len()).map(|column| column == 0).collect();
         Self { rows: std::iter::once(headings).chain(rows).collect(), flush_left }
     }
 
-    /// The same with columns flush left that have these headings.
+    /// This table with the columns of these headings aligned to the left.
     pub(crate) fn flush_left(mut self, headings: &[&str]) -> Self {
         for (flush_left, heading) in self.flush_left.iter_mut().zip(&self.rows[0]) {
             *flush_left |= headings.contains(&heading.as_str());
@@ -41,19 +41,19 @@ impl Table {
         self
     }
 
-    /// Whether there is no row but the headings.
+    /// Whether there are no rows except the headings.
     pub(crate) fn is_empty(&self) -> bool {
         self.rows.len() == 1
     }
 
-    /// Rows that show the same as one, whose first cell has the names of all.
+    /// Merges rows with equal cells; the first cell lists all names.
     pub(crate) fn merged(mut self) -> Self {
         let rows = self.rows.split_off(1);
         self.rows.extend(merged(rows));
         self
     }
 
-    /// Drops every column with dashes in all rows but the headings.
+    /// Drops every column with dashes in all rows except the headings.
     pub(crate) fn without_empty_columns(self) -> Self {
         self.without_columns_of("-")
     }
@@ -85,8 +85,8 @@ impl Table {
         self.aligned(&(0..columns).map(width).collect::<Vec<_>>())
     }
 
-    /// The lines with columns of fixed widths by heading: a wider cell moves the rest of its own
-    /// line, and no other line. Columns that `widths` does not list are as wide as their headings.
+    /// The lines, with fixed column widths by heading: a wider cell shifts the rest of its line
+    /// only. Columns that `widths` does not list are as wide as their headings.
     pub(crate) fn lines_of_widths(&self, widths: &[(&str, usize)]) -> Vec<String> {
         let width = |heading: &String| {
             let listed = widths.iter().find(|(known, _)| known == heading);
@@ -108,16 +108,16 @@ impl Table {
     }
 }
 
-/// Names may come from a file: none of their characters may steer a terminal.
+/// Replaces control characters: names may come from a file, and must not control a terminal.
 pub(crate) fn printable(text: &str) -> String {
     let safe = |c: char| if c.is_control() { '\u{fffd}' } else { c };
     text.chars().map(safe).collect()
 }
 
-/// Longest name that rows are given together.
+/// Maximum length of the joint name of merged rows (characters).
 const LONGEST: usize = 44;
 
-/// Rows whose first cell is a name: where all other cells are the same, one row under both names.
+/// Merges rows whose cells after the name are equal into one row with both names.
 fn merged(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     let mut kept: Vec<(Vec<String>, Vec<String>)> = Vec::new();
     for mut row in rows {
@@ -139,24 +139,26 @@ fn merged(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     kept.into_iter().map(row).collect()
 }
 
-/// Different values, each with the names of those that have it in brackets, where not all do.
+/// Distinct values, each with the names that have it in brackets, unless all have the same value.
 pub(crate) fn shared<'a>(
     values: impl Iterator<Item = (&'a str, String)>,
 ) -> impl Iterator<Item = (String, String)> {
     let found = grouped(values.map(|(name, value)| (value, name)));
     let most = found.iter().map(|(_, names)| names.len()).max().unwrap_or(0);
     let single = found.len() == 1;
+    // Several groups of the same size would all be the others.
+    let is_largest_alone = found.iter().filter(|(_, names)| names.len() == most).count() == 1;
     found.into_iter().map(move |(value, names)| {
         let of = match names.len() {
             _ if single => String::new(),
-            count if count == most && count > 2 => " (all others)".to_owned(),
+            count if count == most && count > 2 && is_largest_alone => " (all others)".to_owned(),
             _ => format!(" ({})", together(&names)),
         };
         (value, of)
     })
 }
 
-/// Names as one, with what differs between braces: `mpm-{linear,ugimp}-flip-usl`.
+/// Several names as one, with the differences in braces: `mpm-{linear,ugimp}-flip-usl`.
 pub(crate) fn together(names: &[&str]) -> String {
     let names: Vec<Vec<String>> = names.iter().map(|name| words(name)).collect();
     let Some((first, others)) = names.split_first() else { return String::new() };
@@ -177,7 +179,7 @@ pub(crate) fn together(names: &[&str]) -> String {
     })
 }
 
-/// Names of all combinations of words: `mpm-{linear,ugimp}-{flip,apic}`.
+/// One text for the names of all combinations of words: `mpm-{linear,ugimp}-{flip,apic}`.
 fn product(first: &[String], names: &[Vec<String>]) -> Option<String> {
     let at = |k: usize| {
         names.iter().map(|name| name.get(k)).collect::<Option<Vec<&String>>>().map(distinct)
@@ -192,7 +194,7 @@ fn product(first: &[String], names: &[Vec<String>]) -> Option<String> {
     is_whole.then(|| choices.iter().map(word).collect::<Vec<_>>().join("-"))
 }
 
-/// The words of a name; the degree of a spline is one with it.
+/// Splits a name into words; `bspline` and its degree form one word.
 fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for word in name.split('-') {

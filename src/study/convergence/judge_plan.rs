@@ -12,7 +12,7 @@ use crate::verify::{
     single_precision_spacing,
 };
 
-/// The plan by which a case is judged, whose errors are taken against `truth`.
+/// The plan for the judgement of a case, whose errors are measured against `truth`.
 pub(super) fn judge_plan<'a>(
     plan: &'a ConvergencePlan,
     case: &'a Case,
@@ -36,18 +36,19 @@ pub(super) fn judge_plan<'a>(
     }
 }
 
-/// Distance (m) of neighbouring positions that the solver of a case rounds to, if it computes in
-/// single precision, its displacement is judged and a formula gives the motion.
+/// Spacing (m) of the floating-point numbers of positions in a solver in single precision, if its
+/// displacement is judged and the motion is given by formulas.
 fn position_spacing(plan: &ConvergencePlan, case: &Case) -> Option<f64> {
     let is_judged = plan.of == Quantity::Displacement && case.against != Against::Nothing;
     let exact = plan.exact.as_ref().filter(|_| is_judged && case.method.is_single_precision())?;
     single_precision_spacing(Extremes::of(exact).largest_coordinate())
 }
 
-/// The sums over the body that a case has, for an author who has not bounded any.
+/// The conserved sums of a case without bounds on drifts.
 fn sums(plan: &ConvergencePlan, case: &Case) -> Vec<Conserved> {
     let dimension = plan.scene.dimension();
-    let has_energy = plan.scene.material.properties().has_energy(dimension).is_ok();
+    let of_law = plan.scene.material.properties().has_energy(dimension).is_ok();
+    let has_energy = of_law && !case.method.averages_volume();
     let has = |sum: &Conserved| match sum {
         Conserved::AngularMomentum => dimension > 1,
         Conserved::Energy => has_energy,
@@ -101,18 +102,19 @@ pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
     }
 }
 
-/// Euler-Cromer is a leapfrog, of order 2, if it starts as one: with `v(-dt/2)`. `v(0)` in its
-/// place is a push of `dt/2 a(0)`, and order 1 unless a(0) = 0. USF adds `dt grad v` of the first
-/// velocity to F before anything has moved: order 1 unless v(0) = 0. (That USL and USF keep terms
-/// of first order, of h^2 and of the strain squared, is for suites to say: temporal-order.) Where
-/// no formula tells, neither is taken as zero.
+/// Formal order in time. Euler-Cromer is a leapfrog, of order 2, if it starts with `v(-dt/2)`.
+/// Starting with `v(0)` instead is a velocity error of `dt/2 a(0)`: order 1 unless `a(0)` is zero.
+/// USF adds `dt grad v` of the initial velocity to F before the first motion: order 1 unless `v(0)`
+/// is zero. (The first-order terms of USL and USF, proportional to h^2 and to the strain squared,
+/// are the subject of the suite temporal-order.) Without a formula for the motion, both `v(0)` and
+/// `a(0)` are assumed to be non-zero.
 pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
         Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),
         Method::Fem { start, .. } => (start, false),
         // Forward Euler.
         Method::Heat { .. } => return 1.0,
-        // What is told of such a solver is its order in space: none in time is known.
+        // An external solver claims an order in space only; the same value is used here.
         Method::External { formal_order, .. } => return formal_order,
     };
     let [moves, accelerates] = exact.map_or([true, true], begins);
@@ -151,12 +153,12 @@ fn begins(problem: &Problem) -> [bool; 2] {
     [first[0] > AT_REST * ever[0], first[1] > AT_REST * ever[1]]
 }
 
-/// Intervals of the sampling raster along each axis and in time, in 1-D and 2-D, and in 3-D, where
-/// it has many points. Even numbers, so that the middle is a point.
+/// Intervals of the sampling raster along each axis and in time, in 1-D and 2-D; a smaller number
+/// is used in 3-D. Even numbers, so that the middle is a point.
 const FINE: usize = 20;
 const COARSE: usize = 8;
 
-/// The error scale of `case`, whose errors are taken against `truth`.
+/// The error scale of `case`, whose errors are measured against `truth`.
 pub(crate) fn error_scale(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
     ErrorScale {
         problem: format!("until t = {} s, against {}", case.until, case.against.words()),
@@ -177,7 +179,8 @@ fn size(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
 
 /// Largest exact value of the judged quantity over the body and the run.
 pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
-    // Shorter steps know their own labels only; a formula of the same motion knows every place.
+    // A run with shorter steps has values at its own labels only; a formula of the motion has
+    // values everywhere.
     let formula = plan.exact.as_ref().map(|exact| exact as &dyn Truth);
     let is_same = matches!(case.against, Against::SameMethod(_));
     let truth = if is_same { formula.unwrap_or(truth) } else { truth };
@@ -203,8 +206,8 @@ fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
     (0..(per_axis + 1).pow(scene.dimension() as u32)).map(place).filter(inside).collect()
 }
 
-/// Powers of one over the spacing by which work grows in theory. The rule of the time step is read
-/// off the levels, so that it may be any formula.
+/// Theoretical growth of the work, as a power of 1/spacing. The dependence of the time step is
+/// taken from the levels, so that it may be any formula.
 fn growth(plan: &ConvergencePlan) -> f64 {
     let d = plan.scene.dimension() as f64;
     let levels = &plan.refine.levels;

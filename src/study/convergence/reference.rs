@@ -8,9 +8,9 @@
 //! space.
 //!
 //! `FineSteps` separates the error of the time step from that of the grid. At the Courant limit of
-//! a body the error of the grid is larger and would hide that of the step. Methods that filter the
-//! velocity in every step (PIC, APIC) have no such limit. Neither `FineGrid` nor `FineSteps` checks
-//! that the limit of the method is right: suites with exact solutions do.
+//! a body the error of the grid is larger and would hide the error of the step. Methods that filter
+//! the velocity in every step (PIC, APIC) have no such limit. Neither `FineGrid` nor `FineSteps`
+//! checks that the method converges to the right solution: suites with exact solutions do.
 
 use crate::exact::Truth;
 use crate::fem::Bar;
@@ -24,8 +24,8 @@ use crate::suite::scene::grid_size::cell_size;
 use crate::verify::error::observer::lagrange_weights;
 use std::cmp::Ordering;
 
-/// Displacement and velocity of a fine bar, kept at every instant of the study. Only asked at
-/// instants, so nothing is interpolated in time.
+/// Displacement and velocity of a fine bar at every instant of the study. It is only evaluated at
+/// instants, so that there is no interpolation in time.
 pub(crate) struct Reference {
     until: f64,
     from: f64,
@@ -38,7 +38,7 @@ impl Reference {
     /// Runs the reference of `plan` to `until` (s).
     ///
     /// # Errors
-    /// One line that says why it could not be computed.
+    /// One line with the reason why it could not be computed.
     pub(crate) fn compute(plan: &ConvergencePlan, until: f64) -> Result<Self, String> {
         let fine = plan.reference.as_ref().ok_or("the suite declares no reference")?;
         let method = reference_method(fine);
@@ -71,7 +71,7 @@ impl Reference {
     }
 }
 
-/// The index of the instant nearest to `t` (s), of so many from 0 to `until`.
+/// The index of the instant nearest to `t` (s), of `count` instants from 0 to `until`.
 pub(crate) fn nearest_instant(t: f64, until: f64, count: usize) -> usize {
     let last = (count - 1) as f64;
     libm::round(t / until * last).clamp(0.0, last) as usize
@@ -91,7 +91,7 @@ impl Truth for Reference {
     }
 }
 
-/// Points on each axis that take part in an interpolation: of order 6, above that of any method.
+/// Number of points per axis of an interpolation: order 6, above that of any method.
 const NEAR: usize = 6;
 
 /// Displacement and velocity of a lattice of particles at the start and at every instant.
@@ -105,7 +105,7 @@ impl FineGrid {
     /// Runs the method of `case` on `level`, starting half a step back.
     ///
     /// # Errors
-    /// One line that says why that was not possible.
+    /// One line with the reason why this was not possible.
     pub(crate) fn compute(
         plan: &ConvergencePlan,
         case: &Case,
@@ -144,7 +144,8 @@ struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice that `labels` are, `d` numbers each, in any order; `None` if they are none.
+    /// The lattice formed by `labels`, `d` numbers each, in any order; `None` if they do not form
+    /// one.
     fn of(labels: &[f64], d: usize) -> Option<Self> {
         let axis = |axis: usize| {
             let mut all: Vec<f64> = labels.iter().skip(axis).step_by(d).copied().collect();
@@ -204,7 +205,7 @@ impl FineSteps {
     /// Runs the method of `case` with steps of `dt` (s), starting half a step back.
     ///
     /// # Errors
-    /// One line that says why that was not possible.
+    /// One line with the reason why this was not possible.
     pub(crate) fn compute(plan: &ConvergencePlan, case: &Case, dt: f64) -> Result<Self, String> {
         let level = plan.refine.levels.first().ok_or("no level")?;
         let mut states = Vec::new();
@@ -215,8 +216,8 @@ impl FineSteps {
         Ok(Self { until: case.until, dimension: now.dimension, order, states })
     }
 
-    /// The numbers of `field` at `wanted` at the instant nearest to `t`; NaN where there is no such
-    /// label.
+    /// The numbers of `field` at the label `wanted` at the instant nearest to `t`; NaN if there is
+    /// no such label.
     fn find(&self, field: fn(&Samples) -> &[f64], wanted: &[f64], t: f64, into: &mut [f64]) {
         let samples = &self.states[nearest_instant(t, self.until, self.states.len())];
         match self.order.binary_search_by(|p| compare(label(samples, *p), wanted)) {
@@ -228,11 +229,11 @@ impl FineSteps {
     }
 }
 
-/// Runs the method of `case` on `level`, starting half a step back, and shows the start and every
-/// instant. Returns what is seen at the end.
+/// Runs the method of `case` on `level`, starting half a step back, and passes the state at the
+/// start and at every instant to `show`. Returns the state at the end.
 ///
 /// # Errors
-/// One line that says why that was not possible.
+/// One line with the reason why this was not possible.
 pub(crate) fn run(
     plan: &ConvergencePlan,
     case: &Case,
@@ -292,7 +293,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A lattice of seven, three and two points (as far as `d` goes), in no order.
+    /// A lattice of seven, three and two points (for `d` axes), in random order.
     fn labels(d: usize) -> Vec<f64> {
         let counts = &[7, 3, 2][..d];
         let points: usize = counts.iter().product();
@@ -307,7 +308,8 @@ mod tests {
         (0..points).flat_map(point).collect()
     }
 
-    /// Of degree 5, 2 and 1 along the axes: what their points determine.
+    /// A polynomial of degree 5, 2 and 1 along the axes: these degrees are determined by the
+    /// points.
     fn field(label: &[f64]) -> Vec<f64> {
         let degrees = [5.0, 2.0, 1.0];
         let product: f64 = label.iter().zip(degrees).map(|(x, n)| 1.0 - libm::pow(*x, n)).product();

@@ -1,4 +1,4 @@
-//! Running a convergence study: every level of every case, judged.
+//! Runs a convergence study: judges every case from all its levels.
 
 use super::judge_plan::{judge_plan, rounding_sizes};
 use super::reference::FineGrid;
@@ -28,11 +28,11 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// Runs cases of a convergence study. What several cases share is computed once: a reference, and
-/// manufactured forces at the same places and times.
+/// Runs cases of a convergence study. Data of several cases are computed once: a reference, and
+/// manufactured forces at equal places and times.
 pub(crate) struct ConvergenceRunner<'a> {
     plan: ConvergencePlan,
-    /// Cases that have not run yet.
+    /// Number of cases that have not run yet.
     left: AtomicUsize,
     context: RunContext<'a>,
     references: Vec<(f64, OnceLock<Result<Reference, String>>)>,
@@ -72,7 +72,7 @@ impl CaseRunner for ConvergenceRunner<'_> {
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let outcome = self.outcome(index, progress);
-        // A gate keeps the runners of all suites until its end.
+        // A gate stores the runners of all suites until its end.
         let exact = self.plan.exact.as_ref();
         if self.left.fetch_sub(1, Ordering::Relaxed) == 1
             && let Some(forces) = exact.and_then(|exact| exact.shared_forces.as_ref())
@@ -118,7 +118,7 @@ impl<'a> ConvergenceRunner<'a> {
         ends.dedup();
         let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
         let mut plan = plan.clone();
-        // Where each case has steps of its own, times are never the same.
+        // If each case has its own steps, times differ.
         let same_times = plan.cases.len() > 1 && plan.refine.rule.is_none();
         if let Some(exact) = plan.exact.as_mut().filter(|exact| same_times && exact.manufactured) {
             exact.shared_forces = Some(Arc::default());
@@ -147,7 +147,7 @@ impl<'a> ConvergenceRunner<'a> {
         let mut outcome = if let Some(Gating::Excepted(reason)) = &case.gating {
             described(plan, case, None).excepted(reason.clone())
         } else if lacks.is_empty() {
-            // What a solver says it cannot do is no fault of it.
+            // A problem that the solver refuses is not a failure.
             self.run(case, expectation, progress).unwrap_or_else(|reason| {
                 not_applicable(plan, case, vec![reason], "cannot be put to it:")
             })
@@ -158,10 +158,10 @@ impl<'a> ConvergenceRunner<'a> {
         outcome
     }
 
-    /// Every level of a case, judged.
+    /// Runs every level of a case and judges the case.
     ///
     /// # Errors
-    /// One line that says why the case cannot be run.
+    /// One line with the reason why the case cannot be run.
     fn run(
         &self,
         case: &Case,
@@ -196,7 +196,7 @@ impl<'a> ConvergenceRunner<'a> {
         Ok(described(plan, case, expectation).judged(judge_case(&judging, levels?, &runs)))
     }
 
-    /// The same method with a shorter spacing, run for this case.
+    /// Runs this case with a shorter spacing, as the reference of the case.
     fn same_method(&self, case: &Case, same: SameMethod) -> Result<Box<dyn Truth>, String> {
         let plan = &self.plan;
         Ok(match same {
@@ -237,7 +237,7 @@ struct CaseRuns<'r, 'a> {
 }
 
 impl CaseRuns<'_, '_> {
-    /// One level, which keeps its errors over the body or not.
+    /// Runs one level; `keeps_field`: also stores its errors over the body.
     fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, String> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, fingerprint, solver, .. } = self.runner.context;
@@ -254,7 +254,7 @@ impl CaseRuns<'_, '_> {
         Ok(self.outcome(level, clock.dt(), run))
     }
 
-    /// One level, run as often as the context says, with the spread between the runs.
+    /// Runs one level as often as the context requires, and measures the spread between the runs.
     fn repeated(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, String> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, solver, repeat, .. } = self.runner.context;
@@ -300,7 +300,7 @@ impl CaseRuns<'_, '_> {
     }
 }
 
-/// The sizes of a level with the step that was taken.
+/// The sizes of a level with its actual step.
 fn taken(level: &LevelOutcome) -> LevelPlan {
     let LevelOutcome { cells, h, dt, ppc, .. } = *level;
     LevelPlan { cells, h, dt, ppc }

@@ -49,7 +49,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     rows
 }
 
-/// Rows that state the exact temperature; none without a heat problem.
+/// Rows that state the exact temperature; empty without a heat problem.
 fn exact_temperature(plan: &ConvergencePlan) -> Vec<(String, String)> {
     let Some(problem) = plan.heat_problem() else { return Vec::new() };
     let Conduction { temperature, manufactured, motion, .. } = problem;
@@ -95,7 +95,7 @@ fn judged(plan: &ConvergencePlan) -> String {
     plan.scale.map_or_else(|| judged.clone(), |scale| format!("{judged}, divided by {scale}"))
 }
 
-/// Time steps and particles; and cells, where it is not they that are refined.
+/// Rows of time steps and particles, and of cells if they are not refined.
 fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     let (plan, instants) = (&study.refine, study.instants);
     let list = |of: &dyn Fn(&LevelPlan) -> Option<u64>, levels: &[LevelPlan]| {
@@ -117,7 +117,7 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
         let share = shown(share);
         format!("{share} of the stable time step, case by case and level by level")
     });
-    push(rows, "dt", &format!("{dt}, to a whole number of steps"));
+    push(rows, "dt", &format!("{dt}, adjusted to a whole number of steps"));
     push(rows, "instants", &format!("{instants}"));
     if plan.has_particles() {
         let placed = placed(&study.scatter);
@@ -132,7 +132,7 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     push(rows, "--full adds", &full);
 }
 
-/// Places of the particles, in words.
+/// Positions of the particles, as text.
 fn placed(scatter: &LatticeOffsets) -> String {
     let LatticeOffsets { shift, perturb, seed } = scatter;
     if scatter.is_none() {
@@ -187,7 +187,7 @@ pub(crate) fn described(
     }
 }
 
-/// The outcome of a case that its solver cannot be put to.
+/// The outcome of a case that does not apply to its solver.
 pub(crate) fn not_applicable(
     plan: &ConvergencePlan,
     case: &Case,

@@ -1,10 +1,11 @@
-//! Time steps of levels: the stable step, the step by rule, and the steps that runs take.
+//! Time steps of levels: the stable step, the automatic step, and the step of a run.
 //!
-//! The stable step comes from [`crate::mpm::Solver::stable_time_step`], for the solver's own stages
-//! and the state at the start, and is at most `h/(c + |v|)`: neither a wave nor a particle crosses
-//! more than a cell. It is predicted before a run and holds for all of it, so that each level has
-//! one step and its order has a meaning. Where particles with linear functions move, later steps
-//! may have shorter limits (`tiny-nodal-mass`). The share of the rule is a margin for these.
+//! The stable step comes from [`crate::mpm::Solver::stable_time_step`], for the stages of the
+//! solver and the state at the start. It is at most `h/(c + |v|)`, so that neither a wave nor a
+//! particle crosses more than a cell. It is predicted before a run and constant during the run,
+//! because an order needs one step per level. If particles with linear functions move, later
+//! stability limits may be smaller (`tiny-nodal-mass`). An automatic step is a share of the stable
+//! step, as a margin for this.
 
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;
@@ -26,28 +27,29 @@ pub struct TimeStep {
     pub case: String,
     /// The level.
     pub level: LevelPlan,
-    /// Step that the suite asks for (s).
+    /// Requested time step (s).
     pub wanted: f64,
-    /// Steps that are taken.
+    /// Actual steps.
     pub clock: Clock,
 }
 
 impl TimeStep {
-    /// Share of the wanted step that is taken.
+    /// Ratio of the actual to the requested step.
     pub fn ratio(&self) -> f64 {
         self.clock.dt() / self.wanted
     }
 }
 
-/// The time steps of all cases and levels of `suite`; none for a study that takes no steps or
-/// chooses them as it runs. Levels that cannot be set up are left out: a run says why.
+/// The time steps of all cases and levels of `suite`; empty for a study without steps, or with
+/// steps that it chooses during the run. Excludes levels whose set-up fails: the run reports the
+/// reason.
 pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let steps = StableSteps::default();
     let mut found = Vec::new();
     for case in &plan.cases {
         for level in plan.refine.levels(extent) {
-            // A stated step is known without a look at the particles.
+            // A stated step does not depend on the particles.
             let stepped = match plan.refine.rule {
                 Some(_) => steps.of(plan, case, *level).map(|(level, _)| level),
                 None => Ok(*level),
@@ -78,7 +80,7 @@ pub struct PlannedLevel {
     pub courant: f64,
 }
 
-/// The levels of the gate of each case, in order; none of a study without levels.
+/// The levels of the gate of each case, in order; empty for a study without levels.
 pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let waves = plan.scene.fastest_wave();
@@ -100,22 +102,22 @@ pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
     all
 }
 
-/// Rounds of the prediction that a rule takes its step from.
+/// Rounds of the prediction for an automatic time step.
 pub(crate) const ROUNDS: u32 = 40;
 
-/// Rounds of the prediction that a stated step is held against first: as expensive as so many
-/// steps.
+/// Rounds of the first prediction with which a stated time step is compared; each round costs as
+/// much as a step.
 const FEW: u32 = 6;
 
-/// Share of the limit from few rounds above which a step is held against more rounds: few rounds
-/// overestimate the limit by up to one half.
+/// Share of the limit from few rounds above which a step is compared with a prediction from more
+/// rounds: few rounds overestimate the limit by up to 50 %.
 const NEAR: f64 = 0.6;
 
-/// A level with the step that is taken on it, and the stable time step (s) where that is known.
+/// A level with its time step, and the stable time step (s) if it is known.
 type Stepped = (LevelPlan, Option<f64>);
 
-/// Stable time steps (s) of a study, by what they depend on: those of methods that share one, and
-/// of levels that differ in their step only, are predicted once.
+/// Cache of the stable time steps (s) of a study, by the inputs of the prediction. Methods with
+/// equal inputs, and levels that differ only in their step, share one prediction.
 #[derive(Debug, Default)]
 pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<f64, String>>>);
 
@@ -133,8 +135,8 @@ impl StableSteps {
             let limit = limit(ROUNDS)?;
             return Ok((LevelPlan { dt: share * limit, ..level }, Some(limit)));
         }
-        // Iterations that have not settled give more than there is. A level that cannot be set up
-        // says so when it is run.
+        // Unconverged iterations overestimate the limit. The run reports a level whose set-up
+        // fails.
         let taken = taken(plan, case, level);
         let is_suspect = limit(FEW).is_ok_and(|limit| taken > NEAR * limit);
         let limit = if is_suspect { limit(ROUNDS).ok() } else { None };
@@ -177,18 +179,20 @@ impl StableSteps {
 
 /// The simplest method with the stable time step of `method`.
 fn simplest(method: Method) -> Method {
-    let Method::Mpm { basis, transfer, scheme, mass, frame, .. } = method else { return method };
+    let Method::Mpm { basis, transfer, scheme, mass, frame, volume, .. } = method else {
+        return method;
+    };
     let (scheme, transfer) = simplest_with_same_response(scheme, transfer);
-    Method::Mpm { basis, transfer, scheme, start: Start::AtZero, mass, frame }
+    Method::Mpm { basis, transfer, scheme, start: Start::AtZero, mass, frame, volume }
 }
 
-/// The step (s) that is taken.
+/// The actual step (s).
 fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     case.clock(plan, level.dt).map_or(level.dt, |clock| clock.dt())
 }
 
-/// Warning about a step that is longer than the stable time step, or not the one asked for, and
-/// whether it is too long.
+/// Warning about a step that is longer than the stable time step, or that differs from the
+/// requested one, and whether it is too long.
 fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<(String, bool)> {
     let clock = case.clock(plan, level.dt)?;
     let (dt, name, cells) = (clock.dt(), &case.name, level.cells);

@@ -1,11 +1,12 @@
 //! The most accurate setting that is done within a budget of seconds.
 //!
-//! For every method the seconds of its finest level predict the finest grid within the budget, and
-//! its levels the error there; only a method that still converges is taken beyond the levels that
-//! the suite lists. The best one is then run on ever finer grids, until one twice as fine as the
-//! last is beyond the budget: their seconds make a cost model, and their errors are judged with
-//! those of the suite. If it promises less than another method then, that one is tried; the best
-//! one of those tried is run at the finest grid within the budget.
+//! For every method, the time of its finest level predicts the finest grid within the budget, and
+//! the errors of its levels predict the error there. Only a method that still converges is
+//! extrapolated beyond the levels of the suite. The best method is then run on finer and finer
+//! grids, until a grid twice as fine as the last one exceeds the budget. These runs give a cost
+//! model, and their errors are judged together with those of the suite. If the new prediction is
+//! worse than that of another method, this method is tried too. The best method of those tried is
+//! run at the finest grid within the budget.
 //!
 //! Methods are compared by the upper ends of their errors.
 
@@ -17,7 +18,8 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Suite};
 use crate::verify::{Axis, BestCandidate, Interval, Model, Workload, by_transfers};
 
-/// Runs that a model is fitted to: the finest ones, the others say little of a long run.
+/// Number of finest runs to which a model is fitted: coarse runs are not representative of long
+/// runs.
 const FITTED: usize = 6;
 
 /// Repeats of each,
@@ -26,10 +28,10 @@ const REPEATS: usize = 3;
 /// unless it takes this share of the budget: then it is run once.
 const LONG: f64 = 0.05;
 
-/// Chooses a setting of `suite` for a budget of so many seconds, runs it, and says what came.
+/// Chooses a setting of `suite` for a budget (s), runs it, and returns the result.
 ///
 /// # Errors
-/// One line that says why nothing can be chosen.
+/// One line with the reason why nothing can be chosen.
 pub fn best_candidate(suite: &Suite, budget: f64) -> Result<BestCandidate, String> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else {
         return Err("the suite refines nothing".to_owned());
@@ -71,7 +73,7 @@ pub fn best_candidate(suite: &Suite, budget: f64) -> Result<BestCandidate, Strin
 /// A method on the finest grid within the budget.
 struct Setting {
     candidate: Candidate,
-    /// Model of the seconds, and the runs that it is fitted to; none before the method is tried.
+    /// Cost model, and the number of runs to which it is fitted; `None` before the method is tried.
     model: (Model, Option<usize>),
     level: LevelPlan,
     error: Interval,
@@ -121,7 +123,7 @@ impl Setting {
 }
 
 impl Candidate {
-    /// The candidate with the errors of ever finer levels, and the seconds that these take.
+    /// The candidate with the errors of finer and finer levels, and their times.
     fn judged_within(
         self,
         suite: &Suite,

@@ -1,4 +1,4 @@
-//! A method that may be chosen for a budget: what its levels would take, and give.
+//! A method that may be chosen for a budget: predicted time and error of its levels.
 
 use super::measure::{load, seconds};
 use crate::study::runner::Runner;
@@ -11,27 +11,27 @@ use crate::verify::{
 };
 use std::sync::Arc;
 
-/// How many times finer than the levels of a suite a method is tried.
+/// Maximum refinement of a method beyond the levels of the suite.
 const FINER: u64 = 8;
 
-/// How many times finer than all levels that have been judged an error is predicted at last.
+/// Maximum refinement beyond all judged levels at which an error is predicted.
 pub(crate) const REACH: u64 = 2;
 
 /// A method that may be chosen.
 pub(crate) struct Candidate {
-    /// The plan of this case alone.
+    /// A plan with this case only.
     pub(crate) plan: ConvergencePlan,
     pub(crate) case: Case,
     pub(crate) study: Convergence,
     pub(crate) ranked: Ranked,
     pub(crate) error: PredictedError,
-    /// Number that all cells are a multiple of, as those that the suite lists are.
+    /// Common divisor of the numbers of cells of the suite.
     pub(crate) stride: u64,
-    /// How many times finer than its levels it may be chosen.
+    /// Maximum refinement beyond its levels at which it may be chosen.
     pub(crate) reach: u64,
 }
 
-/// The method of a ranking; none if it converges nowhere.
+/// The method of a ranking; `None` if it does not converge.
 pub(crate) fn candidate(
     plan: &ConvergencePlan,
     cases: &[CaseOutcome],
@@ -60,8 +60,8 @@ impl Candidate {
         &self.study.levels[self.ranked.part.levels.end - 1]
     }
 
-    /// A level with so many cells: its time step follows the rule of the two finest levels that the
-    /// suite lists.
+    /// A level with `cells` cells, whose time step follows the rule of the two finest levels of the
+    /// suite.
     pub(crate) fn level(&self, cells: u64) -> LevelPlan {
         let levels = &self.plan.refine.levels;
         if let Some(known) = levels.iter().find(|level| level.cells == cells) {
@@ -72,7 +72,7 @@ impl Candidate {
         let h = last.h * last.cells as f64 / cells as f64;
         let rule = libm::log(before.dt / last.dt) / libm::log(before.h / last.h);
         let rule = if rule.is_finite() { rule } else { 0.0 };
-        // A step that stays as it is would be beyond its Courant limit sooner or later.
+        // A constant step would exceed its Courant limit on a fine grid.
         let rule = if h < last.h { rule.max(1.0) } else { rule };
         LevelPlan { cells, h, dt: last.dt * libm::pow(h / last.h, rule), ..last }
     }
@@ -104,7 +104,8 @@ impl Candidate {
         Ok((model, model.predict(&coarsest)))
     }
 
-    /// The same method with levels of `cells` too, run and judged with those of the suite.
+    /// This method with additional levels of `cells` cells, run and judged with the levels of the
+    /// suite.
     pub(crate) fn judged_with(&self, suite: &Suite, cells: &[u64]) -> Option<Self> {
         let mut plan = self.plan.clone();
         plan.refine.levels.truncate(self.study.levels.len());
@@ -124,12 +125,12 @@ impl Candidate {
         finest.saturating_mul(reach).min(self.most_known())
     }
 
-    /// Cells of the finest level whose error the truth knows.
+    /// Maximum number of cells of a level for which the reference is accurate enough.
     fn most_known(&self) -> u64 {
         self.case.against.fine_grid().map_or(u64::MAX, |level| level.cells / FINE_GRID)
     }
 
-    /// Why a level is the finest that is considered, if it is.
+    /// Why a level is the finest one considered; `None` if it is not.
     pub(crate) fn limit(&self, level: LevelPlan) -> Option<String> {
         let next = level.cells.saturating_add(self.stride);
         let last = next > self.most_cells();
@@ -142,8 +143,8 @@ impl Candidate {
         })
     }
 
-    /// The finest level that is predicted to be done in time. Beyond the levels that have run only
-    /// where an error is predicted.
+    /// The finest level that is predicted to finish in time. Levels beyond those that have run are
+    /// only considered if their error can be predicted.
     pub(crate) fn finest_within(&self, model: &Model, budget: f64) -> Option<LevelPlan> {
         let most = self.most_cells();
         let first = self.study.levels[self.ranked.part.levels.start].cells;

@@ -1,4 +1,4 @@
-//! The coarsest level of each method that reaches an error: what a benchmark of accuracy times.
+//! The coarsest level of each method that reaches a target error, for benchmarks of accuracy.
 
 use super::measure::seconds;
 use crate::study::runner::Runner;
@@ -15,9 +15,9 @@ pub struct Goal<'a> {
     error: f64,
 }
 
-/// For every method of the suite's first problem the cheapest level that it lists, of those over
-/// which the method converges, whose error over the size of the solution is at most `target`; the
-/// cheapest method first. Methods that do not reach it are left out.
+/// For every method of the first problem of the suite, the cheapest listed level in its converging
+/// part whose error over the size of the solution is at most `target`, sorted by cost. Excludes
+/// methods that do not reach it.
 pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let ranked = by_transfers(&Runner::new(suite).run(&|| ()).cases);
@@ -47,15 +47,15 @@ impl Goal<'_> {
         self.level.cells
     }
 
-    /// Error over the size of the solution, of the run that was judged.
+    /// Error over the size of the solution, from the judged run.
     pub fn error(&self) -> f64 {
         self.error
     }
 
-    /// Sets the level up and takes its steps; the seconds of the steps.
+    /// Sets up the level and runs its steps; returns the time of the steps (s).
     ///
     /// # Errors
-    /// One line that says why it cannot be set up.
+    /// One line with the reason why it cannot be set up.
     pub fn seconds(&self) -> Result<f64, String> {
         seconds(self.plan, self.case, self.level)
     }

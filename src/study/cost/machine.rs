@@ -9,7 +9,7 @@ use std::time::Instant;
 /// Rounds of the loop: about a millisecond.
 const ROUNDS: u32 = 250_000;
 
-/// A thread that has no other to share work with; none where the system gives none.
+/// A pool of one thread; `None` if the system cannot create one.
 static ALONE: LazyLock<Option<ThreadPool>> =
     LazyLock::new(|| ThreadPoolBuilder::new().num_threads(1).build().ok());
 
@@ -29,8 +29,8 @@ pub(crate) struct Observed {
     waited: Option<f64>,
 }
 
-/// Time of a piece of work (s): wall time, and the part in which this thread waited for a core that
-/// ran something else, where the system reports it.
+/// Time (s) of a piece of work: wall time, and the part in which this thread waited for a core, if
+/// the system reports it.
 pub(crate) struct LoadMonitor {
     start: Instant,
     waited: Option<f64>,
@@ -46,7 +46,7 @@ impl LoadMonitor {
     pub(crate) fn stop(self) -> f64 {
         let passed = self.start.elapsed().as_secs_f64();
         let idle = self.waited.zip(waited()).map_or(0.0, |(before, after)| after - before);
-        // A value that is not positive is not to be trusted.
+        // A value that is not positive is invalid.
         if idle > 0.0 && idle < passed { passed - idle } else { passed }
     }
 }
@@ -66,7 +66,7 @@ impl Observed {
         Self { load: load(), loops, passed: Instant::now(), waited: waited() }
     }
 
-    /// Times the loop once.
+    /// Runs and times the loop once.
     pub(crate) fn look(&mut self) {
         let watch = LoadMonitor::start();
         let mut x = black_box(0.5_f64);
@@ -91,7 +91,7 @@ impl Observed {
     }
 }
 
-/// Runnable processes, averaged over the last minute; where there is a file that says so.
+/// Load average over the last minute, if the system has a file with it.
 fn load() -> Option<f64> {
     std::fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
 }

@@ -1,9 +1,9 @@
 //! Seconds of every level of every case.
 //!
-//! A level is run once to warm up and then at least five times, or for a second, whichever comes
-//! first; short ones more often, for fifty milliseconds in all. Repeats go round all levels rather
-//! than one after the other: a machine that slows down slows all of them. Time for which other
-//! processes had the core does not count, where the system tells it.
+//! A level is run once to warm up and then at least five times, or for one second, whichever comes
+//! first; short levels are repeated for at least 50 ms. All levels are repeated in turn, so that a
+//! slowdown of the machine affects all of them. The time for which other processes used the core is
+//! excluded, if the system reports it.
 
 use super::machine::{LoadMonitor, Observed, alone};
 use crate::external::SolverFactory;
@@ -16,12 +16,16 @@ use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
 use crate::verify::{LevelOutcome, TimedSuite, Timing, Workload};
 
-/// Fewest repeats, and the time (s) that they must fill.
+/// Minimum number of repeats.
 const FEWEST: usize = 5;
+
+/// Minimum total time (s) of the repeats.
 const LEAST: f64 = 0.05;
 
-/// No more than this much time (s), nor repeats.
+/// Maximum total time (s) of the repeats.
 const LONGEST: f64 = 1.0;
+
+/// Maximum number of repeats.
 const MOST: usize = 200;
 
 /// One level that is timed.
@@ -48,10 +52,10 @@ impl TimingJob<'_> {
     }
 }
 
-/// Seconds that the steps of a level take; of one that breaks, those until then.
+/// Time (s) of the steps of a level; for a run that fails, the time until then.
 ///
 /// # Errors
-/// One line that says why there is no such run.
+/// One line with the reason why there is no such run.
 pub(crate) fn seconds(
     plan: &ConvergencePlan,
     case: &Case,
@@ -60,8 +64,8 @@ pub(crate) fn seconds(
     seconds_of(plan, case, level, || subject(plan, case.method, level))
 }
 
-/// Seconds that the steps of a subject take on a level. Of another process they are those until it
-/// has answered.
+/// Time (s) of the steps of a subject on a level. For an external solver it includes the response
+/// time.
 fn seconds_of(
     plan: &ConvergencePlan,
     case: &Case,
@@ -133,7 +137,7 @@ fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn(
             let job = &mut jobs[*k];
             let found = job.run();
             job.seconds.extend(found.iter());
-            // What cannot be set up has no time, now or later.
+            // A level whose set-up fails is not tried again.
             let done = found.is_err() || job.is_done();
             if done {
                 progress();

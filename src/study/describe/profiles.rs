@@ -20,7 +20,7 @@ impl Dispensable {
         EffectName::ALL.iter().map(|effect| Self::Effect(*effect)).chain([Self::Contact])
     }
 
-    /// The name as suites and reports spell it.
+    /// The name in suites and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Effect(effect) => effect.name(),
@@ -48,7 +48,7 @@ pub(crate) fn lacking(plan: &ConvergencePlan, without: Dispensable) -> Convergen
     plan
 }
 
-/// Takes an effect out of a scene, with those that need it.
+/// Removes an effect from a scene, with the effects that need it.
 fn remove(scene: &mut Scene, effect: EffectName) {
     let goes = |other: &EffectName| *other == effect || other.needs().contains(&effect);
     scene.loads.retain(|load| !goes(&load.effect));

@@ -3,6 +3,7 @@
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialParameter, MaterialPlan};
 use crate::subject::PlaneState;
+use crate::suite::evaluator::shown;
 use crate::suite::model::{Scene, Suite};
 use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::sources;
@@ -12,7 +13,9 @@ use crate::verify::rounded;
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let parameter = |(name, text, value): &(String, String, Option<f64>)| match value {
-        Some(value) if text.parse() != Ok(*value) => format!("{name} = {text} = {value:.6}"),
+        Some(value) if text.parse() != Ok(*value) => {
+            format!("{name} = {text} = {}", shown(rounded(*value, 7)))
+        }
         _ => format!("{name} = {text}"),
     };
     let parameters: Vec<String> = suite.parameters.iter().map(parameter).collect();
@@ -34,12 +37,12 @@ pub(crate) fn push(rows: &mut Rows, key: &str, value: &str) {
 }
 
 fn corner(c: &[f64]) -> String {
-    c.iter().map(|x| stated(*x).to_string()).collect::<Vec<_>>().join(", ")
+    c.iter().map(|x| stated(*x)).collect::<Vec<_>>().join(", ")
 }
 
-/// A number to as many digits as a problem is stated to.
-pub(crate) fn stated(x: f64) -> f64 {
-    rounded(x, 6)
+/// A number with the digits of the statement of a problem.
+pub(crate) fn stated(x: f64) -> String {
+    shown(rounded(x, 6))
 }
 
 fn body(scene: &Scene) -> String {
@@ -47,12 +50,18 @@ fn body(scene: &Scene) -> String {
     let body = match (&scene.outline, &scene.mapped) {
         (None, _) => format!("({from}) to ({to}) m"),
         (Some(outline), Some(_)) => outline.row(),
-        (Some(outline), None) => outline.row() + ", free rims",
+        (Some(outline), None) => outline.row() + rims(scene),
     };
     format!("{body}, density {}", stated(scene.density))
 }
 
-/// Several bodies, and what couples them.
+/// The rims that no load acts on, after the row of a body.
+fn rims(scene: &Scene) -> &'static str {
+    let is_loaded = scene.loads.iter().any(|load| matches!(load.target(), LoadTarget::Rim(_)));
+    if is_loaded { "" } else { ", free rims" }
+}
+
+/// Rows of several bodies and their coupling.
 fn bodies(scene: &Scene, rows: &mut Rows) {
     for (i, one) in scene.bodies.iter().enumerate() {
         push(rows, &format!("body {}", i + 1), &body(one));
@@ -94,8 +103,8 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     }
     let (on_body, on_parts): (Vec<_>, Vec<_>) =
         scene.loads.iter().partition(|load| load.target() == LoadTarget::Body);
-    let on_sets = on_parts.into_iter().filter(|load| matches!(load.target(), LoadTarget::Set(_)));
-    rows.extend(on_sets.chain(on_body).flat_map(|load| load.rows()));
+    let on_others = on_parts.into_iter().filter(|load| load.target().face().is_none());
+    rows.extend(on_others.chain(on_body).flat_map(|load| load.rows()));
     if one {
         push(rows, "initial stress", &initial_stress(scene));
         push(rows, "initial displacement", &sources(&scene.initial_displacement));
@@ -103,7 +112,7 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     }
 }
 
-/// The stress of the reference configuration, and how it enters the first Piola-Kirchhoff stress.
+/// The initial stress, and its term in the first Piola-Kirchhoff stress.
 fn initial_stress(scene: &Scene) -> String {
     const AXES: [&str; 3] = ["x", "y", "z"];
     let written = |(i, j, formula): &(usize, usize, Formula)| {

@@ -1,5 +1,5 @@
-//! Levels that are too coarse for the exact solution, a body that nothing brings to rest, and
-//! errors of the size of the solution.
+//! Findings about levels that are too coarse, bodies without damping, and errors of the size of the
+//! solution.
 
 use super::regularity::sizes;
 use super::session::Known;
@@ -12,21 +12,22 @@ use crate::verify::{
     Verdict, observed_order,
 };
 
-/// Share of its distance from the order of theory that an order keeps at most, if levels that were
-/// left out are the cause.
+/// Maximum ratio of the distances from the theoretical order, without the coarse levels over with
+/// them, if these levels are the cause.
 const CLOSER: f64 = 0.5;
 
-/// Distance of the order between the finest two levels from that of theory, at most, if the coarse
-/// levels are the cause.
+/// Maximum distance of the order between the finest two levels from the theoretical order, if the
+/// coarse levels are the cause.
 const NEAR: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
-/// Errors that are at least this share of the largest exact value have the size of the solution.
+/// Minimum error, as a share of the largest exact value, that has the size of the solution.
 const WHOLE: f64 = 0.1;
 
-/// Largest error over the smallest one, at most, of errors that do not change with the cells.
+/// Maximum ratio of the largest to the smallest error, if errors do not depend on the cells.
 const CONSTANT: f64 = 1.5;
 
-/// Cell size over the length on which the solution changes, from which on a level is too coarse.
+/// Minimum ratio of the cell size to the length scale of the solution on a level that is too
+/// coarse.
 const COARSE: f64 = 0.5;
 
 /// A finding about coarse levels that do not resolve the exact solution: the order without them is
@@ -107,7 +108,7 @@ fn names(levels: &[&LevelOutcome], axis: Axis) -> String {
     format!("the {noun} of {}", names.join(", "))
 }
 
-/// A finding about an equilibrium that nothing brings the body to.
+/// A finding about an equilibrium without damping in the suite.
 pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     undamped::oscillates(plan, case).then_some(())?;

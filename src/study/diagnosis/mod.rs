@@ -1,4 +1,4 @@
-//! Why a case does not have the order of theory.
+//! Finds the cause if a case does not have the theoretical order.
 //!
 //! ```text
 //! session        runs of one case within a budget, and whether `check` accepts a remedy
@@ -9,10 +9,10 @@
 //! probes         changes of the problem, the levels or the method, one at a time
 //! ```
 //!
-//! The finest levels run again with one thing changed at a time. A change is the cause if it
-//! restores the order; where none does, the change that takes most off the finest error is named.
-//! The `because` texts of the suite are not read. (One factor at a time, as the isolating runs of
-//! Roy 2005, J. Comput. Phys. 205, 131.)
+//! The finest levels run again with one change at a time. A change is the cause if it restores the
+//! order. If no change does, the one with the largest decrease of the finest error is named. The
+//! `because` texts of the suite are not used. (One factor at a time, as the isolating runs of Roy
+//! 2005, J. Comput. Phys. 205, 131.)
 
 mod levels;
 mod probes;
@@ -40,7 +40,7 @@ use crate::verify::{
 /// Number of levels, the finest, that are run again.
 const LEVELS: usize = 5;
 
-/// Factor of the amplitude in the probe that makes the motion smaller.
+/// Factor of the amplitude in the probe with a smaller motion.
 const SMALLER: f64 = 0.1;
 
 /// Every change that a plan can carry out, the most specific first.
@@ -72,12 +72,11 @@ const CHECKS: [fn(&Known<'_>) -> Option<KnownCause>; 6] = [
 ];
 
 /// The diagnosis of case number `index` of a suite, within a predicted time (s) for all changed
-/// runs. With `solver`, `suite` is that of [`under`](crate::study::under). `None` for a case that
-/// has no order to explain: of another kind of study, without an exact solution, or with too few
-/// levels.
+/// runs. With `solver`, `suite` is that of [`under`](crate::study::under). `None` for a case
+/// without an order to explain: another kind of study, no exact solution, or too few levels.
 ///
 /// # Errors
-/// One line that says why the case itself cannot be run.
+/// One line with the reason why the case itself cannot be run.
 pub fn diagnose(
     suite: &Suite,
     source: &Source,
@@ -118,7 +117,7 @@ pub fn diagnose(
     let known = Known { session: &session, plan: &all, levels: &found.levels, finest: &finest };
     for check in CHECKS {
         diagnosis.findings.extend(check(&known));
-        // What such a step, grid or load does to other runs is no evidence.
+        // Once a cause is known, further checks with this step, grid or load give no evidence.
         if diagnosis.is_known() {
             break;
         }
@@ -132,7 +131,7 @@ pub fn diagnose(
     Ok(Some(diagnosis))
 }
 
-/// Why a case cannot be run, with the cause where that is known.
+/// Why a case cannot be run, with the cause if it is known.
 fn with_cause(session: &Session<'_>, plan: &ConvergencePlan, reason: String) -> String {
     let lost = |level| walls::particle_on_wall(session, plan, level);
     let Some(finding) = plan.refine.levels.iter().copied().find_map(lost) else { return reason };
@@ -144,8 +143,8 @@ fn finest_error(levels: &[LevelOutcome]) -> f64 {
     levels.last().map_or(f64::NAN, |level| level.error)
 }
 
-/// The runs of the levels of `finest` with one thing changed at a time, where they are `levels`
-/// without a change.
+/// Runs the levels of `finest` with one change at a time; `levels` are their results without a
+/// change.
 fn changed_runs(
     session: &Session<'_>,
     finest: &ConvergencePlan,

@@ -26,17 +26,18 @@ pub(crate) enum Crossings {
 
 /// A change of one thing.
 pub(crate) struct ProbeKind {
-    /// The thing, and into what it is changed.
+    /// The change, as text.
     pub(crate) change: &'static str,
     /// The cause, if the change helps.
     pub(crate) cause: fn(&Case, Crossings) -> &'static str,
     /// The remedy for an author.
     pub(crate) remedy: &'static str,
-    /// The plan with the change; `None` where it means nothing.
+    /// The plan with the change; `None` if the change does not apply.
     pub(crate) apply: fn(&ConvergencePlan) -> Option<ConvergencePlan>,
 }
 
-/// A smaller motion. The plan comes from the text of the suite, with its amplitude scaled.
+/// A run with smaller amplitude. The plan is compiled from the text of the suite, with its
+/// amplitude scaled.
 pub(super) const AMPLITUDE: ProbeKind = ProbeKind {
     change: "a tenth of the amplitude",
     cause: |_, _| {
@@ -151,8 +152,8 @@ fn compared_with(plan: &ConvergencePlan, against: Against) -> ConvergencePlan {
     plan
 }
 
-/// The plan with every level changed, and with them the fine grid of the exact solution; `None` if
-/// one cannot be, or is too large.
+/// The plan with every level changed, including the fine grid of the reference; `None` if a level
+/// cannot be changed, or becomes too large.
 fn changed_levels(
     plan: &ConvergencePlan,
     change: impl Fn(LevelPlan) -> Option<LevelPlan>,
@@ -306,8 +307,8 @@ pub(super) const SMOOTH_BASIS: ProbeKind = ProbeKind {
     },
 };
 
-/// The plan with the method of its case changed; `None` if that is no change, or a method that
-/// means nothing.
+/// The plan with the method of its case changed; `None` if this is no change, or not a valid
+/// method.
 fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<ConvergencePlan> {
     let mut changed = plan.clone();
     changed.cases.iter_mut().for_each(|case| change(&mut case.method));

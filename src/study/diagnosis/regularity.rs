@@ -9,19 +9,19 @@ use crate::suite::grammar::NormName;
 use crate::suite::model::{Against, ConvergencePlan};
 use crate::verify::{Axis, KnownCause, KnownCauseKind, OrderHypothesis, Quantity};
 
-/// Share of its largest value by which the strain changes in a cell that cannot tell the change
-/// from a jump.
+/// Minimum change of the strain within a cell, as a share of its largest value, that acts like a
+/// jump.
 const STEEP: f64 = 0.5;
 
-/// Distance of the observed order below the limit, at most, if the limit explains it.
+/// Maximum distance of the observed order below the limit if the limit explains it.
 const BELOW: f64 = 0.5;
 
-/// Largest order that a method of order `p` can be expected to have on a solution of which the
-/// derivative of order `jump` jumps; `None` of a sum over the body.
+/// Maximum order that a method of order `p` can reach if the derivative of order `jump` of the
+/// solution is discontinuous; `None` for a sum over the body.
 ///
 /// A jump of the judged quantity is smeared over h^(p/(p + 1)) by a scheme of order p, and each
 /// continuous derivative gains that factor (Brenner & Thomee 1971, Math. Scand. 27, 5). In an
-/// equilibrium nothing travels: the front is as wide as a cell.
+/// equilibrium the front does not travel and is as wide as a cell.
 fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
     let differentiated = match plan.of {
         Quantity::Displacement => 0.0,
@@ -38,7 +38,7 @@ fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
     Some((jump as f64 - differentiated + of_support).max(0.0) * front)
 }
 
-/// A finding about an exact solution on which the order of theory cannot be reached.
+/// A finding about an exact solution for which the theoretical order cannot be reached.
 pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     let problem = plan.exact.as_ref().filter(|_| case.against == Against::Exact)?;
@@ -73,7 +73,7 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let p = known.session.formal_order;
     let limit = limit(plan, p, jump)?;
     let observed = known.finest.order;
-    // A higher order than this limit shows that the jump does no harm: the grid has a line there.
+    // An order above this limit shows that the jump has no effect: the grid has a line at the jump.
     let is_lower =
         observed.is_none_or(|order| order.low <= limit + 2.0 * OrderHypothesis::TOLERANCE);
     if !(limit < p - OrderHypothesis::TOLERANCE && is_lower) {
@@ -117,7 +117,7 @@ const LINES: [usize; 3] = [1, 5, 3];
 /// Share of the largest value of a derivative that a jump has at least.
 const LEAST: f64 = 1e-3;
 
-/// Share of the length of a line that is taken for a point.
+/// Share of the length of a line below which it counts as a point.
 const POINT: f64 = 1e-9;
 
 /// Share of its natural size below which a derivative is rounding.
@@ -152,8 +152,8 @@ pub(crate) struct Jump {
 pub(crate) struct Sizes([f64; GROUPS.len()]);
 
 impl Sizes {
-    /// Length (m) over which the displacement changes: the square root of its size over that of
-    /// its second derivatives. That of a sine is its wavelength over 2 pi.
+    /// Length (m) over which the displacement changes: the square root of its size over that of its
+    /// second derivatives. For a sine it is the wavelength over 2 pi.
     pub(crate) fn length(&self) -> f64 {
         (self.0[0] / self.0[5]).sqrt()
     }
@@ -180,7 +180,7 @@ pub(crate) fn sizes(problem: &Problem, until: f64) -> Sizes {
     Sizes(sizes)
 }
 
-/// A jump of the derivative of lowest order that has one, of those up to the second.
+/// The jump of the derivative of lowest order, up to the second, that has one.
 pub(crate) fn lowest_jump(problem: &Problem, until: f64) -> Option<Jump> {
     let Sizes(sizes) = sizes(problem, until);
     let length = problem.from.iter().zip(&problem.to).map(|(a, b)| b - a).fold(0.0, f64::max);
@@ -258,7 +258,7 @@ impl LocalLine {
         at: &dyn Fn(&[f64]) -> Vec<f64>,
     ) -> Option<Vec<f64>> {
         let point = POINT * (self.to - self.from[self.axis]);
-        // A value that is not finite is no jump.
+        // A difference that is not finite is not a jump.
         while (high.1 - low.1).abs() >= least && (high.1 - low.1).is_finite() {
             let x = 0.5 * (low.0 + high.0);
             if high.0 - low.0 <= point {

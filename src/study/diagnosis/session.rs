@@ -13,10 +13,10 @@ use crate::verify::{Axis, Convergence, Judgement, Level, LevelOutcome, OrderHypo
 use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
-/// An order that is restored is no further below that of theory.
+/// Maximum distance of a restored order below the theoretical order.
 const NEAR: f64 = 0.2;
 
-/// An order that is restored is no further above that of theory: a case may be better than its
+/// Maximum distance of a restored order above the theoretical order: a case may be better than
 /// theory.
 const ABOVE: f64 = 0.8;
 
@@ -27,7 +27,7 @@ pub(super) struct Session<'a> {
     pub(super) case: &'a Case,
     pub(super) formal_order: f64,
     pub(super) solver: Option<&'a dyn SolverFactory>,
-    /// Time (s) that is left for changed runs.
+    /// Remaining time (s) for changed runs.
     left: Cell<f64>,
     /// Measured time of an external solver over the predicted one of this crate, at least 1.
     slowness: Cell<f64>,
@@ -50,10 +50,10 @@ impl<'a> Session<'a> {
         Self { suite, source, case, formal_order, solver, left, slowness, skipped }
     }
 
-    /// Runs the case as it is.
+    /// Runs the unchanged case.
     ///
     /// # Errors
-    /// One line that says why it cannot be run.
+    /// One line with the reason why it cannot be run.
     pub(super) fn first(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
         let start = Instant::now();
         let found = self.run(plan)?;
@@ -64,8 +64,8 @@ impl<'a> Session<'a> {
         Ok(found)
     }
 
-    /// Runs a changed plan. `None` if it is beyond the budget, or cannot be set up: a change that
-    /// cannot be set up is no evidence.
+    /// Runs a changed plan. `None` if it exceeds the budget, or cannot be set up: a failed set-up
+    /// gives no evidence.
     pub(super) fn changed(&self, change: &str, plan: &ConvergencePlan) -> Option<Convergence> {
         let cost = self.slowness.get() * estimate_of(plan).seconds;
         if !(cost <= self.left.get()) {
@@ -84,7 +84,7 @@ impl<'a> Session<'a> {
         outcome.convergence().cloned().ok_or(outcome.reason)
     }
 
-    /// The judgement of levels against an order near that of theory.
+    /// Judges levels with a hypothesis near the theoretical order.
     pub(super) fn judge<'b>(
         &self,
         levels: impl IntoIterator<Item = &'b LevelOutcome>,
@@ -101,12 +101,12 @@ impl<'a> Session<'a> {
     }
 }
 
-/// A case with its levels of the gate, as they have run.
+/// A case with the results of its levels of the gate.
 pub(super) struct Known<'a> {
     pub(super) session: &'a Session<'a>,
     /// The study with this case only, and its levels.
     pub(super) plan: &'a ConvergencePlan,
-    /// The levels, as they have run.
+    /// The results of the levels.
     pub(super) levels: &'a [LevelOutcome],
     /// Judgement of the finest levels.
     pub(super) finest: &'a Judgement,
@@ -121,7 +121,7 @@ pub(super) fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) ->
     plan
 }
 
-/// Why `check` refuses the suite in `source` with everything that `after` changes in `before`, two
+/// Why `check` refuses the suite in `source` with all differences between `before` and `after`, two
 /// plans of one case; `None` if `check` accepts the suite.
 pub(super) fn refusal(
     source: &Source,
@@ -154,7 +154,9 @@ pub(super) fn accepts_grid(source: &Source, from: &[f64], to: &[f64]) -> bool {
 
 /// The method as a suite states it; `None` of a method that is never changed.
 fn method_spec(method: Method) -> Option<MethodSpec> {
-    let Method::Mpm { basis, transfer, scheme, start, mass, frame } = method else { return None };
+    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume } = method else {
+        return None;
+    };
     Some(MethodSpec::Mpm {
         basis: basis.into(),
         transfer: transfer.into(),
@@ -162,6 +164,7 @@ fn method_spec(method: Method) -> Option<MethodSpec> {
         start: Some(start.into()),
         mass: Some(mass.into()),
         frame: Some(frame.into()),
+        volume: Some(volume.into()),
     })
 }
 

@@ -19,8 +19,8 @@ const IN_QUESTION: f64 = 0.5;
 /// Share of the time in which a wave crosses a cell, at which such levels are run again.
 const CAUTIOUS: f64 = 0.2;
 
-/// Largest share of its error that a level keeps with a stable step, if its own step was unstable.
-/// With a step of 2/5 an accurate method of order 2 in time keeps a sixth.
+/// Maximum ratio of the error of a level with a stable step to that with an unstable one, if the
+/// step is the cause. With a step of 2/5, an accurate method of order 2 in time has a ratio of 1/6.
 const MENDED: f64 = 0.03;
 
 /// A level whose step is longer than a limit (s), and its run with a stable step.
@@ -86,7 +86,7 @@ impl Mended<'_> {
     }
 }
 
-/// Levels in question that stable steps mend; `None` if there are none.
+/// Levels that stable steps repair; `None` if there are no such levels.
 fn mended<'a>(known: &Known<'a>) -> Option<Vec<Mended<'a>>> {
     let (plan, levels) = (known.plan, known.levels);
     let limits: Vec<(usize, f64)> = levels
@@ -120,7 +120,7 @@ fn mended<'a>(known: &Known<'a>) -> Option<Vec<Mended<'a>>> {
 
 /// The step (s) above which the step of a level is in question.
 fn limit(plan: &ConvergencePlan, level: &LevelOutcome) -> Option<f64> {
-    // Steps of this crate's MPM that are not predicted to be too long are stable.
+    // Steps of the built-in MPM are stable unless they are predicted to be too long.
     if level.stable_time_step.is_some() || matches!(plan.cases[0].method, Method::Mpm { .. }) {
         return level.stable_time_step;
     }

@@ -1,4 +1,4 @@
-//! Particles that leave the grid, and walls that leave their place.
+//! Findings about particles that leave the grid, and about moving walls.
 
 use super::session::{Known, Session, accepts_grid, only, refusal};
 use crate::exact::Problem;
@@ -18,7 +18,7 @@ const ROUNDING: f64 = 1e-6;
 /// Intervals along each axis of the raster, and over the run, on which walls are followed.
 const INTERVALS: usize = 8;
 
-/// Share of its error that the case keeps at most in a frame that moves with the body, if a moving
+/// Maximum ratio of the error in a frame that moves with the body to that of the case, if a moving
 /// wall is the cause.
 const MENDED: f64 = 0.1;
 
@@ -35,8 +35,7 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     beyond_the_grid(known, level).or_else(|| particle_on_wall(known.session, known.plan, level))
 }
 
-/// A wall that moves along its normal by more than a cell, while the nodes of the grid stay where
-/// they are.
+/// Finding on a wall that moves along its normal by more than a cell, while the grid does not move.
 fn moving_wall(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, session) = (known.plan, known.session);
     let problem = plan.exact.as_ref()?;
@@ -87,8 +86,8 @@ fn path(problem: &Problem, face: &SceneFace, until: f64) -> f64 {
     longest
 }
 
-/// Whether `check` accepts the case in a frame that moves with the body, and most of its error is
-/// gone then.
+/// Whether `check` accepts the case in a frame that moves with the body, and most of its error
+/// disappears.
 fn follows_in_total_frame(known: &Known<'_>) -> bool {
     let (plan, session) = (known.plan, known.session);
     let mut case = session.case.clone();
@@ -103,7 +102,7 @@ fn follows_in_total_frame(known: &Known<'_>) -> bool {
     after.is_some_and(|after| after <= MENDED * before || (after.is_finite() && before.is_nan()))
 }
 
-/// The exact motion leaves the grid of a level.
+/// A finding if the exact motion leaves the grid of a level.
 fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<KnownCause> {
     let (plan, scene) = (known.plan, &known.plan.scene);
     let reach = Extremes::of(plan.exact.as_ref()?).reach;
@@ -148,7 +147,8 @@ fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<KnownCause> {
     })
 }
 
-/// A particle that starts at the end of the grid, where rounding decides whether it is outside.
+/// Finding on a particle that starts at the end of the grid, where rounding decides whether it is
+/// outside.
 pub(super) fn particle_on_wall(
     session: &Session<'_>,
     plan: &ConvergencePlan,

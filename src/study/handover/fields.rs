@@ -1,12 +1,13 @@
 //! Initial state, loads and conditions on faces at places that a solver chooses.
 
 use crate::dimension::with_dimension;
+use crate::exact::Circle;
 use crate::external::{FieldError, FieldName, FieldPlaces, FieldSource};
 use crate::mpm::{Block, Fragment, Matrix, Particles, Vector, complete_start};
 use crate::study::setup::initial_state::Initial;
 use crate::subject::PlaneState;
 use crate::suite::model::Scene;
-use crate::suite::scene::numbers::LoadNumbers;
+use crate::suite::scene::numbers::{LoadNumbers, NumberField};
 
 /// Radius at which stresses on the axis of a body of revolution are evaluated, relative to the size
 /// of the body: the hoop stretch r/R has no value at R = 0.
@@ -65,7 +66,7 @@ impl SceneFields {
         Ok(values)
     }
 
-    /// The Cauchy stress at the start, as the law of each body gives it to particles.
+    /// The Cauchy stress at the start, which the law of each body gives.
     fn stress(&self, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
         let d = self.scene.dimension();
         let mut values = vec![0.0; at.bodies.len() * d * d];
@@ -119,7 +120,7 @@ impl SceneFields {
         Ok(particles.sigma.iter().flat_map(rows).flatten().collect())
     }
 
-    /// The values of the numbers called `what`.
+    /// The values of the numbers named `what`.
     fn numbers(
         &self,
         (what, numbers): (&str, &LoadNumbers),
@@ -158,6 +159,26 @@ impl SceneFields {
                 "place {place}, {}, is not on the face `{}`, whose coordinate is {end} m",
                 shown(&at.labels[place * d..(place + 1) * d]),
                 face.name
+            ))),
+        }
+    }
+}
+
+impl SceneFields {
+    /// Fails if a place is not on the rim.
+    fn check_on_rim(&self, circle: &Circle, at: &FieldPlaces<'_>) -> Result<(), FieldError> {
+        let Circle { name, centre, radius, .. } = circle;
+        let near = self.scene.rounding();
+        let is_off = |label: &[f64]| {
+            let square: f64 = label.iter().zip(centre).map(|(x, c)| (x - c) * (x - c)).sum();
+            !((square.sqrt() - radius).abs() <= near)
+        };
+        let d = self.scene.dimension();
+        match at.labels.chunks_exact(d).position(is_off) {
+            None => Ok(()),
+            Some(place) => Err(FieldError::Request(format!(
+                "place {place}, {}, is not on the {name} rim, whose radius is {radius} m",
+                shown(&at.labels[place * d..(place + 1) * d])
             ))),
         }
     }
@@ -216,7 +237,15 @@ impl FieldSource for SceneFields {
                 if let Some(face) = load.target().face() {
                     self.check_on_face(face, at)?;
                 }
-                self.numbers((load.effect.name(), &load.numbers()), t, at)?
+                let numbers = load.numbers();
+                let depends_on_place =
+                    |field: &NumberField| field.depends_on(self.scene.dimension())[0];
+                if let Some(circle) = self.scene.rim(load)
+                    && numbers.field.as_ref().is_some_and(depends_on_place)
+                {
+                    self.check_on_rim(&circle, at)?;
+                }
+                self.numbers((load.effect.name(), &numbers), t, at)?
             }
             FieldName::Face(number) => {
                 self.check_on_face(number, at)?;

@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// The problem of one level of a case, of the suite called `suite`.
 ///
 /// # Errors
-/// One line that says why there is none.
+/// One line with the reason why there is none.
 pub fn level_problem(
     suite: &str,
     plan: &ConvergencePlan,
@@ -61,7 +61,7 @@ pub(crate) struct HandedRun {
     pub(crate) is_perturbed: bool,
 }
 
-/// The problem of a run on the cells of `level`, with the force that the motion of `made` needs.
+/// The problem of a run on the cells of `level`, with the manufactured force of `made`.
 pub(crate) fn problem(
     suite: &str,
     scene: &Scene,
@@ -104,6 +104,7 @@ fn load(scene: &Scene, load: &ListedLoad) -> ProblemLoad {
         load: load.effect.name(),
         rows: load.rows(),
         face: load.target().face().map(|face| scene.faces[face].name),
+        rim: scene.rim(load).map(|circle| circle.name),
         region,
         numbers: handed(&numbers, scene.dimension()),
     }
@@ -202,7 +203,7 @@ impl SceneForce {
         self.made.is_none() && self.terms.iter().all(Vec::is_empty)
     }
 
-    /// The force, where it is the same at every place and time of the only body.
+    /// The force, if it is constant in space and time and there is one body.
     fn constant(&self, dimension: usize) -> Option<Vec<f64>> {
         let [terms] = &self.terms[..] else { return None };
         let is_constant =
@@ -212,7 +213,7 @@ impl SceneForce {
         is_constant.then(|| (0..dimension).map(component).collect())
     }
 
-    /// The stated forces on a body where the displacement is `u` (m), added to `made`.
+    /// The stated forces on a body with the displacement `u` (m), added to `made`.
     fn whole(
         &self,
         made: [f64; 3],

@@ -1,4 +1,4 @@
-//! A level of a study as a problem that any solver can be handed.
+//! Conversion of a level of a study to a problem for any solver.
 //!
 //! ```text
 //! initial   grid, faces, materials, forces and steps of a level

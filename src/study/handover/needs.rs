@@ -1,4 +1,5 @@
-//! Abilities that a suite asks of a solver, and suites with an external solver as their method.
+//! Capabilities that a suite requires of a solver, and suites with an external solver as their
+//! method.
 
 use super::level_problem;
 use super::particles::starts_deformed;
@@ -10,7 +11,7 @@ use crate::subject::{PlaneState, Subject};
 use crate::suite::model::method::{ExternalMethod, GateTerms};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace, Suite};
-use crate::suite::scene::load::ListedLoad;
+use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::verify::{Quantity, SumNeed};
 use std::sync::Arc;
 
@@ -29,7 +30,7 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     needs
 }
 
-/// The needs of a scene, whatever is asked of it.
+/// The needs of a scene, independent of the judged quantities.
 pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         dimension: scene.dimension(),
@@ -41,6 +42,7 @@ pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
         plane_stress: scene.plane == PlaneState::Stress,
         axisymmetric: scene.plane == PlaneState::Axisymmetric,
         initial_stress: scene.each().iter().any(|body| !body.initial_stress.is_none()),
+        loaded_rims: scene.loads.iter().any(|load| matches!(load.target(), LoadTarget::Rim(_))),
         displacement_force: scene.terms().iter().any(|term| term.depends_on_displacement()),
         ..ProblemNeeds::default()
     };
@@ -54,12 +56,13 @@ pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     needs
 }
 
-/// Everything that `suite` needs and `solver` lacks; nothing of a study that is none of a solver.
+/// Capabilities that `suite` requires and `solver` does not have; empty for a study that no
+/// external solver can run.
 pub fn lacking(suite: &Suite, solver: &dyn SolverFactory) -> Vec<String> {
     study(suite).needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
 }
 
-/// The column that is judged, if it is none that every solver gives.
+/// The judged column, if it is an optional one.
 fn column(of: Quantity) -> Option<&'static str> {
     (of.is_optional() && !of.is_sum()).then(|| of.name())
 }
@@ -70,7 +73,7 @@ pub fn under(suite: &Suite, solver: &dyn SolverFactory, gate: bool) -> Option<Su
 }
 
 /// The suite with `solver` in place of its methods, gated on the `terms` of the solver's author, if
-/// any. Where nothing deforms, the solver gets a law that it has.
+/// any. If nothing deforms, the solver may use another law.
 pub fn under_on(
     suite: &Suite,
     solver: &dyn SolverFactory,
@@ -86,7 +89,8 @@ pub fn under_on(
     })
 }
 
-/// The plan with a law that `solver` has, if any law will do and the solver lacks the stated one.
+/// The plan with a law that `solver` supports, if the law has no effect and the solver does not
+/// support the stated one.
 fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<ConvergencePlan> {
     let needs = needs(plan);
     let lacking = if plan.any_method.any_law { solver.lacks(&needs).len() } else { 0 };
@@ -103,7 +107,7 @@ fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<Con
     Some(plan)
 }
 
-/// Value of a parameter of another law: that of the stated one if it has the parameter, and
+/// Value of a parameter of the replacing law: the stated value if the stated law has the parameter,
 /// otherwise its stiffness, so that the time step remains stable.
 fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     let parameters = own.parameters();
@@ -116,11 +120,11 @@ fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     }
 }
 
-/// The subject of one level of a case of the suite called `suite`: that of `solver`, if there is
-/// one, or of the case's own method.
+/// The subject of one level of a case of the suite named `suite`, run by `solver` if there is one,
+/// or by the method of the case.
 ///
 /// # Errors
-/// One line that says why there is none.
+/// One line with the reason why there is none.
 pub(crate) fn subject_under(
     solver: Option<&dyn SolverFactory>,
     suite: &str,

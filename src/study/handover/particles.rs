@@ -4,7 +4,8 @@ use crate::dimension::with_dimension;
 use crate::exact::Truth;
 use crate::external::ProblemParticles;
 use crate::mpm::{
-    BasisName, FrameName, MassName, SchemeName, Solver, TransferName, Vector, det_of_rows,
+    BasisName, FrameName, MassName, SchemeName, Solver, TransferName, Vector, VolumeName,
+    det_of_rows,
 };
 use crate::study::setup::body::{Body, setup};
 use crate::subject::{Perturbable, Start};
@@ -28,11 +29,11 @@ pub(crate) fn unloaded(scene: &Scene) -> Vec<Scene> {
     scene.each().iter().map(|own| Scene { loads: Vec::new(), ..own.clone() }).collect()
 }
 
-/// The particles of all bodies, with the stress that each law gives the deformation at the start,
-/// as `disturb` leaves them.
+/// The particles of all bodies, with the initial stress of each law for the deformation at the
+/// start, after `disturb` has modified them.
 ///
 /// # Errors
-/// One line that says why there is no such start.
+/// One line with the reason why there is no such start.
 pub(crate) fn start(
     bodies: &[Body<'_>],
     level: LevelPlan,
@@ -47,7 +48,7 @@ fn started<const D: usize>(
     level: LevelPlan,
     disturb: &mut dyn FnMut(&mut dyn Perturbable),
 ) -> Result<ProblemParticles, String> {
-    // Of a method that keeps nothing to itself.
+    // A method without private state.
     let method = Method::Mpm {
         basis: BasisName::Linear,
         transfer: TransferName::Flip.into(),
@@ -55,6 +56,7 @@ fn started<const D: usize>(
         start: Start::AtZero,
         mass: MassName::Lumped,
         frame: FrameName::Updated,
+        volume: VolumeName::Particle,
     };
     let is_stressed = bodies.iter().any(|body| !body.own.initial_stress.is_none());
     let mut all = ProblemParticles::default();
@@ -63,7 +65,7 @@ fn started<const D: usize>(
         let mut solver = solver.map_err(|failure| failure.to_string())?;
         disturb(&mut solver);
         let mut particles = solver.particles().clone();
-        // F is handed over whether the law reads it or not.
+        // F is passed even if the law does not read it.
         particles.track_deformation();
         let flat = |vectors: &[Vector<D>]| vectors.iter().flatten().copied().collect::<Vec<_>>();
         all.reference_position.extend(flat(&particles.x0));
@@ -96,7 +98,7 @@ fn started<const D: usize>(
 /// Whether a particle of the coarsest level starts displaced, or with another F than I.
 pub(super) fn starts_deformed(plan: &ConvergencePlan) -> bool {
     let level = plan.refine.levels.first();
-    // A level that cannot be handed over says so where that is tried.
+    // A level that cannot be passed to a solver is reported when it is run.
     let start = level.and_then(|level| particles(plan, *level).ok());
     start.is_some_and(|start| is_deformed(&start, plan.scene.dimension()))
 }
@@ -108,11 +110,11 @@ pub(crate) fn is_deformed(start: &ProblemParticles, d: usize) -> bool {
     start.position != start.reference_position || f.any(|(k, f)| *f != identity(k % (d * d)))
 }
 
-/// The particles as the exact motion has them at time `t` (s): position, velocity, and where they
-/// are known F, volume and stress. Masses and reference positions are those of `start`.
+/// The particles in the exact state at time `t` (s): position, velocity, and F, volume and stress
+/// if they are known. Masses and reference positions are those of `start`.
 ///
 /// # Errors
-/// One line that says why there is no exact state.
+/// One line with the reason why there is no exact state.
 pub fn exact_state(
     plan: &ConvergencePlan,
     start: &ProblemParticles,

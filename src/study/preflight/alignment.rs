@@ -33,8 +33,7 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     planes.iter().filter_map(|plane| inside_a_cell(preflight, plane)).collect()
 }
 
-/// Whether every interface and every loaded face lies on a line of a grid with cells of size `h`
-/// (m).
+/// Whether every interface and every loaded face is on a line of a grid with cells of size `h` (m).
 pub(crate) fn is_aligned(scene: &Scene, h: f64) -> bool {
     planes(scene).iter().all(|plane| plane.off(scene, h) <= ROUNDING)
 }
@@ -60,20 +59,20 @@ fn inside_a_cell(preflight: &Preflight<'_>, plane: &Plane) -> Option<Diagnostic>
 fn loaded_faces(scene: &Scene) -> Vec<Plane> {
     let loaded = scene.loads.iter().filter_map(|load| match load.target() {
         LoadTarget::Face(i) => scene.faces.get(i),
-        LoadTarget::Body | LoadTarget::Set(_) => None,
+        LoadTarget::Body | LoadTarget::Rim(_) | LoadTarget::Set(_) => None,
     });
     loaded
         .map(|face| {
             let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
             let what = format!("the loaded {} face", face.name);
             let path = Path::top("scene").then("loads");
-            // Particles carry the load; where their weights take it is a matter of the method.
+            // Particles carry the load; the method determines where their weights apply it.
             Plane { axis: face.axis, x, what, path, severity: Severity::Note }
         })
         .collect()
 }
 
-/// Planes on which one body ends and another one begins.
+/// Planes at which one body ends and another one begins.
 fn interfaces(scene: &Scene) -> Vec<Plane> {
     let mut planes = Vec::new();
     for (i, body) in scene.bodies.iter().enumerate() {

@@ -1,12 +1,12 @@
-//! Seconds and memory that a suite will take, before anything runs.
+//! Predicted time and memory of a suite, before any run.
 
 use crate::suite::compile::check::size;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
 
-/// Seconds that a particle takes in a step, by dimension, errors and set-up included: fitted to
-/// whole runs of eight suites in the profile of `cargo run`, one thread. Single suites differ from
-/// it by a factor of up to three.
+/// Seconds per particle and step, by dimension, including errors and set-up: fitted to whole runs
+/// of eight suites in the profile of `cargo run`, on one thread. Single suites differ by a factor
+/// of up to three.
 const SECONDS: [f64; 3] = [2.5e-7, 6e-7, 1.8e-6];
 
 /// Time (s) of a case without a prediction.
@@ -26,12 +26,12 @@ pub struct Estimate {
     pub bytes: f64,
 }
 
-/// Cost of the levels of the gate of a convergence study; none of other studies.
+/// Cost of the levels of the gate of a convergence study; `None` for other studies.
 pub fn estimate(suite: &Suite) -> Option<Estimate> {
     suite.plan().map(estimate_of)
 }
 
-/// Cost of each case of a suite; none of studies that refine nothing.
+/// Cost of each case of a suite; `None` for studies without refinement.
 pub fn estimates(suite: &Suite, extent: Extent) -> Vec<Option<Estimate>> {
     match suite.plan::<ConvergencePlan>() {
         Some(plan) => plan.cases.iter().map(|case| Some(of_case(plan, case, extent))).collect(),
@@ -50,8 +50,8 @@ pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
     })
 }
 
-/// Seconds (one thread) of each unit of progress of a run: its levels, and a guess for those of
-/// studies that refine nothing.
+/// Time (s, one thread) of each unit of progress of a run: its levels, or an estimate for studies
+/// without refinement.
 pub fn unit_seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else {
         return vec![UNKNOWN; suite.case_names().len()];

@@ -6,12 +6,13 @@
 //! it needs.
 
 use super::subject::Preflight;
-use crate::study::exact_motion::Linearisation;
+use crate::study::exact_motion::{Extremes, Linearisation};
 use crate::suite::compile::truth::tolerance::TOLERANCE;
 use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case};
 use crate::suite::yaml::{Diagnostic, Severity};
-use crate::verify::Axis;
+use crate::verify::{Axis, Quantity, rounding_bound, single_precision_spacing};
 
 /// Share of the error of the cells from which on another one bends its order.
 const SEEN: f64 = 0.3;
@@ -19,17 +20,23 @@ const SEEN: f64 = 0.3;
 /// Share from which on a few refinements more will show it.
 const SOON: f64 = 0.003;
 
-/// The finding about an error of `size` (m) that comes from `origin`: a warning with `help`, if one
-/// of the suite's levels shows it, a note, if one soon to come will, and none otherwise.
+/// The predicted error (m) of cells of size `h` (m): interpolation by linear functions, h^2/8 times
+/// the second derivative.
+fn of_cells(preflight: &Preflight<'_>, h: f64) -> f64 {
+    let curvature = preflight.extremes.as_ref().map_or(0.0, |motion| motion.curvature);
+    0.125 * h * h * curvature
+}
+
+/// The finding about an error of `size` (m) with the cause `origin`: a warning with `help` if a
+/// level of the suite shows it, a note if one of the next finer levels would show it, otherwise
+/// nothing.
 fn floor_finding(
     preflight: &Preflight<'_>,
     size: f64,
     origin: &str,
     help: &str,
 ) -> Option<Diagnostic> {
-    let curvature = preflight.extremes.as_ref().map_or(0.0, |motion| motion.curvature);
-    // Interpolation by linear functions: h^2/8 times the second derivative.
-    let of_cells = |h: f64| 0.125 * h * h * curvature;
+    let of_cells = |h: f64| of_cells(preflight, h);
     let shows = preflight.levels().iter().find(|level| size > SEEN * of_cells(level.h));
     let (severity, level) = match (shows, preflight.levels().last()) {
         (Some(level), _) => {
@@ -52,14 +59,15 @@ fn floor_finding(
 struct ModelError {
     /// Its size (m).
     size: f64,
-    /// Where it comes from.
+    /// Origin of the error, as text.
     origin: String,
-    /// Another solution, without it.
+    /// Advice how to state a solution without this error.
     remedy: &'static str,
 }
 
-/// That of `case`, if it has one: measured of a linearised solution, and estimated of one of small
-/// strain, for the law in rate form that MPM has there is none of the truth's.
+/// Model error of `case`, if it has one. For a linearised solution it is measured. For a solution
+/// of small-strain theory it is estimated, because MPM uses a law in rate form, which differs from
+/// the law of the solution.
 fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     let problem = preflight.plan.exact.as_ref()?;
     let motion = preflight.extremes.as_ref()?;
@@ -78,9 +86,9 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     if !is_small || !matches!(case.method, Method::Mpm { .. }) {
         return None;
     }
-    // The neglected forces are of the order of the strain e: they accelerate by e u_tt, which in a
-    // time t comes to e u_tt t^2/2, and over a long run to no more than about e u.
-    // In more than one dimension a body turns, and its initial stress with it.
+    // The neglected forces are of the order of the strain e: they accelerate by e u_tt, which gives
+    // e u_tt t^2/2 after a time t, and at most about e u over a long run. In more than one
+    // dimension a body rotates, and so does its initial stress.
     let turning = if problem.dimension() > 1 { motion.initial_stress } else { 0.0 };
     let neglected = strain + turning / problem.equation.modulus();
     let early = 0.5 * motion.acceleration * case.until * case.until;
@@ -92,8 +100,8 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     Some(ModelError { size: neglected * motion.largest_displacement().min(early), origin, remedy })
 }
 
-/// Says how large the error is, and from which level on it shows: a warning, if that is one of the
-/// suite's, and a note, if it is soon to come.
+/// Reports the size of the error, and the level from which on it is visible: a warning if this is a
+/// level of the suite, a note if it is one of the next finer levels.
 pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     if plan.refine.axis != Axis::Space || plan.manufactured().is_some() {
@@ -108,29 +116,88 @@ pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     floor_finding(preflight, size, &origin, &help).into_iter().collect()
 }
 
-/// Half a unit in the last place of a number of 24 bits next to one.
-const ROUND_OFF: f64 = 1.0 / (1 << 24) as f64;
+/// Minimum number of levels above the rounding bound.
+const LEVELS: usize = 4;
 
-/// Says how large the error is that a position of single precision has, before any step adds to it,
-/// and from which level on it shows.
+/// A level with its predicted errors (m).
+struct Prediction {
+    cells: u64,
+    /// That of the cells: interpolation by linear functions.
+    discretisation: f64,
+    /// Bound of the rounding errors of positions.
+    rounding: f64,
+}
+
+/// Predicts from which level on the error of a solver in single precision lies below the rounding
+/// bound: a warning with the amplitude and the origin that leave four levels above it, if fewer
+/// are, and a note otherwise.
 pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
-    let single = Method::is_single_precision;
-    let is_single = preflight.of_an_order().any(|case| single(&case.method));
-    let (Some(motion), true) = (&preflight.extremes, is_single) else { return Vec::new() };
-    if preflight.plan.refine.axis != Axis::Space {
+    let plan = preflight.plan;
+    let case = preflight.of_an_order().find(|case| case.method.is_single_precision());
+    let (Some(motion), Some(case)) = (&preflight.extremes, case) else { return Vec::new() };
+    if plan.refine.axis != Axis::Space || plan.of != Quantity::Displacement {
         return Vec::new();
     }
-    let farthest = motion.reach.iter().flat_map(|(low, high)| [low.abs(), high.abs()]);
-    let error = ROUND_OFF * farthest.filter(|x| x.is_finite()).fold(0.0, f64::max);
-    let origin = "the solver computes in single precision, and positions are rounded:";
-    let help = "a larger amplitude raises the errors of the cells above it";
-    floor_finding(preflight, error, origin, help).into_iter().collect()
+    let Some(spacing) = single_precision_spacing(motion.largest_coordinate()) else {
+        return Vec::new();
+    };
+    let prediction = |level: &LevelPlan| {
+        let steps = case.clock(plan, level.dt)?.steps;
+        Some(Prediction {
+            cells: level.cells,
+            discretisation: of_cells(preflight, level.h),
+            rounding: rounding_bound(steps, spacing, plan.norm),
+        })
+    };
+    let levels: Vec<Prediction> = preflight.levels().iter().filter_map(prediction).collect();
+    let is_above = |level: &&Prediction| level.discretisation > level.rounding;
+    let Some(first) = levels.iter().find(|level| !is_above(level)) else { return Vec::new() };
+    let above = levels.iter().filter(is_above).count();
+    let message = format!(
+        "the solver computes in single precision: from {} cells on the error of the cells, about \
+         {:.1e} m, lies below the rounding bound of {:.1e} m, so that these levels do not count",
+        first.cells, first.discretisation, first.rounding
+    );
+    let severity = if above < LEVELS { Severity::Warning } else { Severity::Note };
+    let found = preflight.finding(severity, &preflight.motion(), &message);
+    let Some(fourth) = levels.get(LEVELS - 1).filter(|_| above < LEVELS) else {
+        return vec![found];
+    };
+    let amplitude = two_digits(fourth.rounding / fourth.discretisation);
+    let help = format!(
+        "an amplitude {amplitude} times as large leaves {LEVELS} levels above the bound, as long \
+         as particles stay in their cells"
+    );
+    let help = match nearer_origin(motion, spacing) {
+        Some(factor) => {
+            help + &format!(
+                "; a body that is centred at the origin has a bound {factor} times smaller"
+            )
+        }
+        None => help,
+    };
+    vec![found.with_help(&help)]
+}
+
+/// The factor by which the spacing of positions becomes smaller if the body is centred at the
+/// origin, if it does.
+fn nearer_origin(motion: &Extremes, spacing: f64) -> Option<f64> {
+    let lengths = motion.reach.iter().map(|(low, high)| high - low);
+    let half = 0.5 * lengths.filter(|length| length.is_finite()).fold(0.0, f64::max);
+    let factor = spacing / single_precision_spacing(half)?;
+    (factor > 1.0).then_some(factor)
+}
+
+/// A positive factor, rounded up to two digits.
+fn two_digits(factor: f64) -> f64 {
+    let text = format!("{:.1e}", 1.05 * factor);
+    text.parse().unwrap_or(factor)
 }
 
 /// Residuals that the tolerance may be worth, before another solution would pass.
 const MOST: f64 = 100.0;
 
-/// Notes a tolerance that is larger than what the solution leaves by orders of magnitude.
+/// Notes a tolerance that exceeds the residual of the solution by orders of magnitude.
 pub(crate) fn loose_tolerance(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let Some(problem) = &preflight.plan.exact else { return Vec::new() };
     let Some(stated) = &problem.linearised else { return Vec::new() };

@@ -115,8 +115,8 @@ pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     found.into_iter().collect()
 }
 
-/// The place (m) of the last particles along `axis`, as the solver has it, if they lie on nodes
-/// with another node ahead.
+/// The position (m) of the last particles along `axis` in the solver, if they are on nodes with
+/// another node ahead.
 fn last_on_node(plan: &ConvergencePlan, axis: usize, level: &LevelPlan) -> Option<f64> {
     let scene = &plan.scene;
     if !scene.faces.get(2 * axis + 1)?.hold.is_free() {

@@ -11,9 +11,8 @@
 //! cost         seconds and memory
 //! ```
 //!
-//! A rule concerns what its suite claims: a suite that only bounds an error gets no warning about
-//! too few levels for an order. A suite acknowledges findings that it intends by their names, with
-//! `acknowledge`.
+//! A rule concerns an expectation: a suite that only bounds an error gets no warning about too few
+//! levels for an order. A suite acknowledges intended findings by their names, with `acknowledge`.
 
 pub(crate) mod alignment;
 pub(crate) mod cost;
@@ -51,7 +50,7 @@ const RULES: [(WarningName, PreflightRule); 3] = [
     (WarningName::Undamped, undamped::check),
 ];
 
-/// A finding whose help, if it is a warning, has the name under which it is acknowledged.
+/// A finding. The help of a warning includes the name with which it is acknowledged.
 fn with_name(finding: Diagnostic, name: WarningName) -> Diagnostic {
     if finding.severity() != Severity::Warning {
         return finding;
@@ -65,7 +64,7 @@ fn with_name(finding: Diagnostic, name: WarningName) -> Diagnostic {
 }
 
 /// Warnings and notes about `suite`, read from `source`, except those that the suite acknowledges;
-/// none about studies that refine nothing.
+/// none for studies without refinement.
 pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let preflight = Preflight::new(plan, source);

@@ -1,4 +1,4 @@
-//! The study that rules speak of, and the places in its file.
+//! The study of the preflight rules, and the paths in its file.
 
 use crate::mpm::FrameName;
 use crate::study::exact_motion::Extremes;
@@ -13,7 +13,7 @@ use crate::verify::{Axis, Verdict};
 /// A convergence study before it runs.
 pub(crate) struct Preflight<'a> {
     pub(crate) plan: &'a ConvergencePlan,
-    /// Extremes of the exact motion, where formulas give one and an order is claimed.
+    /// Extremes of the exact motion, if it is given by formulas and an order is expected.
     pub(crate) extremes: Option<Extremes>,
     source: &'a Source,
 }
@@ -38,7 +38,7 @@ impl<'a> Preflight<'a> {
         self.plan.refine.levels(Extent::Usual)
     }
 
-    /// Cases whose expectation is an order, stated or that of theory.
+    /// Cases whose expectation is an order, stated or theoretical.
     pub(crate) fn of_an_order(&self) -> impl Iterator<Item = &Case> {
         let claims = |case: &&Case| match &case.expectation {
             Some(expected) => expected.verdict == Some(Verdict::Converging),
@@ -47,7 +47,7 @@ impl<'a> Preflight<'a> {
         self.plan.cases.iter().filter(claims)
     }
 
-    /// Where the sizes of the refined axis stand.
+    /// Path of the sizes of the refined axis.
     pub(crate) fn sizes(&self) -> Path {
         Path::top("refine").then(match self.plan.refine.axis {
             Axis::Space => "cells",
@@ -56,13 +56,13 @@ impl<'a> Preflight<'a> {
         })
     }
 
-    /// Where the solution stands.
+    /// Path of the solution.
     pub(crate) fn truth(&self) -> Path {
         let keys = ["exact", "manufactured", "equilibrium"].map(Path::top);
         keys.into_iter().find(|path| self.stands(path)).unwrap_or_else(|| Path::top("exact"))
     }
 
-    /// Where its motion stands.
+    /// Path of the motion in the solution.
     pub(crate) fn motion(&self) -> Path {
         let motion = self.truth().then("displacement");
         if self.stands(&motion) { motion } else { self.truth() }

@@ -1,4 +1,4 @@
-//! Studies of an equilibrium in which nothing removes energy.
+//! Studies of an equilibrium without dissipation.
 
 use super::subject::Preflight;
 use crate::exact::{Problem, Truth, variables};
@@ -11,18 +11,18 @@ use crate::suite::scene::load::EffectName;
 use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
 
-/// Share of the final load that a load has at the start, to be applied at once.
+/// Minimum share of the final load at the start that counts as sudden loading.
 const SUDDEN: f64 = 0.1;
 
 /// Intervals along each axis of the raster on which loads are evaluated.
 const INTERVALS: usize = 4;
 
-/// Share of the equilibrium displacement by which a body starts away from it.
+/// Minimum initial distance from the equilibrium, as a share of the equilibrium displacement.
 const AWAY: f64 = 1e-3;
 
-/// Warns of a body that starts away from the equilibrium that the suite states, while nothing
-/// removes energy: the body oscillates about its equilibrium. A load that grows slowly leaves small
-/// oscillations, and is a note.
+/// Warns of a body that does not start in the stated equilibrium, if the scene has no dissipation:
+/// the body oscillates about its equilibrium. A load that grows slowly causes small oscillations,
+/// and is a note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let Some(case) = plan.cases.iter().find(|case| oscillates(plan, case)) else {
@@ -42,15 +42,15 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
 pub(crate) const HELP: &str = "list `damping` or `local_damping` in `loads`, and run until the body is \
                                at rest";
 
-/// Whether a case is compared with an equilibrium from which its body starts away, and nothing
-/// removes energy. An external solver is taken to remove none.
+/// Whether a case is compared with an equilibrium in which the body does not start, without
+/// dissipation. An external solver is assumed to have no dissipation.
 pub(crate) fn oscillates(plan: &ConvergencePlan, case: &Case) -> bool {
     let Some(problem) = plan.exact.as_ref().filter(|exact| exact.at_rest) else { return false };
     !removes_energy(&plan.scene, case) && starts_away(plan, case, problem)
 }
 
-/// Whether a load, a viscous material, friction or the transfer of velocities removes energy.
-/// Plasticity does so only while a material flows, and leaves elastic oscillations.
+/// Whether a load, a viscous material, friction or the transfer of velocities dissipates energy.
+/// Plasticity does so only while a material flows, and elastic oscillations remain.
 fn removes_energy(scene: &Scene, case: &Case) -> bool {
     let terms = scene.terms();
     let resists = |share: f64| {
@@ -66,7 +66,7 @@ fn removes_energy(scene: &Scene, case: &Case) -> bool {
         || matches!(case.method, Method::Mpm { transfer, .. } if !keeps_energy(transfer))
 }
 
-/// Whether a transfer keeps the energy of motions that the grid resolves.
+/// Whether a transfer conserves the energy of motions that the grid resolves.
 fn keeps_energy(transfer: TransferChoice) -> bool {
     use TransferName::{Apic, Flip, Mls, Tls, Tpic};
     [Flip, Apic, Mls, Tpic, Tls].into_iter().any(|name| transfer == name.into())
@@ -75,7 +75,7 @@ fn keeps_energy(transfer: TransferChoice) -> bool {
 /// Whether a particle of the coarsest level starts away from its equilibrium, or moves.
 fn starts_away(plan: &ConvergencePlan, case: &Case, problem: &Problem) -> bool {
     let Some(level) = plan.refine.levels.first() else { return false };
-    // A level that cannot be set up is reported where that is tried.
+    // A level whose set-up fails is reported when it is run.
     let Ok(start) = level_problem("", plan, case, *level) else { return false };
     let (d, particles) = (plan.scene.dimension(), start.particles);
     let mut most = [0.0_f64; 2];

@@ -1,4 +1,4 @@
-//! The FEM bar, from a plan: subject, and what references are made of.
+//! Converts a plan to the FEM bar: subject, and reference.
 
 use super::initial_state::Initial;
 use crate::exact::{Forcing, Problem};
@@ -12,7 +12,7 @@ use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene};
 use crate::suite::scene::grid_size::cell_size;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
-/// The FEM bar of `method`; also what references are made of.
+/// The FEM bar of `method`, which is also used for references.
 pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, String> {
     let Method::Fem { element, mass, law, start, sampling } = method else {
         return Err("not an FEM method".to_owned());
@@ -61,8 +61,8 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
     }))
 }
 
-/// Adds the stated forces (m/s2) at each place with its displacement `u` (m); those that are
-/// uniform are computed once.
+/// Adds the stated forces (m/s2) at each place with its displacement `u` (m); uniform forces are
+/// computed once.
 fn add_stated(loads: &[ListedLoad], t: f64, places: &[f64], u: &[f64], values: &mut [f64]) {
     for load in loads.iter().filter(|load| load.is_uniform()) {
         let everywhere = load.stated(0, &[], t, &[0.0; 3]);
@@ -77,7 +77,7 @@ fn add_stated(loads: &[ListedLoad], t: f64, places: &[f64], u: &[f64], values: &
     }
 }
 
-/// A suite gives forces along +X; the FEM wants tension, which points outwards.
+/// A suite states forces along +X; the FEM uses tension, which acts along the outward normal.
 fn end_traction(scene: &Scene, end: usize) -> Option<fem::TimeFunction> {
     let (x, outwards) = if end == 0 { (scene.from[0], -1.0) } else { (scene.to[0], 1.0) };
     scene.loads_on(LoadTarget::Face(end)).find_map(|load| load.tension(x, outwards))
@@ -125,7 +125,7 @@ mod tests {
         sigma * space.try_inverse().unwrap().transpose() * space.determinant()
     }
 
-    /// One of every material whose law the truth knows for finite strains.
+    /// One plan of every material with an exact law for finite strains.
     fn known(hardening: f64) -> impl Iterator<Item = (MaterialPlan, Equation)> {
         let every = MaterialPlan::every(|parameter| match parameter.symbol {
             "nu" => 0.3,
@@ -165,15 +165,15 @@ mod tests {
         }
     }
 
-    /// In uniaxial strain: the elastic range and beyond, where loading never reverses; a fluid at
-    /// rest.
+    /// In uniaxial strain: the elastic range and beyond, with loading that never reverses; a fluid
+    /// at rest.
     #[rstest]
     fn mpm_and_truth_mean_the_same_law(
         #[values(0.0, 40.0)] hardening: f64,
         #[values(0.7, 0.97, 1.0, 1.03, 1.4)] stretch: f64,
     ) {
-        // The return of clay has order 1 in the step, so that one step is not the exact stress;
-        // `mpm::material::clay_paths` compares both.
+        // The return of clay has order 1 in the step, so that one step does not give the exact
+        // stress; `mpm::material::clay_paths` compares both.
         let exact = known(hardening).filter(|(plan, _)| plan.name() != "cam_clay");
         for (plan, truth) in exact.filter(|(_, truth)| truth.admits(1, true).is_ok()) {
             let mut grad = [[0.0; 3]; 3];

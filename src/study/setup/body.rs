@@ -1,4 +1,4 @@
-//! From the model to what the solver of one body is made of, in any number of dimensions.
+//! Converts the model to the inputs of the solver of one body, in any number of dimensions.
 
 use super::initial_state::Initial;
 use super::seeding;
@@ -28,9 +28,9 @@ pub(crate) struct Body<'a> {
     pub(crate) manufactured: Option<&'a Problem>,
     /// The problem that the temperature solves.
     pub(crate) heat: Option<&'a Conduction>,
-    /// Whether F is kept whoever reads it.
+    /// Whether F is stored even if neither law nor basis reads it.
     pub(crate) keeps_deformation: bool,
-    /// Particles that are not where the lattice has them.
+    /// Changes of particles from the lattice.
     pub(crate) lattice: LatticeEdits,
 }
 
@@ -52,13 +52,13 @@ impl<'a> Body<'a> {
 /// The parts of the solver of `body`, on the cells of `level`.
 ///
 /// # Errors
-/// One line that says why there is no such solver.
+/// One line with the reason why there is no such solver.
 pub(crate) fn setup<const D: usize>(
     body: &Body<'_>,
     method: Method,
     level: LevelPlan,
 ) -> Result<Setup<D>, String> {
-    let Method::Mpm { basis, transfer, scheme, start, mass, frame } = method else {
+    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume } = method else {
         return Err("not an MPM method".to_owned());
     };
     let scene = body.scene;
@@ -85,6 +85,7 @@ pub(crate) fn setup<const D: usize>(
         transfer: transfer.build(),
         mass: crate::mpm::mass_matrix(mass),
         frame,
+        volume,
         material: body.initial.stressed(law, &mut particles),
         effects,
         boundary: boundary(scene, &grid, basis),
@@ -98,7 +99,7 @@ pub(crate) fn setup<const D: usize>(
 /// The effects that the scene of `suite` lists, on `particles` and a `grid` of the caller's.
 ///
 /// # Errors
-/// One line that says why there are none.
+/// One line with the reason why there are none.
 pub fn effects<const D: usize>(
     suite: &Suite,
     (grid, basis): (&Grid<D>, BasisName),
@@ -136,7 +137,7 @@ fn manufactured_force<const D: usize>(
     })))
 }
 
-/// The grid that the suite asks for, or the body's box with room beyond its free faces.
+/// The grid that the suite states, or the box of the body with spare cells beyond free faces.
 fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D> {
     let axes: [(f64, f64); D] = std::array::from_fn(|axis| grid_axis(scene, axis, h));
     let origin = Vector::from_fn(|axis, _| axes[axis].0);
@@ -172,8 +173,8 @@ pub(crate) fn periodic(scene: &Scene, axis: usize) -> bool {
     scene.faces.get(2 * axis).is_some_and(|face| face.hold.is_periodic())
 }
 
-/// Boundary conditions on the faces of the grid: where faces share a node, a later one overrides an
-/// earlier one, and so the stronger come last.
+/// Boundary conditions on the faces of the grid. If faces share a node, a later condition overrides
+/// an earlier one, so that stronger conditions come last.
 pub(crate) fn boundary<const D: usize>(
     scene: &Scene,
     grid: &Grid<D>,

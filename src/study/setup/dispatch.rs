@@ -1,4 +1,4 @@
-//! Names become types: the only place that knows every family.
+//! Conversion of names to types: the only file that uses every family.
 
 use super::bar::bar;
 use super::body::{Body, conductor, setup};
@@ -12,7 +12,7 @@ use crate::suite::model::refine_plan::LevelPlan;
 /// Builds the subject of `method` for one level.
 ///
 /// # Errors
-/// One line that says why there is no such subject.
+/// One line with the reason why there is no such subject.
 pub fn subject(
     plan: &ConvergencePlan,
     method: Method,
@@ -29,8 +29,8 @@ pub fn subject(
     }
 }
 
-/// Profile of a step of `method` on one level: of the second step, since the first allocates.
-/// None for FEM, and where the solver fails before.
+/// Profile of a step of `method` on one level: of the second step, because the first one allocates.
+/// `None` for FEM, and if the solver fails earlier.
 pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) -> Option<Profile> {
     fn of_second_step<const D: usize>(
         plan: &ConvergencePlan,
@@ -64,11 +64,12 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
     })
 }
 
-/// Predicted stable time step (s) of `method` on one level, from `rounds` of a power iteration:
-/// the least over the bodies. A body that shares nodes with others is no less stable.
+/// Predicted stable time step (s) of `method` on one level, from `rounds` rounds of a power
+/// iteration: the minimum over the bodies. Sharing nodes with other bodies does not make a body
+/// less stable.
 ///
 /// # Errors
-/// One line that says why it cannot be told.
+/// One line with the reason why it cannot be computed.
 pub(crate) fn stable_time_step(
     plan: &ConvergencePlan,
     method: Method,
@@ -76,13 +77,14 @@ pub(crate) fn stable_time_step(
     rounds: u32,
 ) -> Result<f64, String> {
     plan.scene.each().iter().try_fold(f64::INFINITY, |least, own| {
-        // A given force makes no difference, and is expensive to prepare.
+        // A given force does not affect the result, and is expensive to prepare.
         let body = Body { manufactured: None, ..Body::of(plan, own) };
         Ok(least.min(stable_time_step_of(&body, method, level, rounds)?))
     })
 }
 
-/// The same for one body.
+/// Predicted stable time step (s) of one body with `method` on one level, from `rounds` rounds of a
+/// power iteration.
 pub(crate) fn stable_time_step_of(
     body: &Body<'_>,
     method: Method,
@@ -106,7 +108,7 @@ pub(crate) fn stable_time_step_of(
 /// An MPM subject that can be perturbed: `bodies` of one scene on the cells of `level`.
 ///
 /// # Errors
-/// One line that says why there is no such subject.
+/// One line with the reason why there is no such subject.
 pub(crate) fn perturbable(
     bodies: &[Body<'_>],
     method: Method,

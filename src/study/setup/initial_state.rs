@@ -1,9 +1,9 @@
 //! The state in which bodies start.
 //!
-//! Where the truth is a motion and the material has a stress of the deformation alone, it is that
-//! of the motion at t = 0: `x = X + u(X, 0)`, `F = I + grad u`, `v = u_t`. Otherwise it is what the
-//! scene states, and where it states nothing the body is at rest and undeformed. The stress of the
-//! reference configuration is always the one that the scene states.
+//! If the exact solution is a motion and the stress of the material depends on the deformation
+//! only, the initial state is that of the motion at t = 0: `x = X + u(X, 0)`, `F = I + grad u`,
+//! `v = u_t`. Otherwise it is the state in the scene, by default at rest and undeformed. The
+//! initial stress is always that of the scene.
 
 use crate::exact::formula::Formula;
 use crate::exact::{Derivatives, InitialStress, Motion};
@@ -20,7 +20,7 @@ pub(crate) struct Initial {
 }
 
 impl Initial {
-    /// The initial state of a subject of `plan` that is one body.
+    /// The initial state of a subject of `plan` with one body.
     pub(crate) fn of(plan: &ConvergencePlan) -> Self {
         Self::of_body(plan, &plan.scene)
     }
@@ -31,7 +31,7 @@ impl Initial {
         Self { motion: exact.map(|problem| problem.motion.clone()), ..Self::stated(body) }
     }
 
-    /// The stated initial state alone.
+    /// The stated initial state only.
     pub(crate) fn stated(scene: &Scene) -> Self {
         let Scene { initial_stress, initial_displacement, initial_velocity, .. } = scene;
         let formulas = |all: &Vec<Formula>| (!all.is_empty()).then(|| Motion::new(all.clone()));
@@ -57,7 +57,7 @@ impl Initial {
         now
     }
 
-    /// The `law` of `particles`, with their initial stress if there is one.
+    /// The `law` of `particles`, with their initial stress, if any.
     pub(crate) fn stressed<const D: usize>(
         &self,
         law: Box<dyn Material<D>>,
@@ -84,7 +84,7 @@ impl Initial {
         for (grad_v, now) in particles.grad_v.iter_mut().zip(&states) {
             let f: Matrix<D> = Matrix::from_fn(|i, j| now.grad[i][j]) + Matrix::identity();
             let rate = Matrix::from_fn(|i, j| now.grad_rate[i][j]);
-            // Where F has no inverse, the solver refuses the start.
+            // If F has no inverse, the solver refuses the start.
             *grad_v = f.try_inverse().map_or_else(Matrix::zeros, |inverse| rate * inverse);
         }
         if self.motion.is_some() || self.displacement.is_some() {
@@ -114,7 +114,8 @@ mod tests {
         InitialStress::new(stated.into())
     }
 
-    /// The solver adds to the stress of the law what the truth adds to its own.
+    /// The solver and the exact solution add equal terms of the initial stress to the stress of the
+    /// law.
     #[rstest]
     #[case(MaterialPlan::LinearElastic { young: 100.0, poisson: 0.3 })]
     #[case(MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 })]

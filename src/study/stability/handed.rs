@@ -16,7 +16,7 @@ pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         // The energy that a trial watches is partly stored.
         column: Some("stress"),
-        // A run that cannot be handed over says so where that is tried.
+        // A run that cannot be passed to a solver is reported when it is run.
         initial_deformation: start.is_ok_and(|start| is_deformed(&start, setup.scene.dimension())),
         ..of_scene(&setup.scene)
     };
@@ -32,10 +32,10 @@ pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
     needs
 }
 
-/// The solver at the start of a run of the suite called `suite`.
+/// The solver at the start of a run of the suite named `suite`.
 ///
 /// # Errors
-/// One line that says why it cannot be watched.
+/// One line with the reason why it cannot be observed.
 pub(super) fn subject(
     solver: &dyn SolverFactory,
     suite: &str,
@@ -44,7 +44,7 @@ pub(super) fn subject(
     let subject = solver.subject(handed(suite, setup)?)?;
     let mut samples = Samples::default();
     subject.sample(&mut samples);
-    // Without either, an energy that grows would look like one that does not.
+    // Without either, growth of the energy could not be detected.
     match (subject.totals(), samples.stress.is_empty()) {
         (None, _) => Err("it gives no totals, from which the kinetic energy is read".to_owned()),
         (_, true) => {
@@ -54,11 +54,10 @@ pub(super) fn subject(
     }
 }
 
-/// The problem of a run of the suite called `suite`. Its state is compared where a trial looks at
-/// it.
+/// The problem of a run of the suite named `suite`. Its state is compared at the checks of a trial.
 ///
 /// # Errors
-/// One line that says why there is none.
+/// One line with the reason why there is none.
 fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, String> {
     let dt = *setup.dt.first().ok_or("the run has no time step")?;
     let bare = unloaded(&setup.scene);
@@ -81,7 +80,7 @@ fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, String> {
 /// Seed of the perturbations at the start.
 const SEED: u64 = 8;
 
-/// The bodies that a run starts from, each in a scene of its own.
+/// The bodies at the start of a run, each in its own scene.
 pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>> {
     let body = |own| Body {
         scene: &setup.scene,
@@ -95,8 +94,8 @@ pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>
     each.iter().map(body).collect()
 }
 
-/// Adds a random number to each number of the state, so that no mode is left out, if the run starts
-/// so.
+/// Adds a random number to each number of the state, so that every mode is present, if the run
+/// requests it.
 pub(super) fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
     if !(setup.perturb > 0.0) {
         return;

@@ -1,4 +1,4 @@
-//! The stability study: every row of every case, run and judged.
+//! The stability study: runs and judges every row of every case.
 
 mod handed;
 pub(crate) mod run;

@@ -16,21 +16,24 @@ use crate::verify::{
     spectral_radius, stability_limit, trial,
 };
 
-/// Values at which a limit is looked for before the first unstable interval is halved.
+/// Number of values at which stability is tested before the first unstable interval is bisected.
 const SCAN: u32 = 48;
 
-/// The same where each value is a whole run.
+/// Number of values at which stability is tested if each test is a whole run.
 const SCAN_OF_RUNS: u32 = 16;
 
-/// The share to which limits are found: of a prediction, and of runs.
+/// Relative accuracy of predicted limits.
 const SHARP: f64 = 1e-5;
+
+/// Relative accuracy of limits found by runs.
 const SHARP_OF_RUNS: f64 = 5e-3;
 
 /// Shares of a predicted limit at which runs confirm it: agreement within 2 %, and the usual 5 %.
-/// Below the limit the nearer one asks for more, and a full run, with all its steps, makes both.
+/// Below the limit the nearer share is the stronger test; a full run, with all its steps, uses
+/// both.
 const SHARES: [f64; 4] = [0.95, 0.98, 1.02, 1.05];
 
-/// Effect of rounding on an eigenvalue of one with too few eigenvectors (rigid motion has one).
+/// Effect of rounding on a defective eigenvalue 1, as that of rigid motion.
 const DEFECT: f64 = 1e-5;
 
 /// One case of a study.
@@ -68,8 +71,7 @@ impl CaseRun<'_> {
         Ok(setup)
     }
 
-    /// The stable time step (s); of an external solver, the time that a wave takes
-    /// to cross a cell.
+    /// The stable time step (s); for an external solver, the transit time of a wave through a cell.
     fn stable_time_step(&self, setup: &RunSetup) -> Result<f64, String> {
         let of_body = |body: &Body<'_>| match self.case.method {
             Method::External { .. } => Ok(setup.level.h / body.own.wave_speed()),
@@ -113,7 +115,7 @@ impl CaseRun<'_> {
         Ok(subject)
     }
 
-    /// The run with these values of the parameters, to be shown.
+    /// The run with these values of the parameters, for output as files.
     pub(super) fn shown(&self, values: &ParameterValues<'_>) -> Result<ShownRun<'static>, String> {
         let setup = self.setup(values)?;
         Ok(ShownRun {
@@ -125,8 +127,8 @@ impl CaseRun<'_> {
         })
     }
 
-    /// The limit of the sought parameter: predicted and confirmed where the particles are frozen,
-    /// else observed.
+    /// The limit of the sought parameter: predicted and confirmed if the particles are frozen,
+    /// otherwise observed.
     fn critical(
         &self,
         value: f64,

@@ -56,7 +56,7 @@ impl CaseRunner for StabilityRunner<'_> {
             row
         };
         let rows: Vec<StabilityRow> = plan.values.par_iter().map(row).collect();
-        // What a solver says it cannot do is no fault of it.
+        // A problem that the solver refuses is not a failure.
         let refused = rows.iter().find_map(|row| row.refused.clone());
         if let Some(reason) = refused.filter(|_| context.solver.is_some()) {
             return described(&run).not_applicable(vec![reason], "cannot be put to it:");
@@ -85,7 +85,7 @@ impl CaseRunner for StabilityRunner<'_> {
 /// The part of an outcome that is known before the case runs.
 fn described(run: &CaseRun<'_>) -> CaseOutcome {
     let case = run.case;
-    // Where no face is held, nothing is to be said of walls.
+    // Without a fixed face there is no statement about walls.
     let walls = run.setup(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
     let mut settings = case.method.settings();
     settings.retain(|(key, _)| walls || key != "walls");

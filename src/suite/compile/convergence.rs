@@ -1,4 +1,4 @@
-//! The convergence study: every number computed, every name resolved, the truth checked.
+//! The convergence study: computes every number, resolves every name and checks the exact solution.
 
 use super::check::size::LevelPaths;
 use super::check::{self, size, steps, sums};
@@ -12,15 +12,15 @@ use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::AnyMethod;
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Instants at which the error is taken unless a suite says otherwise.
+/// Default number of instants at which the error is measured.
 const INSTANTS: u64 = 50;
 
-/// A convergence study whose scene, truth, levels and cases are known.
+/// A convergence study with compiled scene, exact solution, levels and cases.
 struct Compiled<'a> {
     evaluator: &'a Evaluator<'a>,
     spec: &'a ConvergenceSpec,
     plan: &'a ConvergencePlan,
-    /// Where the file states the levels.
+    /// Paths of the levels in the file.
     levels: Vec<LevelPaths>,
     /// End of the longest run (s).
     latest: f64,
@@ -29,8 +29,8 @@ struct Compiled<'a> {
 /// A check of keys that belong together.
 type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
 
-/// Checks of a convergence study before its expectations are read. None relies on another: their
-/// order decides only which one of several mistakes is reported.
+/// Checks of a convergence study before its expectations are read. They are independent: their
+/// order only determines which of several errors is reported.
 const CROSS_CHECKS: [CrossCheck; 8] = [
     |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| truth::refuse_violated(suite.evaluator, suite.spec, suite.plan),
@@ -42,7 +42,7 @@ const CROSS_CHECKS: [CrossCheck; 8] = [
     |suite| steps::refuse_unusable(suite.evaluator, suite.plan, &suite.levels),
 ];
 
-/// Checks the scene, truth, levels, cases and expectations of a convergence study.
+/// Checks the scene, exact solution, levels, cases and expectations of a convergence study.
 pub(crate) fn convergence_plan(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -91,7 +91,7 @@ pub(crate) fn convergence_plan(
     plan.cases = run::cases(evaluator, spec, &plan, &until)?;
     let compiled = Compiled { evaluator, spec, plan: &plan, levels, latest };
     CROSS_CHECKS.iter().try_for_each(|check| check(&compiled))?;
-    // The exact value of a sum is that of a solution that has been checked.
+    // The exact value of a sum comes from a solution that has been checked.
     plan.sum = sums::judged(evaluator, spec, &plan)?;
     plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
     if let Some(spec) = &spec.any_method {
@@ -101,7 +101,7 @@ pub(crate) fn convergence_plan(
     Ok(plan)
 }
 
-/// The warnings that a suite acknowledges. Each needs its reason, and appears once.
+/// The warnings that a suite acknowledges. Each must have a reason, and occur once.
 fn acknowledged(
     evaluator: &Evaluator<'_>,
     specs: &[AcknowledgeSpec],

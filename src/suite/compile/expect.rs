@@ -1,4 +1,4 @@
-//! Expectations: exactly one for each case, or none for any; and the accuracy that any method can
+//! Expectations: exactly one for each case, or none at all; and the accuracy that any method can
 //! reach.
 
 use crate::exact::Problem;
@@ -19,8 +19,7 @@ use std::str::FromStr;
 /// Expectation of a case, and of a full run if that differs.
 type CaseExpectation = (Expectation, Option<Expectation>);
 
-/// One expectation for each of the `cases`, in their order; none for any where the suite states
-/// nothing.
+/// One expectation for each of the `cases`, in their order; all `None` if the suite states none.
 pub(crate) fn expectations(
     evaluator: &Evaluator<'_>,
     spec: &[ExpectSpec],
@@ -46,7 +45,7 @@ pub(crate) fn expectations(
     Ok(owners.into_iter().map(|owner| Some(parsed[owner?].clone())).collect())
 }
 
-/// For each case the one entry of `expect` that speaks of it; none for any where there is no entry.
+/// For each case the one entry of `expect` that matches it; all `None` without entries.
 pub(crate) fn assign(
     evaluator: &Evaluator<'_>,
     selectors: &[Option<&OneOrMany<String>>],
@@ -87,7 +86,7 @@ pub(crate) fn assign(
     names.iter().map(owner).collect()
 }
 
-/// Expectation of a full run, where an entry states that it differs.
+/// Expectation of a full run, if an entry states a different one.
 fn in_full(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -260,7 +259,8 @@ fn drifts(
     Ok(drifts)
 }
 
-/// Places along each axis, and instants, at which a motion is checked to be a translation.
+/// Number of points along each axis, and of instants, at which a motion is checked to be a
+/// translation.
 const PLACES: usize = 5;
 
 /// Largest entry of the displacement gradient of a translation, of formulas that round.

@@ -1,8 +1,8 @@
 //! The internal-force study: the mechanism of grid crossing, without a run.
 //!
-//! Two cells meet at a node; like all others, they hold equal particles under one uniform stress.
-//! One particle of the left cell is moved through the node, and the internal force on the node is
-//! taken from P2G of the solver itself.
+//! Two cells meet at a node; like all other cells, they contain equal particles under one uniform
+//! stress. One particle of the left cell is moved across the node, and the internal force on the
+//! node is computed by P2G of the solver itself.
 
 use super::expect::assign;
 use crate::mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, Vector, kernel};
@@ -12,11 +12,12 @@ use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::ForceRow;
 
-/// Cells on either side of the node, all of them full. The axis is periodic: no wall, and no end of
-/// the body that a wide basis could see.
+/// Full cells on either side of the node. The axis is periodic, so that the support of a wide basis
+/// contains neither a wall nor an end of the body.
 const SIDE: usize = 4;
 
-/// Most particles over all positions: a second of work, and a report that can be read.
+/// Maximum number of particles over all positions. It limits the run to about a second and the
+/// report to a readable length.
 const MOST_SUMMANDS: u64 = 1_000_000;
 
 /// Variables of the predicted force.
@@ -125,14 +126,14 @@ fn force(plan: &ForcePlan, basis: BasisName, position: f64) -> f64 {
     let mut particles = Particles::fill(&block, h, plan.ppc as usize);
     particles.vol.fill(plan.volume);
     particles.sigma.fill(Matrix::<1>::new(plan.stress));
-    // The last particle of the left half is the one that moves.
+    // The last particle of the left half moves.
     particles.x[SIDE * plan.ppc as usize - 1][0] = position * h;
     kernel.p2g_internal_force(&particles, &mut grid);
     let node = node_at(kernel.as_ref(), &mut grid, h);
     grid.force[node][0]
 }
 
-/// The function that a particle at x = 0 sees most of; of two, the one on the right.
+/// The node with the largest weight for a particle at x = 0; the right one of two.
 fn node_at(kernel: &dyn Kernel<1>, grid: &mut Grid<1>, h: f64) -> usize {
     let (from, to) = (Vector::<1>::new(-0.5 * h), Vector::<1>::new(0.5 * h));
     let alone = Particles::fill(&Block { from, to, density: 1.0 }, h, 1);

@@ -1,4 +1,4 @@
-//! Every key that must not be missing is shown with a value that may stand there.
+//! Every required key is shown with a valid value.
 
 use crate::suite::grammar::SuiteSpec;
 use crate::suite::grammar::sample::SAMPLES;
@@ -19,7 +19,7 @@ methods: [{mpm: {basis: linear, transfer: flip, scheme: usl}}, {external: {name:
 expect: [{verdict: failed, because: none}]
 ";
 
-/// Whether a text has the keys that the grammar wants, and no others.
+/// Whether a text has all required keys and no unknown ones.
 fn grammatical(text: &Value) -> Result<(), Diagnostic> {
     let source = Source::from_text("suite.yaml", text.to_string())?;
     SuiteSpec::read(&source).map(drop)

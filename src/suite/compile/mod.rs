@@ -1,4 +1,5 @@
-//! From the grammar to the model: every number computed, every name resolved, the truth checked.
+//! From the grammar to the model: computes every number, resolves every name and checks the exact
+//! solution.
 
 pub(crate) mod check;
 pub(crate) mod convergence;

@@ -1,4 +1,5 @@
-//! JSON Schema of a suite (draft 7, which editors know), made from the types that read it.
+//! JSON Schema of a suite (draft 7, which editors support), generated from the types of the
+//! grammar.
 
 use crate::suite::grammar::{ConvergenceSpec, GradientSpec, InternalForceSpec, StabilitySpec};
 use schemars::Schema;
@@ -33,11 +34,11 @@ pub fn suite_schema() -> String {
     RecursiveTransform(without_links).transform(&mut schema);
     RecursiveTransform(without_null).transform(&mut schema);
     RecursiveTransform(names_in_one_list).transform(&mut schema);
-    // Names and texts only: there is nothing that JSON has no word for.
+    // Names and texts only, so that the conversion to JSON cannot fail.
     serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
 }
 
-/// Removes a description that speaks of items of the source, which authors of suites do not see.
+/// Removes descriptions with links to items of the source, which authors of suites do not need.
 fn without_links(schema: &mut Schema) {
     let speaks_of_source = |text: &Value| text.as_str().is_some_and(|text| text.contains("[`"));
     if schema.get("description").is_some_and(speaks_of_source) {
@@ -62,8 +63,8 @@ fn names_in_one_list(schema: &mut Schema) {
     }
 }
 
-/// Removes `null`, which the program takes for a key that is not given, from what is optional: of a
-/// key without a value an editor should speak.
+/// Removes `null` from optional keys, which the program treats as a missing key: an editor should
+/// report a key without a value.
 fn without_null(schema: &mut Schema) {
     if schema.get("default").is_some_and(Value::is_null) {
         schema.remove("default");

@@ -17,7 +17,7 @@ impl Suite {
     /// Reads and checks a suite. No solver runs.
     ///
     /// # Errors
-    /// A [`Diagnostic`] with the place of the first thing that is wrong.
+    /// A [`Diagnostic`] with the place of the first error.
     pub fn load(source: &Source) -> Result<Self, Diagnostic> {
         let suite = match SuiteSpec::read(source)? {
             SuiteSpec::Convergence(spec) => convergence(source, *spec),
@@ -29,11 +29,11 @@ impl Suite {
         Ok(Self { group: source.group(), fingerprint, ..suite? })
     }
 
-    /// The scene of the convergence study that `source` holds, compared with no truth: what a
-    /// solver gets that is to be found wrong.
+    /// The scene of the convergence study in `source`, without exact solution: the problem of a
+    /// solver with a defect to be found.
     ///
     /// # Errors
-    /// A [`Diagnostic`] with the place of the first thing that is wrong.
+    /// A [`Diagnostic`] with the place of the first error.
     pub fn scene(source: &Source) -> Result<Scene, Diagnostic> {
         let spec = ConvergenceSpec::read(source)?;
         let (evaluator, _) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
@@ -41,19 +41,19 @@ impl Suite {
     }
 }
 
-/// The convergence study that `source` holds, with `factor` times its amplitude: of the exact
-/// motion and of the initial state, not of loads.
+/// The convergence study in `source`, with the amplitude of the exact motion and of the initial
+/// state multiplied by `factor`. Loads are not scaled.
 ///
 /// # Errors
-/// If the scaled motion is no solution, as where loads stay what they are.
+/// If the scaled motion is not a solution, as with loads that are not scaled.
 pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diagnostic> {
     with_changes(source, |spec| scale_amplitude(spec, factor))
 }
 
-/// The convergence study that `source` holds, without expectations and with these changes.
+/// The convergence study in `source`, without expectations and with these changes.
 ///
 /// # Errors
-/// A [`Diagnostic`] that says why the changed suite is not accepted.
+/// A [`Diagnostic`] with the reason why the changed suite is refused.
 pub(crate) fn with_changes(
     source: &Source,
     change: impl FnOnce(&mut ConvergenceSpec),

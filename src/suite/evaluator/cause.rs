@@ -1,16 +1,16 @@
-//! Which parameter is to blame for a number that cannot be used.
+//! Finds the parameter that causes an invalid number.
 
 use super::{Evaluator, shown};
 use crate::exact::formula::{Expr, Formula};
 use crate::suite::yaml::{Diagnostic, NumberText, Path, Place, Step};
 
-/// Values that hardly any formula fails for. A parameter is suspected where one of them, or its
-/// own magnitude, in its place gives a finite number.
+/// Values for which most formulas are finite. A parameter is suspected if the formula is finite
+/// with one of them, or with its own magnitude, in its place.
 const HARMLESS: [f64; 2] = [1.0, 0.5];
 
 impl Evaluator<'_> {
-    /// A complaint about a number that the formula at `path` gives and that cannot stand there;
-    /// names the parameters that the formula reads.
+    /// A diagnostic of an invalid number from the formula at `path`; it lists the parameters of the
+    /// formula.
     pub(crate) fn unusable(
         &self,
         path: &Path,
@@ -23,7 +23,7 @@ impl Evaluator<'_> {
         self.diagnostic(path, message).with_label(label).with_help(&read.join(", "))
     }
 
-    /// A complaint about a formula of parameters that gives no finite number.
+    /// A diagnostic of a formula of parameters whose value is not finite.
     pub(super) fn not_finite(&self, path: &Path, text: &NumberText, value: f64) -> Diagnostic {
         let (label, value) = ("expected a finite number", shown(value));
         let what = match path.steps() {
@@ -57,7 +57,7 @@ impl Evaluator<'_> {
         constants.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
-    /// Whether the formula gives a finite number with another value of a parameter.
+    /// Whether the formula is finite with another value of a parameter.
     fn is_finite_with(&self, text: &NumberText, name: &str, value: f64) -> bool {
         let scope = self.scope.with(name, value);
         let formula =

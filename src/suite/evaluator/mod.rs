@@ -1,4 +1,4 @@
-//! From what a file says to numbers and formulas, with the place of whatever is wrong.
+//! Evaluates the texts of a file to numbers and formulas; errors have their position.
 
 mod cause;
 mod names;
@@ -12,7 +12,7 @@ use serde::Deserialize;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
-/// Largest count that a suite may ask for (cells, particles per cell, instants).
+/// Maximum count in a suite (cells, particles per cell, instants).
 const MOST: f64 = 1e7;
 
 /// Names of the coordinates in formulas.
@@ -36,7 +36,7 @@ pub(crate) type ParameterSpec = NumberOr<TableSpec>;
 pub(crate) struct TableSpec {
     /// A parameter, or a variable of formulas.
     pub(crate) by: String,
-    /// Rows of a value of `by` and the parameter's value there.
+    /// Rows of a value of `by` and the value of the parameter.
     pub(crate) table: Vec<Vec<NumberText>>,
 }
 
@@ -44,16 +44,16 @@ impl InPlaceOfNumber for TableSpec {
     const EXPECTED: &'static str = "a number, a formula, or `{by: t, table: [[0, 0], [0.1, 1]]}`";
 }
 
-/// A parameter: its name, what the file says, its value unless that is a table's.
+/// A parameter: its name, its text, and its value unless it is a table.
 pub(crate) type DeclaredParameter = (String, String, Option<f64>);
 
-/// The names of a suite, and which of them have been used.
+/// The names of a suite, with marks on used ones.
 pub(crate) struct Evaluator<'a> {
     source: &'a Source,
     scope: Scope,
     used: RefCell<BTreeSet<String>>,
     heads: Vec<String>,
-    /// Every parameter of the suite, also those that are not declared yet.
+    /// Every parameter of the suite, including those that are not declared yet.
     parameters: Vec<String>,
 }
 
@@ -153,7 +153,7 @@ impl<'a> Evaluator<'a> {
         texts.iter().enumerate().map(bind).collect()
     }
 
-    /// A finite number, given as such or by a formula of parameters.
+    /// A finite number, stated directly or by a formula of parameters.
     pub(crate) fn number(&self, path: &Path, text: &NumberText) -> Result<f64, Diagnostic> {
         let formula = self.formula(path, text, &[])?;
         let value = formula.constant().unwrap_or(f64::NAN);
@@ -224,7 +224,7 @@ impl<'a> Evaluator<'a> {
         Err(self.diagnostic(path, &message).with_label("expected [low, high]"))
     }
 
-    /// The reason that stands at `path` for what is `stated` there; it must not be empty.
+    /// The reason at `path` for what is `stated` there; it must not be empty.
     pub(crate) fn because(
         &self,
         path: &Path,
@@ -240,12 +240,12 @@ impl<'a> Evaluator<'a> {
         Err(diagnostic.with_label("expected words"))
     }
 
-    /// A complaint about the value at `path`.
+    /// A diagnostic of the value at `path`.
     pub(crate) fn diagnostic(&self, path: &Path, message: &str) -> Diagnostic {
         self.source.diagnostic_at(path.steps(), message)
     }
 
-    /// A complaint about the key at `path`.
+    /// A diagnostic of the key at `path`.
     pub(crate) fn diagnostic_at_key(&self, path: &Path, message: &str) -> Diagnostic {
         match self.source.key_at(path.steps()) {
             Some(place) => self.source.diagnostic(place, message),
@@ -253,7 +253,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// A complaint about part of the formula at `path`, or of the function that it calls.
+    /// A diagnostic of a part of the formula at `path`, or of the function that it calls.
     fn in_text(&self, path: &Path, error: &FormulaError) -> Diagnostic {
         let function = error.within.as_ref().and_then(|name| self.head_of(name));
         let path = function
@@ -289,7 +289,7 @@ pub(crate) fn shown(value: f64) -> String {
     NumberText::Number(value).to_string()
 }
 
-/// The name that was most likely meant, or all `known` ones.
+/// The nearest known name, or all `known` names.
 pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
     match nearest(name, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),

@@ -1,4 +1,4 @@
-//! The names that a suite declares: tables, names that are taken, unused, or declared too late.
+//! The names that a suite declares: tables, and errors about duplicate, unused or late names.
 
 use super::{Evaluator, ParameterSpec, TableSpec, shown, with_help};
 use crate::exact::formula::{Expr, Formula, Scope};
@@ -24,7 +24,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Complains of the first parameter or function that nothing uses.
+    /// A diagnostic of the first unused parameter or function.
     pub(crate) fn refuse_unused(
         &self,
         parameters: &Ordered<ParameterSpec>,
@@ -53,7 +53,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Whether a name is that of a parameter whose value is not known yet.
+    /// Whether a name is that of a parameter without a value yet.
     pub(super) fn comes_later(&self, name: &str) -> bool {
         self.parameters.iter().any(|known| known == name)
             && !self.scope.constants().any(|(known, _)| known == name)
@@ -113,7 +113,7 @@ fn name_in(head: &str) -> &str {
 }
 
 impl Evaluator<'_> {
-    /// Declares the table `name`. Returns its text and, where it is read by a parameter, its value.
+    /// Declares the table `name`. Returns its text and, if its argument is a parameter, its value.
     pub(super) fn declare_table(
         &mut self,
         path: &Path,

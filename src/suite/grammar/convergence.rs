@@ -22,7 +22,7 @@ pub(crate) struct ConvergenceSpec {
     pub(crate) _study: Option<StudyName>,
     /// Headline of the report.
     pub(crate) title: String,
-    /// Where the problem comes from.
+    /// Reference for the problem.
     pub(crate) source: String,
     /// Remarks for a reader of the report.
     #[serde(default)]
@@ -30,33 +30,34 @@ pub(crate) struct ConvergenceSpec {
     /// Numbers, formulas of the parameters above them, or tables; each must be used.
     #[serde(default)]
     pub(crate) parameters: Ordered<ParameterSpec>,
-    /// Functions for formulas that need something more than once: `s(tau): "..."`.
+    /// Functions for formulas: `s(tau): "..."`.
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
-    /// The body, what holds it and what acts on it.
+    /// The body with its conditions and loads.
     pub(crate) scene: SceneSpec,
     /// The solution as formulas, checked before any solver runs.
     pub(crate) exact: Option<ExactSpec>,
     /// A motion whose body force follows by differentiation.
     pub(crate) manufactured: Option<ManufacturedSpec>,
-    /// The state in which the body comes to rest, as formulas of the coordinates.
+    /// Equilibrium in which the body comes to rest, as formulas of the coordinates.
     pub(crate) equilibrium: Option<ExactSpec>,
-    /// A fine computation, where no formula is known.
+    /// A fine computation, if no formula is known.
     pub(crate) reference: Option<ReferenceSpec>,
     /// End, time step and instants of a run.
     pub(crate) run: RunSpec,
-    /// Levels: what is a list is refined, from coarse to fine.
+    /// Levels: a list is refined, from coarse to fine.
     pub(crate) refine: RefineSpec,
-    /// Places of particles beside the lattice.
+    /// Offsets of particles from their lattice.
     pub(crate) particles: Option<ScatterSpec>,
-    /// Methods that are judged; lists in an entry multiply to cases.
+    /// Methods to be judged; lists in an entry multiply to cases.
     pub(crate) methods: Vec<MethodSpec>,
-    /// The error that is judged.
+    /// The judged error.
     #[serde(default)]
     pub(crate) judge: JudgeSpec,
-    /// A place for Richardson's extrapolation and the velocity history.
+    /// Point for Richardson's extrapolation and the velocity history.
     pub(crate) observe: Option<ObserveSpec>,
-    /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
+    /// Expectations, exactly one for each case; without expectations the suite explores, and is not
+    /// a gate.
     #[serde(default)]
     pub(crate) expect: Vec<ExpectSpec>,
     /// Warnings of `check` that the suite intends, each with its reason.
@@ -72,7 +73,7 @@ impl ConvergenceSpec {
         self.methods.iter().position(|method| matches!(method, MethodSpec::Fem { .. }))
     }
 
-    /// Whether a fine FEM computation is asked for.
+    /// Whether the suite has a fine FEM computation.
     pub(crate) fn has_fem_reference(&self) -> bool {
         self.reference.as_ref().is_some_and(|reference| reference.fem.is_some())
     }
@@ -86,11 +87,11 @@ pub(crate) struct ReferenceSpec {
     pub(crate) equation: Option<EquationName>,
     /// A fine FEM computation.
     pub(crate) fem: Option<ReferenceFemSpec>,
-    /// The same method with much shorter steps, or on a much finer grid.
+    /// A reference run by the same method with much shorter steps, or on a much finer grid.
     pub(crate) same_method: Option<SameMethodSpec>,
 }
 
-/// The same method with shorter steps, or on a fine grid.
+/// A reference run by the same method, with shorter steps or on a finer grid.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -125,9 +126,9 @@ pub(crate) struct JudgeSpec {
     /// Norm of the error.
     #[serde(default)]
     pub(crate) norm: NormName,
-    /// Face whose reaction is judged; absent: all walls together.
+    /// Face whose reaction is judged; default: all walls together.
     pub(crate) face: Option<String>,
-    /// Divisor of the error before it is judged.
+    /// Divisor of the judged error.
     pub(crate) scale: Option<NumberText>,
     /// Whether levels on which particles change their cell count.
     #[serde(default)]
@@ -138,7 +139,7 @@ named! {
     /// Whether levels on which particles changed their cell may count.
     #[derive(Default)]
     pub enum CrossingLevels {
-        /// They count like others.
+        /// Levels with crossings count.
         #[default]
         Counted = "counted",
         /// They are shown and do not count.
@@ -160,13 +161,13 @@ pub(crate) struct ObserveSpec {
 pub(crate) struct RunSpec {
     /// End of the run (s), or a list of ends.
     pub(crate) until: OneOrMany<NumberText>,
-    /// Absent where `refine` lists time steps.
+    /// Absent if `refine` lists time steps.
     pub(crate) dt: Option<StepSpec>,
-    /// Number of instants at which the error is taken.
+    /// Number of instants at which the error is measured.
     pub(crate) instants: Option<NumberText>,
 }
 
-/// The key that holds a list is refined, from coarse to fine.
+/// The key with a list is refined, from coarse to fine.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -181,14 +182,14 @@ pub(crate) struct RefineSpec {
     pub(crate) full: Option<OneOrMany<NumberText>>,
 }
 
-/// Places of particles beside their lattice, in shares of their spacing.
+/// Offsets of particles from their lattice, in shares of their spacing.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ScatterSpec {
     /// Translation of all particles along each axis.
     pub(crate) shift: Option<Vec<NumberText>>,
-    /// Largest random displacement of each along an axis.
+    /// Maximum random displacement of each particle along an axis.
     pub(crate) perturb: Option<NumberText>,
     /// Seed of the random displacements.
     pub(crate) seed: Option<NumberText>,

@@ -18,7 +18,7 @@ macro_rules! expect_spec {
 pub(crate) struct ExpectSpec {
     /// Cases that it speaks of, `*` standing for any text; all unless stated.
     pub(crate) case: Option<OneOrMany<String>>,
-    /// The verdict; `converging` where an `order` is given.
+    /// The verdict; `converging` if an `order` is stated.
     #[cfg_attr(feature = "schemas", schemars(schema_with = "verdicts", default))]
     pub(crate) verdict: Option<String>,
     /// Lowest and highest order: the whole confidence interval must lie within.
@@ -36,7 +36,7 @@ pub(crate) struct ExpectSpec {
     pub(crate) energy_rate: Option<Vec<NumberText>>,
     /// The reason for expecting it.
     pub(crate) because: String,
-    /// Expectation of a full run, where that differs.
+    /// Expectation of a full run, if it differs.
     pub(crate) full: Option<Box<ExpectSpec>>,
 }
 
@@ -69,7 +69,7 @@ pub(crate) struct AnyMethodSpec {
     pub(crate) because: String,
 }
 
-/// The names of verdicts, as suites spell them.
+/// The names of verdicts, as in suites.
 #[cfg(feature = "schemas")]
 fn verdicts(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     let names = Verdict::ALL.map(|verdict| verdict.name().replace([' ', '-'], "_"));
@@ -119,7 +119,7 @@ named! {
         LooseTolerance = "loose_tolerance",
         /// A box whose last particles start on nodes.
         EndOnNode = "end_on_node",
-        /// An equilibrium study in which nothing removes energy.
+        /// An equilibrium study without dissipation.
         Undamped = "undamped",
     }
 }
@@ -131,6 +131,6 @@ named! {
 pub(crate) struct AcknowledgeSpec {
     /// The warning.
     pub(crate) warning: WarningName,
-    /// Why the suite intends what `check` warns of.
+    /// Why the suite intends the finding of `check`.
     pub(crate) because: String,
 }

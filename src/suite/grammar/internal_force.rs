@@ -17,7 +17,7 @@ pub(crate) struct InternalForceSpec {
     pub(crate) _study: StudyName,
     /// Headline of the report.
     pub(crate) title: String,
-    /// Where the problem comes from.
+    /// Reference for the problem.
     pub(crate) source: String,
     /// Remarks for a reader of the report.
     #[serde(default)]
@@ -25,14 +25,15 @@ pub(crate) struct InternalForceSpec {
     /// Numbers, formulas of the parameters above them, or tables; each must be used.
     #[serde(default)]
     pub(crate) parameters: Ordered<ParameterSpec>,
-    /// Functions for formulas that need something more than once: `s(tau): "..."`.
+    /// Functions for formulas: `s(tau): "..."`.
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
     /// The set-up.
     pub(crate) internal_force: ForceSpec,
     /// Basis functions that are compared.
     pub(crate) methods: Vec<ForceMethodSpec>,
-    /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
+    /// Expectations, exactly one for each case; without expectations the suite explores, and is not
+    /// a gate.
     #[serde(default)]
     pub(crate) expect: Vec<ForceExpectSpec>,
 }

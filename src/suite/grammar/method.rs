@@ -3,7 +3,8 @@
 use super::EquationName;
 use crate::fem::{Element, Mass, Sampling};
 use crate::mpm::{
-    BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, WithParameter,
+    BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, VolumeName,
+    WithParameter,
 };
 use crate::subject::{Precision, Start};
 use crate::suite::yaml::{InPlaceOfNumber, NumberOr, NumberText, OneOrMany, refuse};
@@ -25,12 +26,14 @@ pub(crate) enum MethodSpec {
         transfer: OneOrMany<TransferChoice>,
         /// Time scheme: when stresses are updated.
         scheme: OneOrMany<SchemeName>,
-        /// Time for which the velocity at t = 0 stands; `at_zero` unless stated.
+        /// Time of the initial velocity; default `at_zero`.
         start: Option<OneOrMany<Start>>,
         /// Mass matrix; `lumped` unless stated.
         mass: Option<OneOrMany<MassName>>,
         /// Frame; `updated_lagrangian` unless stated.
         frame: Option<OneOrMany<FrameName>>,
+        /// Volume ratio at which the law computes its stress; `particle` unless stated.
+        volume: Option<OneOrMany<VolumeName>>,
     },
     /// Finite elements in one dimension.
     Fem {
@@ -38,11 +41,11 @@ pub(crate) enum MethodSpec {
         element: OneOrMany<Element>,
         /// Mass matrix.
         mass: OneOrMany<Mass>,
-        /// Equation of motion; that of the truth unless stated.
+        /// Equation of motion; default: that of the exact solution.
         law: Option<OneOrMany<EquationName>>,
-        /// Time for which the velocity at t = 0 stands; `at_zero` unless stated.
+        /// Time of the initial velocity; default `at_zero`.
         start: Option<OneOrMany<Start>>,
-        /// Points at which the error is taken.
+        /// Points at which the error is measured.
         sampling: Option<OneOrMany<Sampling>>,
     },
     /// MPM of a body at rest, in which heat flows.
@@ -54,7 +57,7 @@ pub(crate) enum MethodSpec {
     External {
         /// Its name, a part of the case's.
         name: String,
-        /// Order that theory gives its displacements; 2 unless stated.
+        /// Theoretical order of its displacements; default 2.
         formal_order: Option<NumberText>,
         /// Precision of its numbers.
         precision: Option<Precision>,
@@ -132,9 +135,9 @@ impl<'de> Visitor<'de> for NameOrParameter {
 pub(crate) enum StepSpec {
     /// A number (s), or a formula.
     Length(NumberText),
-    /// The share of the stable time step.
+    /// A share of the stable time step.
     Courant(NumberText),
-    /// A share that leaves room for what happens on the way.
+    /// A share chosen automatically, with a margin for changes during the run.
     Auto,
 }
 

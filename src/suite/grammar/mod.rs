@@ -1,7 +1,7 @@
-//! The grammar of a suite: what may stand in a YAML file, before any number is known.
+//! The grammar of a suite: the allowed contents of a YAML file, before any number is computed.
 //!
-//! Every map refuses keys that it does not know. A number may be a formula of declared parameters;
-//! a method's entries may be lists, whose product gives the cases.
+//! Every map refuses unknown keys. A number may be a formula of declared parameters; the entries of
+//! a method may be lists, whose product gives the cases.
 
 pub(crate) mod convergence;
 pub(crate) mod expect;
@@ -41,13 +41,13 @@ pub(crate) enum SuiteSpec {
     Convergence(Box<ConvergenceSpec>),
     /// Internal force on a node while a particle moves through it.
     InternalForce(Box<InternalForceSpec>),
-    /// Whether runs stay bounded, and up to which value of a parameter.
+    /// Whether runs stay bounded, and the limit of a parameter.
     Stability(Box<StabilitySpec>),
     /// Derivatives that a differentiable solver reports.
     Gradient(Box<GradientSpec>),
 }
 
-/// Keys that every suite has, whatever it studies.
+/// Keys of every suite, for any kind of study.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 pub(crate) struct Head {
@@ -64,7 +64,7 @@ pub(crate) enum StudyName {
     Convergence,
     /// Internal force on a node while a particle moves through it.
     InternalForce,
-    /// Whether runs stay bounded, and up to which value of a parameter.
+    /// Whether runs stay bounded, and the limit of a parameter.
     Stability,
     /// Derivatives that a differentiable solver reports.
     Gradient,

@@ -1,4 +1,4 @@
-//! Values that may stand under the keys that must not be missing, for messages that can be pasted.
+//! Valid values of required keys, for messages with text to paste.
 
 use super::{ConvergenceSpec, Head, StudyName, SuiteSpec};
 use crate::suite::yaml::{CheckedShape, Diagnostic, Source, TopValue};
@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde::de::value::{Error, StrDeserializer};
 
-/// A key, or a key of an owner where the same key has another value elsewhere, and a sample.
+/// A key, or a key of an owner if it has another value elsewhere, and a sample value.
 pub(crate) const SAMPLES: &[(&str, &str)] = &[
     // Every study.
     ("suite", "my-suite"),
@@ -115,7 +115,7 @@ impl SuiteSpec {
     /// Reads the keys of a suite. The error of a missing key shows a sample of its value.
     ///
     /// # Errors
-    /// The first mistake in the file, with its place.
+    /// The first error in the file, with its place.
     pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
         let checked = CheckedShape::new(source, "study")?;
         match StudyName::of_checked(&checked)? {
@@ -137,7 +137,7 @@ impl ConvergenceSpec {
     /// Reads the keys of a convergence study.
     ///
     /// # Errors
-    /// The first mistake in the file, with its place.
+    /// The first error in the file, with its place.
     pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
         read(&CheckedShape::new(source, "study")?, "convergence")
     }

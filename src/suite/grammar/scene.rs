@@ -23,7 +23,7 @@ pub(crate) struct SceneSpec {
     pub(crate) bodies: Option<Vec<OneBodySpec>>,
     /// Contact between the bodies; without it they share one velocity field.
     pub(crate) contact: Option<ContactSpec>,
-    /// Corners of the grid (m); otherwise that of the body, with room beyond free faces.
+    /// Corners of the grid (m); by default the box of the body, with spare cells beyond free faces.
     pub(crate) grid: Option<BoxSpec>,
     /// The material.
     pub(crate) material: Option<MaterialSpec<NumberText>>,
@@ -62,7 +62,7 @@ pub(crate) struct OneBodySpec {
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
 }
 
-/// A symmetric stress (Pa) by its components; those that are not stated are zero.
+/// A symmetric stress (Pa) by its components; missing components are zero.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -75,7 +75,7 @@ pub(crate) struct StressSpec {
     pub(crate) xz: Option<NumberText>,
 }
 
-/// How bodies push each other where they meet.
+/// Contact between bodies.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -147,6 +147,6 @@ pub(crate) struct RoundSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum SetSpec {
-    /// Those whose reference positions lie in a box.
+    /// Material points whose reference positions lie in a box.
     Box(BoxSpec),
 }

@@ -17,7 +17,7 @@ pub(crate) struct StabilitySpec {
     pub(crate) _study: StudyName,
     /// Headline of the report.
     pub(crate) title: String,
-    /// Where the problem comes from.
+    /// Reference for the problem.
     pub(crate) source: String,
     /// Remarks for a reader of the report.
     #[serde(default)]
@@ -25,30 +25,31 @@ pub(crate) struct StabilitySpec {
     /// Numbers, formulas of the parameters above them, or tables; each must be used.
     #[serde(default)]
     pub(crate) parameters: Ordered<ParameterSpec>,
-    /// Functions for formulas that need something more than once: `s(tau): "..."`.
+    /// Functions for formulas: `s(tau): "..."`.
     #[serde(default)]
     pub(crate) functions: Ordered<String>,
-    /// The body, what holds it and what acts on it.
+    /// The body with its conditions and loads.
     pub(crate) scene: SceneSpec,
     /// Cells and particles.
     pub(crate) particles: ParticleSpec,
     /// Time step and number of steps.
     pub(crate) run: StabilityRunSpec,
-    /// One parameter, and the values that it takes.
+    /// One parameter, and its values.
     pub(crate) sweep: Ordered<OneOrMany<NumberText>>,
-    /// The parameter whose largest stable value is sought for each row.
+    /// The parameter whose largest stable value is determined for each row.
     pub(crate) critical: Option<CriticalSpec>,
     /// Figures that the report shows.
     #[serde(default)]
     pub(crate) show: Vec<crate::verify::RunFigure>,
-    /// Methods that are put to it; lists in an entry multiply to cases.
+    /// Methods to be studied; lists in an entry multiply to cases.
     pub(crate) methods: Vec<MethodSpec>,
-    /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
+    /// Expectations, exactly one for each case; without expectations the suite explores, and is not
+    /// a gate.
     #[serde(default)]
     pub(crate) expect: Vec<StabilityExpectSpec>,
 }
 
-/// How the body is filled.
+/// Particles of the body.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -59,27 +60,27 @@ pub(crate) struct ParticleSpec {
     pub(crate) ppc: NumberText,
     /// Translation of every particle (m) before the start.
     pub(crate) shift: Option<Vec<NumberText>>,
-    /// Places (m) of further particles, each with the volume of the others.
+    /// Positions (m) of additional particles, each with the volume of the others.
     #[serde(default)]
     pub(crate) extra: Vec<Vec<NumberText>>,
 }
 
-/// How it is run.
+/// Settings of a run.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StabilityRunSpec {
     /// Time step (s): a number, `auto`, or `{courant: ...}`.
     pub(crate) dt: StepSpec,
-    /// Another length of a step, which takes turns with `dt`.
+    /// A second step length, which alternates with `dt`.
     pub(crate) alternate: Option<NumberText>,
-    /// Steps of one length before it is the turn of the other.
+    /// Number of consecutive steps of each length.
     pub(crate) every: Option<NumberText>,
     /// Number of steps.
     pub(crate) steps: NumberText,
-    /// Steps of a full run, where that takes more.
+    /// Steps of a full run, if it has more.
     pub(crate) full_steps: Option<NumberText>,
-    /// Whether particles stay where they are.
+    /// Whether the particles do not move.
     #[serde(default)]
     pub(crate) frozen: bool,
     /// Size of random perturbations of the state at the start.
@@ -90,16 +91,16 @@ pub(crate) struct StabilityRunSpec {
     pub(crate) unstable_above: Option<NumberText>,
 }
 
-/// The parameter whose limit is sought, and where.
+/// The parameter whose limit is sought, and its range.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CriticalSpec {
     /// Name of the parameter.
     pub(crate) parameter: String,
-    /// Lowest value that is tried.
+    /// Minimum of the range.
     pub(crate) from: NumberText,
-    /// Highest value that is tried.
+    /// Maximum of the range.
     pub(crate) to: NumberText,
 }
 
@@ -110,7 +111,7 @@ pub(crate) struct CriticalSpec {
 pub(crate) struct StabilityExpectSpec {
     /// Cases that it speaks of, `*` standing for any text; all unless stated.
     pub(crate) case: Option<OneOrMany<String>>,
-    /// Of every row, or one for each.
+    /// Expected verdict of every row, or one for each.
     pub(crate) verdict: Option<OneOrMany<Stability>>,
     /// The limit that is sought.
     pub(crate) critical: Option<FigureSpec>,
@@ -128,7 +129,7 @@ pub(crate) struct StabilityExpectSpec {
 pub(crate) struct FigureSpec {
     /// A closed form, of the parameters.
     pub(crate) is: Option<NumberText>,
-    /// Largest deviation from it: a share of it, or of one if it is smaller.
+    /// Maximum deviation: a share of the value, or of one if the value is smaller.
     pub(crate) within: Option<NumberText>,
     /// Lower bound.
     pub(crate) above: Option<NumberText>,

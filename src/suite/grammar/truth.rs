@@ -1,4 +1,4 @@
-//! A truth that is given by formulas.
+//! An exact solution by formulas.
 
 use crate::exact::Equation;
 use crate::fem::BarLaw;
@@ -6,7 +6,7 @@ use crate::suite::yaml::NumberText;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
-/// A solution, or the state in which the body comes to rest.
+/// An exact solution, or an equilibrium.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -15,20 +15,20 @@ pub(crate) struct ExactSpec {
     pub(crate) equation: Option<EquationName>,
     /// Displacement (m), formulas of `X`, `Y`, `Z` and `t`.
     pub(crate) displacement: Option<Vec<NumberText>>,
-    /// Of a body in which heat flows.
+    /// Temperature (K), in a body that conducts heat.
     pub(crate) temperature: Option<NumberText>,
-    /// Share of the terms of a condition that may be left, up to 1e-2; 1e-8 unless stated.
+    /// Maximum residual relative to the terms of a condition, up to 1e-2; default 1e-8.
     pub(crate) tolerance: Option<NumberText>,
-    /// Of a solution that meets its law to first order only.
+    /// For a solution that satisfies its law to first order only.
     pub(crate) linearised: Option<LinearisedSpec>,
 }
 
-/// The share of the equations that a linearised solution may leave, and why.
+/// The residual that a linearised solution may leave, and the reason.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LinearisedSpec {
-    /// Share of the terms that may be left.
+    /// Maximum residual relative to the terms.
     pub(crate) tolerance: NumberText,
     /// The reason for accepting it.
     pub(crate) because: String,
@@ -44,22 +44,23 @@ pub(crate) struct ManufacturedSpec {
     pub(crate) temperature: Option<NumberText>,
 }
 
-/// An equation of motion by its constitutive law: one of the truth, or of the FEM bar.
+/// An equation of motion, named by its constitutive law: a law of exact solutions or of the FEM
+/// bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct EquationName(&'static str);
 
 impl EquationName {
-    /// That of a law, if its name is known.
+    /// The equation with the law `name`, if the name is known.
     pub fn find(name: &str) -> Option<Self> {
         Self::all().find(|known| known.0 == name)
     }
 
-    /// The name as suites and reports spell it.
+    /// The name in suites and reports.
     pub fn name(self) -> &'static str {
         self.0
     }
 
-    /// Every law of the truth, and those that the FEM bar alone knows.
+    /// Every law of exact solutions, then the laws that only the FEM bar has.
     fn all() -> impl Iterator<Item = Self> {
         let of_bar = BarLaw::ALL.iter().map(|law| law.name());
         let of_bar_alone = of_bar.filter(|name| !Equation::NAMES.contains(name));

@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 impl Suite {
     /// The suite with an external solver in place of its methods; `None` for a study of the inside
-    /// of a method. A convergence study keeps the cases of this solver if it states any, and has
-    /// otherwise one case for each of its truths and ends. A `gate` requires an order or a bound of
-    /// each case without an expectation.
+    /// of a method. A convergence study uses the cases of this solver, if it states any, and
+    /// otherwise one case for each reference and end. A `gate` requires an order or a bound of each
+    /// case without an expectation.
     pub fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Self> {
         self.of_external_on(solver, gate.then(GateTerms::default).as_ref())
     }
@@ -24,7 +24,7 @@ impl Suite {
         Some(Self { study, ..self.clone() })
     }
 
-    /// The convergence study with nothing expected; `None` for another kind of study.
+    /// The convergence study without expectations; `None` for another kind of study.
     pub fn without_expectations(&self) -> Option<Self> {
         let mut plan = self.plan::<ConvergencePlan>()?.clone();
         for case in &mut plan.cases {
@@ -43,8 +43,7 @@ impl ConvergencePlan {
             plan.cases.retain(is_stated);
         } else {
             plan.cases = unstated(&plan, solver);
-            // A reference solves the equation of the material, and formulas may be those of a
-            // simpler one.
+            // A reference solves the equation of the material; formulas may solve a simpler one.
             let has_reference = plan.cases.iter().any(|case| case.against == Against::Reference);
             if has_reference && terms.is_some() {
                 plan.cases.retain(|case| case.against != Against::Exact);
@@ -113,8 +112,8 @@ impl ConvergencePlan {
         }
     }
 
-    /// The order that theory gives a solver of this formal order on the problem, and the reason;
-    /// `None` along another axis than space whose order the suite does not state.
+    /// The theoretical order of a solver with this formal order on the problem, and the reason;
+    /// `None` for an axis other than space if the suite does not state its order.
     fn required_order(&self, formal_order: f64) -> Option<(f64, String)> {
         let is_gradient = matches!(self.of, Quantity::Stress | Quantity::DeformationGradient);
         let (of_solver, reason) = if is_gradient && formal_order > 1.0 {
@@ -164,7 +163,7 @@ impl Case {
     }
 }
 
-/// A case of the solver for each truth and end.
+/// A case of the solver for each reference and end.
 fn unstated(plan: &ConvergencePlan, solver: ExternalMethod<'_>) -> Vec<Case> {
     let ExternalMethod { name, formal_order, precision } = solver;
     let mut cases: Vec<Case> = Vec::new();

@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub struct ForcePlan {
     /// Cell size (m).
     pub cell: f64,
-    /// Particles per cell before the moving one leaves.
+    /// Particles per cell before the moving particle leaves.
     pub ppc: u64,
     /// Volume of each particle (m).
     pub volume: f64,
@@ -31,7 +31,7 @@ pub struct ForceCase {
     pub name: String,
     /// Basis functions.
     pub basis: BasisName,
-    /// Expectation of the force; none of a suite that explores.
+    /// Expectation of the force; `None` if the suite explores.
     pub expected: Option<ForceExpectation>,
     /// The reason for expecting it.
     pub because: String,
@@ -67,7 +67,7 @@ impl ForceExpectation {
         match self {
             Self::AgreesWithin(share) => format!("agrees with the prediction within {share:e}"),
             Self::StepsBelow(share) => {
-                format!("no step above {share} of the largest predicted force")
+                format!("no jump above {share} of the largest predicted force")
             }
         }
     }

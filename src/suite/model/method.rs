@@ -2,7 +2,7 @@
 //! external solvers.
 
 use crate::fem::{Element, Mass, Sampling};
-use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice};
+use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice, VolumeName};
 use crate::subject::{Precision, Start};
 use crate::suite::grammar::EquationName;
 
@@ -23,6 +23,8 @@ pub enum Method {
         mass: MassName,
         /// Configuration in which the basis lives.
         frame: FrameName,
+        /// Volume ratio at which the law computes its stress.
+        volume: VolumeName,
     },
     /// The reference MPM of a body at rest: heat, and no stage of mechanics.
     Heat {
@@ -39,12 +41,12 @@ pub enum Method {
         law: EquationName,
         /// Treatment of the initial velocity.
         start: Start,
-        /// Where the error is taken.
+        /// Points at which the error is measured.
         sampling: Sampling,
     },
     /// An external solver.
     External {
-        /// Order in h that theory gives its displacements, by its own account.
+        /// Theoretical order in h of its displacements, as stated by the solver.
         formal_order: f64,
         /// Precision of its numbers, by its own account.
         precision: Precision,
@@ -61,14 +63,19 @@ impl Method {
         }
     }
 
-    /// Whether it is a solver that computes in single precision.
+    /// Whether it is an external solver in single precision.
     pub fn is_single_precision(&self) -> bool {
         matches!(self, Self::External { precision: Precision::Single, .. })
     }
 
-    /// The order of the displacement error that theory gives the method on a smooth solution:
-    /// p + 1 for a basis of degree p, but no more than 2 with the lumped mass matrix of MPM; 2p for
-    /// the nodal values of elements that superconverge (Strang & Fix 1973, section 1.6).
+    /// Whether the law computes its stress at an averaged volume ratio.
+    pub(crate) fn averages_volume(&self) -> bool {
+        matches!(self, Self::Mpm { volume: VolumeName::Averaged, .. })
+    }
+
+    /// The theoretical order of the displacement error of the method on a smooth solution: p + 1
+    /// for a basis of degree p, but at most 2 with the lumped mass matrix of MPM; 2p for the nodal
+    /// values of elements that superconverge (Strang & Fix 1973, section 1.6).
     pub fn formal_order(&self) -> f64 {
         match self {
             Self::Mpm { basis, mass: MassName::Consistent, .. } => basis.formal_order(),
@@ -85,7 +92,7 @@ impl Method {
             rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
         };
         match self {
-            Self::Mpm { basis, transfer, scheme, start, mass, frame } => {
+            Self::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
                 let mass = match mass {
                     MassName::Lumped => "lumped (row sum)",
                     MassName::Consistent => "consistent",
@@ -99,15 +106,18 @@ impl Method {
                     ("walls", "nodes on a fixed face are held"),
                     ("start", start.name()),
                 ];
-                // The usual frame goes without saying.
+                // The usual frame is not listed.
                 if *frame == FrameName::Total {
                     rows.push(("frame", frame.name()));
+                }
+                if *volume == VolumeName::Averaged {
+                    rows.push(("volume ratio", volume.name()));
                 }
                 owned(rows)
             }
             Self::Heat { basis } => owned(vec![
                 ("basis", basis.name()),
-                ("temperature", "increments, shown with its slope"),
+                ("temperature", "increments and gradients are mapped"),
                 ("capacity matrix", "lumped (row sum)"),
                 ("in time", "forward Euler"),
             ]),
@@ -118,7 +128,7 @@ impl Method {
                 ("start", start.name()),
                 ("error taken", sampling.name()),
             ]),
-            // Its maker has more to say.
+            // The settings of an external solver come from its factory.
             Self::External { .. } => Vec::new(),
         }
     }
@@ -127,9 +137,9 @@ impl Method {
 /// Properties that an external solver states about itself.
 #[derive(Debug, Clone, Copy)]
 pub struct ExternalMethod<'a> {
-    /// Its name, which becomes that of its cases.
+    /// Its name, which is also that of its cases.
     pub name: &'a str,
-    /// Order in h that theory gives its displacements.
+    /// Theoretical order in h of its displacements.
     pub formal_order: f64,
     /// Precision of its numbers.
     pub precision: Precision,

@@ -35,52 +35,52 @@ pub struct Suite {
     pub group: String,
     /// Headline.
     pub title: String,
-    /// Where the problem comes from.
+    /// Reference for the problem.
     pub source: String,
     /// Remarks of the author for a reader.
     pub about: String,
-    /// Every parameter: name, what the file says, and its value unless that is a table's.
+    /// Every parameter: name, text, and its value unless it is a table.
     pub parameters: Vec<(String, String, Option<f64>)>,
     /// User functions: head and body.
     pub functions: Vec<(String, String)>,
     /// Plan of its study.
     pub study: Arc<dyn StudyPlan>,
-    /// Of the text of the file.
+    /// Fingerprint of the text of the file.
     pub(crate) fingerprint: u64,
 }
 
-/// Everything about a convergence study but the methods.
+/// A convergence study without its methods.
 #[derive(Debug, Clone)]
 pub struct ConvergencePlan {
-    /// The body and what acts on it.
+    /// The body with its conditions and loads.
     pub scene: Scene,
-    /// The problem that the formulas solve, already checked; absent if only a reference is given.
+    /// The problem that the formulas solve, already checked; `None` if there is only a reference.
     pub exact: Option<Problem>,
     /// The heat problem that a temperature solves in a body at rest, already checked.
     pub conduction: Option<Conduction>,
     /// A fine computation to compare with.
     pub reference: Option<ReferencePlan>,
-    /// The same method with a much shorter spacing, to compare with.
+    /// A reference run by the same method with a much shorter spacing.
     pub same_method: Option<SameMethod>,
     /// The levels of refinement.
     pub refine: RefinePlan,
-    /// Places of particles beside the lattice.
+    /// Offsets of particles from their lattice.
     pub scatter: LatticeOffsets,
-    /// Instants at which the error is taken.
+    /// Instants at which the error is measured.
     pub instants: u64,
-    /// The error that is judged.
+    /// The judged error.
     pub norm: NormName,
-    /// Quantity whose error is taken.
+    /// Quantity whose error is measured.
     pub of: Quantity,
-    /// Its exact value, where it is a sum over the body.
+    /// The judged sum with its exact value, if the judged quantity is a sum over the body.
     pub sum: Option<Arc<JudgedSum>>,
-    /// Size by which the error is divided, if any.
+    /// Scale by which the error is divided, if any.
     pub scale: Option<f64>,
     /// Whether levels with crossings may count.
     pub crossing_levels: CrossingLevels,
     /// Accuracy that any method can reach.
     pub any_method: AnyMethod,
-    /// Place to be observed (m).
+    /// Point to be observed (m).
     pub observe: Option<Vec<f64>>,
     /// The cases, in the order of the product.
     pub cases: Vec<Case>,
@@ -95,13 +95,13 @@ pub struct Case {
     pub name: String,
     /// The method.
     pub method: Method,
-    /// Name of the external solver, if the method is one.
+    /// Name of the external solver; `None` for built-in methods.
     pub solver: Option<String>,
     /// End of the run (s).
     pub until: f64,
-    /// Truth against which errors are taken.
+    /// Solution against which errors are measured.
     pub against: Against,
-    /// Expectation on a usual run; none of a suite that explores.
+    /// Expectation on a usual run; `None` if the suite explores.
     pub expectation: Option<Expectation>,
     /// Expectation on a full run, if that differs.
     pub expectation_in_full: Option<Expectation>,
@@ -109,20 +109,20 @@ pub struct Case {
     pub gating: Option<Gating>,
 }
 
-/// Which truth.
+/// Kind of truth with which a case is compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Against {
     /// The formulas.
     Exact,
     /// The fine computation.
     Reference,
-    /// The same method with a much shorter spacing.
+    /// A run by the same method with a much shorter spacing.
     SameMethod(SameMethod),
-    /// None: only what a run keeps is bound.
+    /// No truth: only drifts of conserved quantities have bounds.
     Nothing,
 }
 
-/// A fine FEM computation that serves as truth where no formula is known.
+/// A fine FEM computation as reference, if no formula is known.
 #[derive(Debug, Clone)]
 pub struct ReferencePlan {
     /// Law between stress and strain.
@@ -138,7 +138,7 @@ pub struct ReferencePlan {
 }
 
 impl Against {
-    /// The truth in a sentence.
+    /// Phrase for this reference in a sentence.
     pub fn words(self) -> &'static str {
         match self {
             Self::Exact => "the exact solution",
@@ -148,12 +148,12 @@ impl Against {
         }
     }
 
-    /// Whether it is computed, and known at instants only that all runs have in common.
+    /// Whether it is computed, and available only at instants that all runs share.
     pub fn is_computed(self) -> bool {
         matches!(self, Self::Reference | Self::SameMethod(_))
     }
 
-    /// The level on which it is computed, if it is the same method on a fine grid.
+    /// The level of a reference run on a fine grid; `None` for other references.
     pub fn fine_grid(self) -> Option<LevelPlan> {
         match self {
             Self::SameMethod(SameMethod::FineGrid(level)) => Some(level),
@@ -163,8 +163,8 @@ impl Against {
 }
 
 impl ConvergencePlan {
-    /// The steps of a run until `until` (s) that is held `against` a truth, for a wanted step `dt`
-    /// (s).
+    /// The steps of a run until `until` (s) that is compared with `against`, for a requested step
+    /// `dt` (s).
     pub fn clock(&self, against: Against, until: f64, dt: f64) -> Option<Clock> {
         if against.is_computed() {
             return Clock::with_common_instants(until, dt, self.instants);
@@ -174,7 +174,7 @@ impl ConvergencePlan {
 }
 
 impl Case {
-    /// The steps of a run, for a wanted step `dt` (s).
+    /// The steps of a run, for a requested step `dt` (s).
     pub fn clock(&self, plan: &ConvergencePlan, dt: f64) -> Option<Clock> {
         plan.clock(self.against, self.until, dt)
     }
@@ -186,13 +186,13 @@ impl Suite {
         self.study.case_names()
     }
 
-    /// The suite with those cases only whose index `keep` holds for.
+    /// The suite with only the cases for whose index `keep` returns true.
     #[must_use]
     pub fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
         Self { study: self.study.only(keep), ..self.clone() }
     }
 
-    /// Whether nothing is expected of any case, so that the suite is no gate.
+    /// Whether the suite has no expectations, so that it is not a gate.
     pub fn explores(&self) -> bool {
         (0..self.case_names().len()).all(|case| self.study.expectation(case).is_none())
     }
@@ -227,12 +227,12 @@ impl StudyPlan for ConvergencePlan {
 }
 
 impl ConvergencePlan {
-    /// The problem whose force is manufactured, if it is.
+    /// The problem with a manufactured force; `None` without one.
     pub fn manufactured(&self) -> Option<&Problem> {
         self.exact.as_ref().filter(|problem| problem.manufactured)
     }
 
-    /// Whether the truth is given by formulas.
+    /// Whether the exact solution is given by formulas.
     pub fn has_formulas(&self) -> bool {
         self.exact.is_some() || self.conduction.is_some()
     }

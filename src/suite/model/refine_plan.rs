@@ -1,21 +1,20 @@
-//! The refinement of a study, level by level, and the finer level of the same method that may serve
-//! as truth.
+//! Levels of a study, and the finer level of a reference run by the same method.
 
 use crate::verify::Axis;
 
 /// The levels of a study.
 #[derive(Debug, Clone)]
 pub struct RefinePlan {
-    /// Which spacing is judged.
+    /// Axis whose spacing is refined and judged.
     pub axis: Axis,
     /// Every level, strictly from coarse to fine.
     pub levels: Vec<LevelPlan>,
-    /// How many of them, from the coarsest on, run without being asked for a full run.
+    /// Number of levels, from the coarsest on, that run without `--full`.
     pub usual: usize,
     /// The time steps as the suite states them: one formula of h, or one for each level.
     pub steps: Vec<String>,
-    /// The share of the stable time step that each run takes, where a rule says so; the steps of
-    /// the levels are then those without a look at the particles.
+    /// Share of the stable time step for an automatic step. The steps of the levels are then
+    /// computed without the state of the particles.
     pub rule: Option<f64>,
 }
 
@@ -28,11 +27,11 @@ pub struct LevelPlan {
     pub h: f64,
     /// Wanted time step (s).
     pub dt: f64,
-    /// Particles per cell, a whole power of the dimension; absent where there are none.
+    /// Particles per cell, the D-th power of a whole number; `None` without particles.
     pub ppc: Option<u64>,
 }
 
-/// How much of a plan is run.
+/// Extent of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
     /// The levels of the gate.
@@ -74,21 +73,21 @@ impl LevelPlan {
     }
 }
 
-/// Least ratio of the cells of the fine grid to those of the finest level: an error of second order
-/// on the finest level is then known to 1/16.
+/// Minimum ratio of the cells of the fine grid to those of the finest level: an error of second
+/// order on the finest level is then known to 1/16.
 pub(crate) const FINE_GRID: u64 = 4;
 
-/// The shorter spacing.
+/// Shorter spacing of a reference run by the same method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SameMethod {
     /// The time step (s), on the same grid, in a study of time steps.
     ShorterSteps(f64),
-    /// The cell size, and what follows it, in a study of space: this level.
+    /// The cell size, in a study of space: this level.
     FineGrid(LevelPlan),
 }
 
 impl SameMethod {
-    /// The truth in a sentence.
+    /// Phrase for this reference in a sentence.
     pub fn words(self) -> &'static str {
         match self {
             Self::ShorterSteps(_) => "the same method with shorter steps",
@@ -96,7 +95,7 @@ impl SameMethod {
         }
     }
 
-    /// Its part of the name of a case.
+    /// Suffix of the names of cases.
     pub fn suffix(self) -> &'static str {
         match self {
             Self::ShorterSteps(_) => "-vs-shorter-steps",

@@ -19,7 +19,7 @@ pub struct StabilityPlan {
     pub values: Vec<f64>,
     /// The parameter whose limit is sought, and the range.
     pub sought: Option<(String, f64, f64)>,
-    /// Whether particles stay where they are.
+    /// Whether the particles do not move.
     pub frozen: bool,
     /// Figures that tables show.
     pub figures: Vec<RunFigure>,
@@ -39,7 +39,7 @@ pub(crate) struct SetupTemplate {
 pub(crate) struct LatticeEdits {
     /// Translation of all particles (m), one number for each axis; empty: none.
     pub(crate) shift: Vec<f64>,
-    /// Places beside the lattice.
+    /// Offsets from the lattice.
     pub(crate) scatter: LatticeOffsets,
     /// Positions of further particles (m), each like the first particle of the lattice.
     pub(crate) extra: Vec<Vec<f64>>,
@@ -54,9 +54,9 @@ pub struct StabilityCase {
     pub method: Method,
     /// Expectation of each row; empty if the suite explores.
     pub expected: Vec<StabilityExpectation>,
-    /// The same in one line.
+    /// All expectations in one line; `None` if the suite explores.
     pub summary: Option<String>,
-    /// The reason for expecting it.
+    /// The reason for the expectations.
     pub because: String,
     /// Treatment by `run --gate`, of an external solver.
     pub gating: Option<Gating>,

@@ -11,7 +11,7 @@ pub(crate) const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "
 /// One face of the body.
 #[derive(Debug, Clone)]
 pub struct SceneFace {
-    /// Name that suites give it.
+    /// Name in suites.
     pub name: &'static str,
     /// Axis of its normal.
     pub axis: usize,
@@ -22,7 +22,7 @@ pub struct SceneFace {
 }
 
 impl SceneFace {
-    /// Name of the condition on its motion, as suites write it.
+    /// Name of the condition on its motion, in suites.
     pub fn condition(&self) -> &'static str {
         self.hold.name()
     }
@@ -52,6 +52,13 @@ pub(crate) fn face(
 #[cfg(feature = "schemas")]
 pub(crate) fn face_name(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     schemars::json_schema!({"type": "string", "enum": FACES})
+}
+
+/// Schema of the name of a face or of a rim of a round body.
+#[cfg(feature = "schemas")]
+pub(crate) fn face_or_rim(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let names: Vec<&str> = FACES.into_iter().chain(["inner", "outer"]).collect();
+    schemars::json_schema!({"type": "string", "enum": names})
 }
 
 /// Schema of a map from names of faces.

@@ -2,14 +2,14 @@
 
 use super::{Scene, SceneFace};
 
-/// Shortest length (m) of a body. Powers of shorter ones underflow.
+/// Minimum length (m) of a body. Powers of smaller lengths underflow.
 pub(crate) const SHORTEST: f64 = 1e-30;
 
-/// Longest length (m) of a body. Powers of longer ones overflow.
+/// Maximum length (m) of a body. Powers of larger lengths overflow.
 pub(crate) const LONGEST: f64 = 1e30;
 
-/// Cells that a grid extends beyond a free face of the body, besides a tenth of the body: room for
-/// a body that grows.
+/// Cells by which a grid extends beyond a free face, in addition to a tenth of the body, for a body
+/// that expands.
 const SPARE_CELLS: f64 = 2.0;
 
 impl Scene {
@@ -33,15 +33,14 @@ impl Scene {
         self.each().iter().map(Self::wave_speed).fold(0.0, f64::max)
     }
 
-    /// Length (m) of an axis: of the grid that the suite asks for, otherwise of the body.
+    /// Length (m) of an axis of the stated grid, otherwise of the body.
     pub fn period(&self, axis: usize) -> f64 {
         let (from, to) = self.grid.as_ref().map_or((&self.from, &self.to), |(from, to)| (from, to));
         to[axis] - from[axis]
     }
 }
 
-/// Cell size (m) for `cells` cells along the first axis of the grid, or of the body where the
-/// suite asks for no grid.
+/// Cell size (m) for `cells` cells along the first axis of the stated grid, otherwise of the body.
 pub(crate) fn cell_size(scene: &Scene, cells: u64) -> f64 {
     let (from, to) = scene.grid.as_ref().map_or((&scene.from, &scene.to), |(from, to)| (from, to));
     (to[0] - from[0]) / cells as f64
@@ -53,13 +52,13 @@ pub(crate) fn per_axis(ppc: u64, dimension: usize) -> Option<usize> {
     (root > 0 && root.checked_pow(dimension as u32) == Some(ppc)).then_some(root as usize)
 }
 
-/// Where the grid starts on an axis (m), and its number of cells.
+/// Lower end of the grid on an axis (m), and its number of cells.
 pub(crate) fn grid_axis(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
     let (low, high) = match &scene.grid {
         Some((from, to)) => (from[axis], to[axis]),
         None => roomy(scene, axis, h),
     };
-    // A whole number of cells but for rounding is that number.
+    // A number of cells that is whole up to rounding is rounded to it.
     (low, libm::ceil((high - low) / h * (1.0 - 1e-12)).max(1.0))
 }
 

@@ -1,10 +1,10 @@
 //! The lattice of particles that fills a body.
 //!
-//! A box is filled with equal shares of itself. A body of another outline takes the lattice that
-//! fills the cells of the grid, `h/n` apart with n particles along a cell, and of each share what
-//! its outline says ([`Outline::cut`](crate::exact::Outline::cut)): the whole of it or nothing in a
-//! round body, the exact part in a polygon. A quadrilateral is filled by its bilinear map,
-//! independent of the grid.
+//! A box is divided into equal parts. A body with another outline uses the lattice of the cells of
+//! the grid, `h/n` apart with n particles along a cell, and of each lattice cell the part given by
+//! its outline ([`Outline::cut`](crate::exact::Outline::cut)): all or nothing in a round body, the
+//! exact intersection in a polygon. A quadrilateral is filled by its bilinear map, independent of
+//! the grid.
 
 use super::Scene;
 use super::grid_size::grid_axis;
@@ -12,12 +12,12 @@ use crate::dimension::with_dimension;
 use crate::exact::Cut;
 use crate::mpm::{Block, Vector};
 
-/// Places of particles beside their lattice, in shares of their spacing.
+/// Offsets of particles from their lattice, in shares of their spacing.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LatticeOffsets {
-    /// Translation of all, a share for each axis; empty: none.
+    /// Translation of all particles, one share per axis; empty: none.
     pub shift: Vec<f64>,
-    /// Largest random displacement of each along an axis.
+    /// Maximum random displacement of each particle along an axis.
     pub perturb: f64,
     /// Seed of the random displacements.
     pub seed: u64,
@@ -30,8 +30,8 @@ impl LatticeOffsets {
     }
 }
 
-/// The box that is filled: the body's own or, around a body of another outline, whole cells of the
-/// grid that starts at `origin`.
+/// The box to be filled: that of the body or, around a body with another outline, whole cells of
+/// the grid that starts at `origin`.
 pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -> Block<D> {
     let node = |axis: usize, x: f64, round: fn(f64) -> f64| match scene.outline {
         Some(_) => origin[axis] + round((x - origin[axis]) / h) * h,
@@ -44,8 +44,8 @@ pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -
     }
 }
 
-/// Whether some body of the scene with a free rim is smaller than what a particle stands for with
-/// cells of size `h`.
+/// Whether a body of the scene with a free rim is smaller than the volume of a particle with cells
+/// of size `h`.
 pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     scene.each().iter().filter(|body| body.outline.is_some() && body.mapped.is_none()).any(|body| {
         let mut shares = 0.0;
@@ -56,9 +56,8 @@ pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     })
 }
 
-/// Whether `holds` returns true for some particle of a `body` with a free rim, given the place (m)
-/// of the particle and its part of a share of the lattice, on the grid of `scene` with cells of
-/// size `h`.
+/// Whether `holds` returns true for a particle of a `body` with a free rim, given the position (m)
+/// of the particle and its part of a lattice cell, on the grid of `scene` with cells of size `h`.
 pub(crate) fn any_particle(
     body: &Scene,
     scene: &Scene,

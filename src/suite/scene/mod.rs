@@ -1,7 +1,7 @@
-//! The scene of a suite: the body, what holds it and what acts on it.
+//! The scene of a suite: the body with its conditions and loads.
 //!
-//! Loads and boundary conditions are families: the file of a member holds its keys, their checks,
-//! and what the solver and the exact solution get.
+//! Loads and boundary conditions are families: the file of a member contains its keys, their
+//! checks, and its conversion for the solver and the exact solution.
 
 pub(crate) mod boundary;
 pub(crate) mod face;
@@ -15,28 +15,28 @@ pub use face::SceneFace;
 pub use load::EffectName;
 
 use crate::exact::formula::Formula;
-use crate::exact::{InitialStress, Outline, Region, Term};
+use crate::exact::{Circle, InitialStress, Outline, Region, Term};
 use crate::mpm::{MaterialPlan, Quadrilateral};
 use crate::subject::PlaneState;
 use load::{ListedLoad, LoadTarget};
 use std::sync::Arc;
 
-/// The body and what acts on it.
+/// The body with its conditions and loads.
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// Lowest corner of the body, or of the box around it (m); its length is the dimension.
     pub from: Vec<f64>,
     /// Highest corner (m).
     pub to: Vec<f64>,
-    /// The body, if it is no box.
+    /// The shape of a body that is not a box.
     pub outline: Option<Arc<dyn Outline>>,
     /// The map of a body with an outline that is a mapped box; any other has a free rim.
     pub mapped: Option<Quadrilateral>,
-    /// Grid that the suite asks for, lowest and highest corner (m).
+    /// Stated grid, lowest and highest corner (m).
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
     /// State of the bodies across the plane of two dimensions.
     pub plane: PlaneState,
-    /// The material, but for its density.
+    /// The material, without its density.
     pub material: MaterialPlan,
     /// Reference density (kg/m3).
     pub density: f64,
@@ -46,9 +46,9 @@ pub struct Scene {
     pub sets: Vec<Region>,
     /// Loads and effects, in the order in which solvers apply them.
     pub(crate) loads: Vec<ListedLoad>,
-    /// Several bodies, each a scene of its own with the grid, the faces and the loads of this one;
-    /// empty where there is one. Then this is the box around all of them, with the first one's
-    /// material.
+    /// Several bodies, each as a scene with the grid, the faces and the loads of this one; empty if
+    /// there is one body. Otherwise this scene is the box around all of them, with the material of
+    /// the first.
     pub bodies: Vec<Self>,
     /// Coefficient of friction between bodies that are in contact; absent: they share one velocity
     /// field.
@@ -88,7 +88,8 @@ impl Scene {
             return false;
         }
         let Some(outline) = &self.outline else { return true };
-        // A place next to the rim is inside once it is moved across the rim.
+        // A place next to the rim counts as inside if it is inside after a small shift across the
+        // rim.
         let moved = |k: usize| {
             let step = |axis: usize| near * ((k / [1, 3, 9][axis]) % 3) as f64 - near;
             label.iter().enumerate().map(|(axis, x)| x + step(axis)).collect::<Vec<f64>>()
@@ -104,6 +105,12 @@ impl Scene {
     /// The loads on one part of the scene.
     pub(crate) fn loads_on(&self, target: LoadTarget) -> impl Iterator<Item = &ListedLoad> {
         self.loads.iter().filter(move |load| load.target() == target)
+    }
+
+    /// The rim that a load acts on.
+    pub(crate) fn rim(&self, load: &ListedLoad) -> Option<Circle> {
+        let LoadTarget::Rim(number) = load.target() else { return None };
+        self.outline.as_ref()?.circles().into_iter().find(|circle| circle.number == number)
     }
 
     /// The conduction that the scene lists.

@@ -10,7 +10,7 @@ use crate::mpm::{ScalarField, Vector, VelocityField};
 pub(crate) struct LoadNumbers {
     /// Constants by their keys (SI units).
     pub(crate) constants: Vec<(&'static str, f64)>,
-    /// The quantity that formulas give.
+    /// The quantity given by formulas.
     pub(crate) field: Option<NumberField>,
     /// The part of the bodies that the load acts on, if it acts on a set.
     pub(crate) region: Option<Region>,
@@ -44,19 +44,19 @@ impl LoadNumbers {
         Self { field: Some(field), ..Self::default() }
     }
 
-    /// The same numbers on a part of the bodies.
+    /// These numbers, restricted to a part of the bodies.
     pub(crate) fn on(self, region: &Region) -> Self {
         Self { region: Some(region.clone()), ..self }
     }
 
-    /// Whether there is no number.
+    /// Whether there are no numbers.
     pub(crate) fn is_empty(&self) -> bool {
         self.constants.is_empty() && self.field.is_none()
     }
 }
 
 impl NumberField {
-    /// The value, if it is the same at all places and times.
+    /// The value, if it is constant in space and time.
     pub(crate) fn constant(&self) -> Option<Vec<f64>> {
         self.formulas.iter().map(Formula::constant).collect()
     }
@@ -74,8 +74,8 @@ impl NumberField {
         [reads(0, d), reads(d, d + 1), reads(d + 1, 2 * d + 1)]
     }
 
-    /// The value at the place `label` (m, D numbers) and time `t` (s), where the displacement is
-    /// `u` (m).
+    /// The value at the place `label` (m, D numbers) and time `t` (s), with the displacement `u`
+    /// (m).
     pub(crate) fn at(&self, label: &[f64], t: f64, u: &[f64]) -> Vec<f64> {
         let mut all = label.to_vec();
         all.push(t);
@@ -111,8 +111,8 @@ pub(crate) fn scalar<const D: usize>(formula: &Formula) -> ScalarField<D> {
     Box::new(move |x: &Vector<D>, t| formula.eval(&variables(x.as_slice(), t)[..=D]))
 }
 
-/// A formula of the coordinates, t and, where it was bound to that too, the displacement, at the
-/// place `label` (m) with the displacement `u` (m).
+/// A formula of the coordinates, t and, if it was bound to it, the displacement, at the place
+/// `label` (m) with the displacement `u` (m).
 pub(crate) fn of_displacement<T: Number>(
     formula: &Formula,
     label: &[f64],
@@ -128,7 +128,7 @@ pub(crate) fn of_displacement<T: Number>(
     formula.eval(&all[..formula.variables()])
 }
 
-/// The formulas as the suite writes them.
+/// The formulas as text.
 pub(crate) fn sources(formulas: &[Formula]) -> String {
     formulas.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
 }

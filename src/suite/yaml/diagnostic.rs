@@ -5,21 +5,21 @@ use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet}
 use std::fmt;
 use std::ops::Range;
 
-/// Longer texts in a complaint are cut: a file may hold a key of 60 000 characters.
+/// Maximum length of a text in a diagnostic: a file may contain a key of 60 000 characters.
 const MAX_WORDS: usize = 300;
 
-/// How bad it is.
+/// Severity of the diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// Worth knowing; nothing needs to change.
+    /// A hint without required change.
     Note,
-    /// The suite runs, and will not do what it seems to.
+    /// The suite runs, but has an unintended effect.
     Warning,
     /// The suite cannot be used.
     Error,
 }
 
-/// One mistake in a file: what it is, where it is, and what would be right.
+/// One error in a file: what it is, where it is, and what would be right.
 ///
 /// `Display` shows it as `rustc` would, with the line and a caret; [`Diagnostic::one_line`] is
 /// for editors and logs.
@@ -45,7 +45,7 @@ struct Excerpt {
 }
 
 impl Diagnostic {
-    /// A complaint about a file as a whole.
+    /// A diagnostic of a file as a whole.
     pub fn about(file: &str, message: &str) -> Self {
         Self(Box::new(Parts {
             severity: Severity::Error,
@@ -57,7 +57,7 @@ impl Diagnostic {
         }))
     }
 
-    /// A complaint about a stretch of bytes of `text`, which is what `file` holds.
+    /// A diagnostic of a range of bytes of `text`, the contents of `file`.
     pub fn at(file: &str, text: &str, range: Range<usize>, message: &str) -> Self {
         let place = Place::of(text, range);
         let bytes = place.bytes();
@@ -78,31 +78,31 @@ impl Diagnostic {
         self
     }
 
-    /// Adds what the author could do about it.
+    /// Adds advice for the author.
     #[must_use]
     pub fn with_help(mut self, help: &str) -> Self {
         self.0.help = Some(printable(help)).filter(|help| !help.is_empty());
         self
     }
 
-    /// The same, less or more severe; a complaint is an error unless it says otherwise.
+    /// Sets the severity; the default is an error.
     #[must_use]
     pub fn with_severity(mut self, severity: Severity) -> Self {
         self.0.severity = severity;
         self
     }
 
-    /// How bad it is.
+    /// Severity of the diagnostic.
     pub fn severity(&self) -> Severity {
         self.0.severity
     }
 
-    /// The file, as the user named it.
+    /// The file, as named by the user.
     pub fn file(&self) -> &str {
         &self.0.file
     }
 
-    /// Where it is, unless it concerns the file as a whole.
+    /// Its place, unless it concerns the file as a whole.
     pub fn place(&self) -> Option<Place> {
         self.0.excerpt.as_ref().map(|excerpt| excerpt.place)
     }
@@ -131,7 +131,7 @@ impl Diagnostic {
         }
     }
 
-    /// The same as `Display`, in the colours of a terminal.
+    /// The text of `Display`, with terminal colours.
     pub fn styled(&self) -> String {
         Renderer::styled().render(&[self.group()])
     }
@@ -171,7 +171,7 @@ impl fmt::Display for Diagnostic {
 
 impl std::error::Error for Diagnostic {}
 
-/// Words that are safe on a terminal: one line, nothing invisible, not too long.
+/// Text that is safe on a terminal: one line, no invisible characters, limited length.
 fn printable(words: &str) -> String {
     let mut safe = String::new();
     for (count, c) in words.chars().enumerate() {
@@ -188,7 +188,7 @@ fn printable(words: &str) -> String {
     safe
 }
 
-/// Characters that make a terminal show the rest of a line in another order.
+/// Bidirectional control characters, which reorder the rest of a line in a terminal.
 fn reorders(c: char) -> bool {
     matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

@@ -1,8 +1,8 @@
-//! Finding the place of a value after it has been read.
+//! Finds the position of a value after it has been read.
 //!
-//! The YAML library tells places only in errors, so the text is read once more by a seed that
-//! walks down a path and fails, on purpose, at its end. No second parser, and the answer is by
-//! construction where the first one saw the value.
+//! The YAML library reports positions only in errors. So the text is read again by a seed that
+//! follows a path and fails on purpose at its end. No second parser is needed, and the position is
+//! where the first pass read the value.
 
 use super::{Diagnostic, OneOrMany, Place, Source};
 use serde::de::{self, DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
@@ -48,7 +48,7 @@ impl Path {
         Self(longer)
     }
 
-    /// The way to alternative `i` of those that stand here.
+    /// The path to alternative `i` of the alternatives here.
     pub(crate) fn alternative<T>(&self, alternatives: &OneOrMany<T>, i: usize) -> Self {
         if alternatives.is_listed() { self.then(i) } else { self.clone() }
     }
@@ -65,7 +65,7 @@ impl Source {
         self.find(path, Sought::Value).map(|at| Place::of(self.text(), self.token_at(at)))
     }
 
-    /// A complaint about the value at `path`, or about the file as a whole where there is none.
+    /// A diagnostic of the value at `path`, or of the whole file if there is no such value.
     pub fn diagnostic_at(&self, path: &[Step], message: &str) -> Diagnostic {
         match self.value_at(path) {
             Some(place) => self.diagnostic(place, message),
@@ -80,8 +80,8 @@ impl Source {
 
     /// The place of some bytes of a value that is text, such as one name in a formula.
     ///
-    /// Where the file does not hold the value letter for letter (escapes, several lines), this
-    /// is the place of the whole value.
+    /// If the file does not contain the value verbatim (escapes, several lines), this is the place
+    /// of the whole value.
     pub fn within(&self, path: &[Step], bytes: Range<usize>) -> Option<Place> {
         let at = self.find(path, Sought::Value)?;
         let verbatim = self.scalar_at(at).and_then(|scalar| scalar.verbatim(self.text()));
@@ -201,7 +201,7 @@ impl<'de> Visitor<'de> for Walk<'_> {
     }
 }
 
-/// Compares a key, and fails there if it is the one whose own place is sought.
+/// Compares a key, and fails at the key whose place is sought.
 struct Key<'a> {
     wanted: &'a str,
     last: bool,

@@ -1,4 +1,4 @@
-//! The front door: YAML written by hand, read safely, with the place of every mistake.
+//! Safe reading of handwritten YAML, with the place of every error.
 //!
 //! ```text
 //! path -> Source          size, encoding, characters, nesting: refused before the parser runs

@@ -8,8 +8,8 @@ use std::marker::PhantomData;
 
 /// A number in a suite, or a formula for one: `25`, `1e-3` or `"pi/(2*L)"`.
 ///
-/// Formulas are not parsed here; `Display` gives the text to parse, for a number the shortest
-/// that reads back as the same number.
+/// Formulas are not parsed here; `Display` gives the text to parse. For a number this is the
+/// shortest text that reads back as the same number.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NumberText {
     /// A finite number.
@@ -18,7 +18,7 @@ pub enum NumberText {
     Formula(String),
 }
 
-/// Zero: what an optional number is that a suite does not give.
+/// Zero: the default of an optional number.
 impl Default for NumberText {
     fn default() -> Self {
         Self::Number(0.0)
@@ -89,7 +89,7 @@ impl Visitor<'_> for NumberOrFormula {
     }
 }
 
-/// A number or formula, or a map that says where a number comes from: `1e-3`, `{courant: 0.5}`.
+/// A number or formula, or a map that describes a number: `1e-3`, `{courant: 0.5}`.
 #[derive(Clone, Debug)]
 pub(crate) enum NumberOr<T> {
     /// A number, or the text of a formula.
@@ -98,9 +98,9 @@ pub(crate) enum NumberOr<T> {
     Map(T),
 }
 
-/// A map that may stand in the place of a number.
+/// A map that may replace a number.
 pub(crate) trait InPlaceOfNumber {
-    /// Phrase for messages of all that may stand there.
+    /// Phrase for messages with all allowed forms.
     const EXPECTED: &'static str;
 }
 

@@ -9,8 +9,8 @@ use std::marker::PhantomData;
 
 /// A setting that a suite may vary: `scheme: usl`, or `scheme: [musl, usl]` for a case of each.
 ///
-/// Never empty. `T` may be a number, text, a struct or an enum, but not itself a list: the
-/// first bracket is always that of the alternatives.
+/// Never empty. `T` may be a number, text, a struct or an enum, but not a list: the first bracket
+/// is always that of the alternatives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OneOrMany<T> {
     values: Vec<T>,
@@ -35,8 +35,7 @@ impl<T> OneOrMany<T> {
 }
 
 impl<T> OneOrMany<T> {
-    /// These values in the form of `self`: a list, or the first of them alone; `None` if there are
-    /// none.
+    /// These values in the form of `self`: a list, or the first value alone; `None` without values.
     pub(crate) fn with_values(&self, values: impl IntoIterator<Item = T>) -> Option<Self> {
         let limit = if self.listed { usize::MAX } else { 1 };
         let values: Vec<T> = values.into_iter().take(limit).collect();

@@ -6,7 +6,7 @@ use std::collections::HashSet;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Names and what they stand for, in the order of the file; no name twice.
+/// Names and their values, in the order of the file, without duplicates.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ordered<T>(Vec<(String, T)>);
 
@@ -16,7 +16,7 @@ impl<T> Ordered<T> {
         &self.0
     }
 
-    /// The same, with another value for one of the names.
+    /// Replaces the value of `name`, if it exists.
     #[must_use]
     pub fn with(mut self, name: &str, value: T) -> Self {
         if let Some((_, old)) = self.0.iter_mut().find(|(key, _)| key == name) {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// Where something stands in a file: line, column and length, in characters and from one.
+/// Position in a file: line, column and length, in characters and from one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
     line: usize,
@@ -15,8 +15,8 @@ pub struct Place {
 impl Place {
     /// The place of a byte range of `text`, cut at the end of its first line.
     ///
-    /// Any range is good: it is moved onto character boundaries and into the text. One that
-    /// starts at the end of the text is moved back to where the text visibly ends.
+    /// Any range is valid: it is moved onto character boundaries and into the text. A range that
+    /// starts at the end of the text is moved back to the last visible character.
     pub fn of(text: &str, range: Range<usize>) -> Self {
         let start = if range.start >= text.len() {
             text.trim_end().len()
@@ -47,12 +47,12 @@ impl Place {
         self.column
     }
 
-    /// How many characters are meant; zero for a point between two of them.
+    /// Number of characters; zero for a point between two characters.
     pub fn length(self) -> usize {
         self.length
     }
 
-    /// The bytes of the text that are meant.
+    /// The bytes of the text.
     pub fn bytes(self) -> Range<usize> {
         self.start..self.end
     }

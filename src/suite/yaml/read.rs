@@ -10,44 +10,43 @@ use serde::de::DeserializeOwned;
 
 /// Reads a file into a type.
 ///
-/// Enums are written as a map of one key (`material: {linear_elastic: {young: E}}`), and as a
-/// bare name where the variant has no parameters (`basis: linear`). Types should say
+/// Enums are written as a map of one key (`material: {linear_elastic: {young: E}}`), or as a plain
+/// name if the variant has no parameters (`basis: linear`). Types should have
 /// `#[serde(deny_unknown_fields)]`, and use neither untagged nor internally tagged enums nor
 /// `flatten`: those lose the place of an error.
 ///
 /// # Errors
-/// The first mistake in the file, with its place.
+/// The first error in the file, with its place.
 pub fn read<T: DeserializeOwned>(source: &Source) -> Result<T, Diagnostic> {
     CheckedShape::new(source, "")?.read(&|_, _| None)
 }
 
-/// A file whose shape has been checked, ready to be read into a type.
+/// A file with checked shape, ready to be read into a type.
 pub(crate) struct CheckedShape<'s> {
     source: &'s Source,
     top: TopValue,
 }
 
 impl<'s> CheckedShape<'s> {
-    /// Checks the shape of `source`, and keeps the value of its key `key`, by which the type may be
-    /// chosen.
+    /// Checks the shape of `source`, and stores the value of its key `key`, which selects the type.
     ///
     /// # Errors
-    /// The first mistake of shape, with its place.
+    /// The first error of shape, with its place.
     pub(crate) fn new(source: &'s Source, key: &str) -> Result<Self, Diagnostic> {
         let top = shape::check(source, key);
         let top = top.map_err(|error| diagnostic(source, &error, &|_, _| None))?;
         Ok(Self { source, top })
     }
 
-    /// The value of the key that is kept.
+    /// The stored value of the key.
     pub(crate) fn top(&self) -> &TopValue {
         &self.top
     }
 
-    /// Reads the file into a type, with a sample value for a missing key where one is known.
+    /// Reads the file into a type, with a sample value for a missing key if one is known.
     ///
     /// # Errors
-    /// The first mistake in the file, with its place.
+    /// The first error in the file, with its place.
     pub(crate) fn read<T: DeserializeOwned>(&self, sample: &SampleOf<'_>) -> Result<T, Diagnostic> {
         let parser = serde_yaml::Deserializer::from_str(self.source.text());
         serde_yaml::with::singleton_map_recursive::deserialize(parser)
@@ -75,16 +74,15 @@ pub(crate) fn written<T: Serialize>(value: &T) -> Result<String, WriteError> {
     Ok(serde_yaml::to_string(value)?)
 }
 
-/// The value of a text, if it is one.
+/// The value of a text; `None` if it is invalid.
 pub(crate) fn read_again<T: DeserializeOwned>(text: &str) -> Option<T> {
     serde_yaml::from_str(text).ok()
 }
 
-/// A value that may stand in a map: from the owner of the map (empty for the whole file) and the
-/// key.
+/// A valid value for a map: from the type of the map (empty for the whole file) and the key.
 pub(crate) type SampleOf<'a> = dyn Fn(&str, &str) -> Option<&'static str> + 'a;
 
-/// Turns an error of the library into a complaint at the same place.
+/// Converts an error of the library to a diagnostic at the same place.
 fn diagnostic(source: &Source, error: &serde_yaml::Error, sample: &SampleOf<'_>) -> Diagnostic {
     let text = error.to_string();
     let offset = error.location().map_or(source.text().len(), |location| location.index());
@@ -135,7 +133,7 @@ impl<'a> Fault<'a> {
         Diagnostic::at(self.source.name(), self.source.text(), range, message)
     }
 
-    /// The same at the first name after a bracket.
+    /// The fault moved to the first name after a bracket, and this name.
     fn at_first_name(self) -> (Self, &'a str) {
         let scalar = self.source.scalar_from(self.offset);
         let offset = scalar.map_or(self.offset, |scalar| scalar.range.start);
@@ -152,7 +150,8 @@ impl<'a> Fault<'a> {
             Some(rest) => ("key", rest),
             None => ("name", problem.strip_prefix("unknown variant `")?),
         };
-        // The name is the author's, and may hold anything; what is expected is ours.
+        // The name is from the file, and may contain anything; the expected text is from this
+        // crate.
         let (name, valid) =
             rest.rsplit_once("`, expected ").or_else(|| rest.rsplit_once("`, there are no "))?;
         let valid: Vec<&str> = valid.split('`').skip(1).step_by(2).collect();
@@ -200,7 +199,7 @@ impl<'a> Fault<'a> {
         })
     }
 
-    /// A named choice with settings where it has none, without where it needs some, or several.
+    /// A named choice with unexpected settings, without required settings, or several choices.
     fn wrong_settings(self, unexpected: &str, wanted: &str) -> Option<Diagnostic> {
         let (fault, name) = self.at_first_name();
         match (unexpected, wanted) {

@@ -1,11 +1,10 @@
-//! Scan of a file before the parser sees it: how deep it nests, and whether it uses features that
-//! suites do not need.
+//! Scan of a file before the parser: its nesting depth, and features that suites do not need.
 //!
-//! The YAML parser's cost is quadratic in the nesting, and its own limit acts too late. This
-//! pass follows the parser's rules for where a token starts, and nothing else: it builds no
-//! values. Where a file is not YAML it stops, and the parser says why. On its way it keeps the
-//! extent of each scalar, so that a caret can underline a whole one, and it finds brackets and
-//! quotes that are never closed, which the parser would only report at the end of the file.
+//! The cost of the YAML parser is quadratic in the nesting, and its own limit acts too late. This
+//! pass follows the rules of the parser for the start of tokens only, and builds no values. If a
+//! file is not YAML the scan stops, and the parser reports the reason. The scan also records the
+//! extent of each scalar, so that a caret can underline a whole one, and finds brackets and quotes
+//! that are never closed, which the parser would only report at the end of the file.
 
 use super::{Diagnostic, MAX_NESTING, Place};
 use std::ops::Range;
@@ -26,7 +25,7 @@ pub(crate) enum Style {
 }
 
 impl Scalar {
-    /// The bytes that are the value, if they are so one for one: no escape, no folded line.
+    /// The bytes of the value, if they are verbatim: without escapes and folded lines.
     pub(crate) fn verbatim(&self, text: &str) -> Option<Range<usize>> {
         let Range { start, end } = self.range;
         let (inside, altered) = match self.style {
@@ -74,7 +73,7 @@ pub(crate) struct Scanner<'t> {
     pub(crate) open: Vec<usize>,
     /// Whether a key may start here.
     pub(crate) key_allowed: bool,
-    /// Where the token starts that a `:` later on the same line makes a key.
+    /// Start of a token that a later `:` on the line makes a key.
     pub(crate) possible_key: Option<usize>,
     document: DocumentState,
     pub(crate) scalars: Vec<Scalar>,
@@ -189,7 +188,7 @@ impl Scanner<'_> {
         Ok(Next::More)
     }
 
-    /// `:`, which shows that what came before it on the line is a key of a block map.
+    /// `:`, which marks the text before it on the line as a key of a block map.
     fn value_indicator(&mut self) -> Result<Next, Diagnostic> {
         let key = self.possible_key.take().filter(|key| *key >= self.line_start);
         match key {
@@ -239,7 +238,7 @@ impl Scanner<'_> {
         self.text.as_bytes().get(self.at + ahead).copied()
     }
 
-    /// Whether a blank, a line break or the end of the text is there.
+    /// Whether there is a blank, a line break or the end of the text.
     pub(crate) fn blank(&self, ahead: usize) -> bool {
         matches!(self.byte(ahead), None | Some(b' ' | b'\t' | b'\n' | b'\r'))
     }
@@ -248,7 +247,7 @@ impl Scanner<'_> {
         !self.open.is_empty()
     }
 
-    /// In bytes: what stands before a block key or dash on its line is ASCII.
+    /// In bytes: the text before a block key or dash on its line is ASCII.
     pub(crate) fn column(&self) -> usize {
         self.at - self.line_start
     }
@@ -306,7 +305,7 @@ impl Scanner<'_> {
             .with_label(&format!("no matching `{closing}`")))
     }
 
-    /// A bracket closed by one of the other kind: what is missing is at the first of the two.
+    /// A bracket closed by one of another kind: the missing bracket belongs to the first one.
     pub(crate) fn crossed(&self, start: usize, byte: u8) -> Diagnostic {
         let (bracket, byte) = (&self.text[start..=start], byte as char);
         let closing = Place::of(self.text, self.here());

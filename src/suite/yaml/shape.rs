@@ -1,13 +1,13 @@
-//! Rules for every suite file, whatever its keys mean: no key twice, no merge keys, no endless
-//! lists, only finite numbers.
+//! Rules for every suite file, independent of its keys: no duplicate keys, no merge keys, limited
+//! lists, finite numbers only.
 //!
-//! Checked in a walk of its own, because a typed reader notices a second key only after its
-//! value, and a field of type `f64` accepts `.nan`.
+//! The shape is checked in a separate pass, because a typed reader notices a duplicate key only
+//! after its value, and a field of type `f64` accepts `.nan`.
 
 //!
-//! Refusals are messages of this crate, sent through the error type of a deserializer. Its error is
-//! one string, and the YAML library writes a path in front of it and a position behind. Fences
-//! around the parts let them be found again. No file can forge them, because a source with control
+//! Refusals are messages of this crate, passed through the error type of a deserializer. This is
+//! one string, to which the YAML library adds a path before and a position after. Separators around
+//! the parts allow finding them again. No file can forge them, because a source with control
 //! characters is refused.
 
 use super::{MAX_ENTRIES, Source};
@@ -36,9 +36,9 @@ pub(crate) fn check(source: &Source, key: &str) -> Result<TopValue, serde_yaml::
 
 /// The check of a value.
 enum ShapeCheck<'k> {
-    /// The whole file, with the key whose value is kept.
+    /// The whole file, with the key whose value is stored.
     Root { key: &'k str, found: &'k mut TopValue },
-    /// The value that is kept.
+    /// The value to be stored.
     Kept(&'k mut TopValue),
     /// Any other value.
     Inside,
@@ -129,7 +129,7 @@ impl<'de> Visitor<'de> for ShapeCheck<'_> {
     }
 }
 
-/// Reads a key of a map that must not have been seen; an error stands at the key itself.
+/// Reads a key of a map that must be new; an error is located at the key.
 pub(crate) struct NewKey<'a> {
     pub(crate) seen: &'a mut HashSet<String>,
 }
@@ -193,9 +193,9 @@ pub(crate) fn finite<E: de::Error>(value: f64, expected: &str) -> Result<f64, E>
 
 const FENCE: char = '\u{1f}';
 
-/// A refusal to raise while deserializing: what is wrong, what was expected, what to do.
+/// A refusal to raise while deserializing: the error, the expectation, and advice.
 ///
-/// `label` and `help` may be empty. [`read`](super::read()) shows the three as they are, at the
+/// `label` and `help` may be empty. [`read`](super::read()) shows the three texts unchanged, at the
 /// place of the innermost value that was being read.
 pub fn refuse<E: de::Error>(message: &str, label: &str, help: &str) -> E {
     let [message, label, help] = [message, label, help].map(|part| part.replace(FENCE, " "));

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// The largest file that is read; a long suite is a tenth of it.
 pub const MAX_BYTES: usize = 64 * 1024;
 
-/// A text that is safe to parse, and the name under which its user knows it.
+/// A text that is safe to parse, with its name for messages.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
     name: String,
@@ -22,19 +22,18 @@ impl Source {
     /// Reads a file.
     ///
     /// # Errors
-    /// If there is no such file, if it is a folder, too large or not UTF-8, and for all that
-    /// [`Source::from_text`] refuses.
+    /// If there is no such file, if it is a folder, too large or not UTF-8, or if
+    /// [`Source::from_text`] refuses it.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostic> {
         let name = path.as_ref().display().to_string();
         let bytes = bytes_of(path.as_ref(), &name)?;
         Self::from_bytes(&name, bytes)
     }
 
-    /// Reads what a program sends, no more of it than a suite may hold.
+    /// Reads the output of a program, up to the maximum size of a suite.
     ///
     /// # Errors
-    /// If it cannot be read, is too large or not UTF-8, and for all that [`Source::from_text`]
-    /// refuses.
+    /// If it cannot be read, is too large or not UTF-8, or if [`Source::from_text`] refuses it.
     pub fn from_reader(name: &str, reader: impl Read) -> Result<Self, Diagnostic> {
         Self::from_bytes(name, limited(name, reader)?)
     }
@@ -57,7 +56,7 @@ impl Source {
         if text.len() > MAX_BYTES {
             return Err(too_large(&name, Some(text.len() as u64)));
         }
-        // A byte order mark says nothing in UTF-8, and would shift the columns of line one.
+        // A byte order mark has no meaning in UTF-8, and would shift the columns of line one.
         if text.starts_with('\u{feff}') {
             text.remove(0);
         }
@@ -84,7 +83,7 @@ impl Source {
         Ok(paths)
     }
 
-    /// Name of the folder that holds a file: of suites of one folder, what they have in common.
+    /// Name of the folder with a file: the group of a suite.
     pub fn group_of(file: &Path) -> String {
         let folder = file.parent().and_then(Path::file_name);
         folder.unwrap_or_default().to_string_lossy().into_owned()
@@ -94,7 +93,7 @@ impl Source {
         Self::group_of(Path::new(&self.name))
     }
 
-    /// The file as the user named it.
+    /// The file, as named by the user.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -104,7 +103,7 @@ impl Source {
         &self.text
     }
 
-    /// A complaint about a place in this file.
+    /// A diagnostic of a place in this file.
     pub fn diagnostic(&self, place: Place, message: &str) -> Diagnostic {
         Diagnostic::at(&self.name, &self.text, place.bytes(), message)
     }
@@ -119,7 +118,7 @@ impl Source {
         self.scalar_from(offset).filter(|scalar| scalar.range.start == offset)
     }
 
-    /// The bytes of what starts there: a scalar, or one character of anything else.
+    /// The bytes of the token at `offset`: a scalar, or one character of anything else.
     pub(crate) fn token_at(&self, offset: usize) -> Range<usize> {
         self.scalar_at(offset).map_or(offset..offset + 1, |scalar| scalar.range.clone())
     }
@@ -152,8 +151,8 @@ fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     if bytes.len() > MAX_BYTES { Err(too_large(name, None)) } else { Ok(bytes) }
 }
 
-/// Whether it is a pipe that nobody may ever write to, so that reading it would not end. What the
-/// shell opens for a command has a writer.
+/// Whether it is a named pipe, which may have no writer, so that reading would not end. A pipe that
+/// the shell opens for a command has a writer.
 fn is_named_pipe(path: &Path, metadata: &Metadata) -> bool {
     #[cfg(unix)]
     let is_pipe = std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type());
@@ -191,7 +190,7 @@ fn not_utf8(name: &str, bytes: &[u8], offset: usize) -> Diagnostic {
     diagnostic.with_help(&format!("save the file as UTF-8{was}"))
 }
 
-/// Refuses what no editor shows: control characters, and line breaks known to YAML alone.
+/// Refuses invisible characters: control characters, and line breaks that only YAML treats as such.
 fn characters(name: &str, text: &str) -> Result<(), Diagnostic> {
     let bad = text.char_indices().find(|(at, c)| match c {
         '\t' | '\n' => false,

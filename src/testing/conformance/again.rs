@@ -1,4 +1,4 @@
-//! The same once more: looked at twice, with half of the step, made anew, interrupted.
+//! Repeatability checks: a second sample, half of the step, a new subject, a resumed run.
 
 use super::course::ROUNDING;
 use super::record::{Breach, RunState, difference, largest, record};
@@ -7,7 +7,7 @@ use crate::subject::{Checkpoint, Samples, Subject};
 /// Makes the subject in its initial state.
 pub(super) type Make<'a> = &'a dyn Fn() -> Result<Box<dyn Subject>, String>;
 
-/// A second look that sees something else, or adds to what it finds in the samples.
+/// A breach if a second call of `sample` gives other samples, or adds to those it was given.
 pub(super) fn sample(subject: &dyn Subject, first: &Samples) -> Option<Breach> {
     let mut second = first.clone();
     subject.sample(&mut second);
@@ -16,8 +16,8 @@ pub(super) fn sample(subject: &dyn Subject, first: &Samples) -> Option<Breach> {
     Some(Breach::new("sample", wanted, seen))
 }
 
-/// A step that does not take the length that it is given: half of it must move points by half.
-/// Nothing is said of a body that starts at rest.
+/// A breach if a step does not have its given length: half of the length must move points by half.
+/// Not applicable to a body that starts at rest.
 pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let [first, second, ..] = states else { return None };
     let fastest = largest(&first.samples.velocity);
@@ -45,7 +45,8 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     })
 }
 
-/// Another subject of the same problem that goes another way. Sums may be made in another order.
+/// A breach if another subject of the same problem gives another run. Sums may be computed in
+/// another order.
 pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let mut subject = make().ok()?;
     let mut again = vec![RunState::from_subject(subject.as_ref())];
@@ -60,8 +61,8 @@ pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Bre
     Some(Breach::new("repeat", wanted, off.next()?))
 }
 
-/// A checkpoint that disturbs the run, does not fit, or leads another way than the run that was
-/// not interrupted. Nothing is said of a subject without checkpoints.
+/// A breach if a checkpoint disturbs the run, does not match, or gives another continuation than
+/// the uninterrupted run. Not applicable to a subject without checkpoints.
 pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breach> {
     let (first, rest) = states.split_at(states.len().div_ceil(2));
     let found = |wanted: &str, seen: String| vec![Breach::new("restart", wanted, seen)];
@@ -101,9 +102,9 @@ pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breac
     breaches
 }
 
-/// Counters and sums by which two states differ that have the same samples.
+/// Counters and sums that differ between two states with equal samples.
 fn counted(wanted: &RunState, seen: &RunState) -> Option<String> {
-    // As text, for a NaN is one where it is expected.
+    // Compared as text, because a NaN equals an expected NaN.
     let text = |state: &RunState| (format!("{:?}", state.counters), format!("{:?}", state.totals));
     let ((a, b), (c, d)) = (text(wanted), text(seen));
     match (a == c, b == d) {

@@ -6,14 +6,14 @@ use crate::external::LevelProblem;
 use crate::mpm::det_of_rows;
 use crate::subject::Samples;
 
-/// Share by which numbers that are handed over may be off.
+/// Maximum relative rounding error of numbers that are passed to a solver.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// Share by which the weights of places of the subject's own may miss the volume of the body, whose
-/// rim they may see otherwise.
+/// Maximum relative difference between the volume of the body and the weights of sample points,
+/// which may resolve the rim differently.
 const RIM: f64 = 0.1;
 
-/// Columns of the wrong size, and numbers that are none.
+/// Breaches by columns of the wrong size, and by numbers that are not finite.
 pub(super) fn counts(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let (d, n) = (problem.dimension, samples.len());
     if samples.dimension != d {
@@ -92,8 +92,8 @@ fn weights(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     vec![Breach::new("weights", wanted, format!("{sum:e} m^D"))]
 }
 
-/// Displacements and velocities that are not those of the particles. Velocities may stand half a
-/// step before the start, which changes them by less than half of the largest.
+/// Breaches by displacements and velocities that differ from those of the particles. Velocities may
+/// be those half a step before the start, which changes them by less than half of the largest.
 fn motion(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let particles = &problem.particles;
     let mut breaches = Vec::new();
@@ -116,7 +116,7 @@ fn motion(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     breaches
 }
 
-/// Labels, weights and sizes that change, and numbers that are none.
+/// Breaches by labels, weights and sizes that change, and by numbers that are not finite.
 pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
     let first = &states[0].samples;
     let mut breaches = Vec::new();
@@ -158,7 +158,7 @@ pub(super) fn work(states: &[RunState]) -> Option<Breach> {
     Some(Breach::new("work counters", wanted, seen))
 }
 
-/// Other counters that do not count the run so far.
+/// A breach by counters that do not count the run so far.
 pub(super) fn counters(problem: &LevelProblem, states: &[RunState]) -> Vec<Breach> {
     let given = problem.particles.len() as u64;
     let volumes = problem.particles.volume.iter().zip(&problem.particles.reference_volume);
@@ -196,7 +196,7 @@ pub(super) fn counters(problem: &LevelProblem, states: &[RunState]) -> Vec<Breac
     breaches
 }
 
-/// A mass of all that is not that of the particles.
+/// A breach if the total mass differs from that of the particles.
 pub(super) fn totals(problem: &LevelProblem, states: &[RunState]) -> Option<Breach> {
     let mass: f64 = problem.particles.mass.iter().sum();
     let is_off = |seen: f64| !((seen - mass).abs() <= ROUNDING * mass);
@@ -209,7 +209,7 @@ pub(super) fn totals(problem: &LevelProblem, states: &[RunState]) -> Option<Brea
     ))
 }
 
-/// The smallest det F of the points; infinite where F is not given.
+/// The smallest det F of the points; infinite if F is not reported.
 fn smallest_j(samples: &Samples) -> f64 {
     let d = samples.dimension;
     let all = samples.deformation_gradient.chunks_exact(d * d);

@@ -1,10 +1,10 @@
-//! Whether a solver keeps the contract of [`Subject`](crate::subject::Subject): the first question,
-//! before any verdict.
+//! Conformance checks of a solver with the contract of [`Subject`](crate::subject::Subject), before
+//! any verdict.
 //!
 //! ```text
 //! start    sizes of columns, labels, weights and motion before the first step
 //! course   order of labels, finite numbers, counters and sums over a few steps
-//! again    looked at twice, with half of the step, made anew, interrupted
+//! again    a second sample, half of the step, a new subject, a resumed run
 //! ```
 
 mod again;
@@ -21,12 +21,12 @@ use record::{RunState, record};
 /// Steps of each run.
 const STEPS: usize = 6;
 
-/// Built-in suites that solvers may be put to, the simplest first: bodies that move from the start.
+/// Built-in suites for the checks, the simplest first: their bodies move from the start.
 const SUITES: [&str; 4] =
     ["vibrating-bar", "mms-periodic-bar-sin", "translating-body", "mms-axis-aligned-2d"];
 
 /// Every breach of the contract on the coarsest level of the first built-in suite that the solver
-/// can be put to; empty if there is none.
+/// can run; empty if there is none.
 ///
 /// ```no_run
 /// # use mpm_verify::prelude::*;
@@ -61,15 +61,15 @@ pub fn conformance_on(solver: &dyn SolverFactory, suite: &Suite) -> Vec<Breach> 
 /// The breaches on the coarsest level of `suite`.
 ///
 /// # Errors
-/// One line that says why the solver cannot be put to it.
+/// One line with the reason why the solver cannot run the suite.
 pub(crate) fn examined(solver: &dyn SolverFactory, suite: &Suite) -> Result<Vec<Breach>, String> {
     Ok(breaches(solver, &problem(solver, suite)?))
 }
 
-/// The coarsest level of a suite, which the solver takes.
+/// The coarsest level of a suite, if the solver can run it.
 ///
 /// # Errors
-/// One line that says why there is none.
+/// One line with the reason if it cannot.
 fn problem(solver: &dyn SolverFactory, suite: &Suite) -> Result<LevelProblem, String> {
     let plan = suite.plan::<ConvergencePlan>().ok_or("it is no convergence study")?;
     let lacks = lacking(suite, solver);

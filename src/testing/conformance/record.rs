@@ -19,7 +19,7 @@ impl RunState {
     }
 }
 
-/// Adds the states after each of so many steps of length `dt` (s), up to one that fails.
+/// Adds the states after each of `count` steps of length `dt` (s), up to one that fails.
 pub(super) fn record(
     subject: &mut dyn Subject,
     steps: usize,
@@ -47,8 +47,8 @@ pub(super) fn columns(samples: &Samples) -> [(&'static str, &[f64], usize); 7] {
     ]
 }
 
-/// The first number by which `seen` is off `wanted` by more than `tolerance` times the largest of
-/// its column.
+/// The first number of `seen` that differs from `wanted` by more than `tolerance` times the largest
+/// number of its column.
 pub(super) fn difference(wanted: &Samples, seen: &Samples, tolerance: f64) -> Option<String> {
     if wanted.dimension != seen.dimension {
         return Some(format!("dimension {} and not {}", seen.dimension, wanted.dimension));

@@ -3,13 +3,13 @@
 use crate::external::LevelProblem;
 use crate::subject::{Samples, Subject};
 
-/// The states of a run, the first one that of the start.
+/// The states of a run, starting with the initial state.
 pub(super) struct Course {
     pub(super) problem: LevelProblem,
     /// Times (s) of the states.
     pub(super) times: Vec<f64>,
     pub(super) states: Vec<Samples>,
-    /// Why it did not get to its end, if it did not.
+    /// Why the run did not reach its end; `None` if it did.
     pub(super) failure: Option<String>,
 }
 
@@ -40,7 +40,7 @@ impl Course {
     }
 
     /// Sets displacements and velocities of the first state to the initial fields, which a solver
-    /// with points of its own does not report.
+    /// with its own sample points does not report.
     pub(super) fn start(&mut self, displacement: &AffineField, velocity: &AffineField) {
         let d = self.problem.dimension;
         let Some(samples) = self.states.first_mut() else { return };
@@ -74,7 +74,7 @@ impl Course {
         sum.map(|sum| sum / all)
     }
 
-    /// Largest distance of a point's vector from `wanted` in state `k`.
+    /// Largest distance between the vector of a point and `wanted` in state `k`.
     pub(super) fn farthest(&self, field: Field, k: usize, wanted: [f64; 3]) -> f64 {
         self.points(field, k).map(|(_, vector)| size(minus(vector, wanted))).fold(0.0, f64::max)
     }
@@ -146,12 +146,12 @@ pub(super) struct AffineField {
     pub(super) value: [f64; 3],
     /// Row i has the derivatives of component i.
     pub(super) gradient: [[f64; 3]; 3],
-    /// Place (m) where the field has `value`.
+    /// Position (m) at which the field has `value`.
     pub(super) centre: [f64; 3],
 }
 
 impl AffineField {
-    /// The same vector everywhere.
+    /// A field with the same vector at every point.
     pub(super) fn uniform(value: [f64; 3]) -> Self {
         Self { value, ..Self::default() }
     }

@@ -7,9 +7,9 @@ use serde::Serialize;
 named! {
     /// Weight of a finding.
     pub enum FindingWeight {
-        /// Something to be mended.
+        /// A defect to be repaired.
         Defect = "defect",
-        /// A property of a sound scheme that an author should know.
+        /// A property of a correct scheme that an author should know.
         Remark = "remark",
     }
 }
@@ -22,7 +22,7 @@ pub struct SolverFinding {
     pub weight: FindingWeight,
     /// Its name: `gravity-left-on`.
     pub name: &'static str,
-    /// Figures that were seen.
+    /// Observed figures.
     pub seen: String,
     /// The likely cause.
     pub cause: String,
@@ -46,19 +46,19 @@ impl SolverFinding {
 #[serde(tag = "result", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum ExaminationResult {
-    /// It was made.
+    /// The examination was made.
     Examined {
         /// Figures that were measured.
         measured: String,
-        /// Findings; none if all is well.
+        /// Findings; empty if there are none.
         findings: Vec<SolverFinding>,
     },
-    /// The solver lacks what it takes.
+    /// The solver lacks a required capability.
     NotApplicable {
         /// Capabilities that are missing, or the solver's own reason.
         lacks: String,
     },
-    /// It says nothing as long as another one has findings.
+    /// The examination is skipped because another one has findings.
     LeftOut {
         /// Name of that examination.
         after: &'static str,
@@ -71,7 +71,7 @@ pub enum ExaminationResult {
 pub struct ExaminationReport {
     /// Its name: `fall`.
     pub examination: &'static str,
-    /// The sight of a sound solver, in one sentence.
+    /// Expected behaviour of a correct solver, in one sentence.
     pub expected: &'static str,
     /// Its result.
     #[serde(flatten)]
@@ -86,7 +86,7 @@ pub struct DoctorReport {
     pub solver: String,
     /// The solver's account of itself, as rows of name and value.
     pub settings: Vec<(String, String)>,
-    /// Why no examination could be made, if none could.
+    /// Why no examination was possible; `None` if one was.
     pub silent: Option<String>,
     /// The examinations, the plainest first.
     pub examinations: Vec<ExaminationReport>,
@@ -105,7 +105,7 @@ impl DoctorReport {
 }
 
 impl ExaminationResult {
-    /// Its findings; none of an examination that was not made.
+    /// Its findings; empty if the examination was not made.
     pub fn findings(&self) -> &[SolverFinding] {
         match self {
             Self::Examined { findings, .. } => findings,
@@ -114,7 +114,7 @@ impl ExaminationResult {
     }
 }
 
-/// Where to look if nodes with little mass are left out.
+/// Advice if nodes with little mass are ignored.
 pub(super) const MASS_THRESHOLD: &str = "a threshold on the mass of nodes, below which they get no velocity: it must \
      be zero, or far below the mass of a particle times the smallest weight";
 

@@ -1,15 +1,15 @@
-//! A solver put to small problems of which each shows one kind of mistake, and what is wrong with
-//! it in the words that its author needs (docs/doctor.md).
+//! Examinations of a solver on small problems. Each problem shows one kind of defect, which the
+//! findings describe in terms of the solver's code (docs/doctor.md).
 //!
 //! ```text
 //! finding       findings and reports
-//! scene         small scenes, handed over as suites are
+//! scene         small scenes, passed to the solver as those of suites
 //! vectors       vectors and fields of them
-//! patient       what a solver can be given, and how it takes its steps
+//! patient       capabilities of a solver, and its runs
 //! question      one question to a solver
-//! course        runs as they were seen, and figures of them
-//! motion/       a body that should move on, and why it does not
-//! examination/  one file for each question, the plainest first
+//! course        records of runs, and figures of them
+//! motion/       causes if a body in uniform motion slows down
+//! examination/  one file for each question, the simplest first
 //! page          the report as text
 //! ```
 
@@ -28,8 +28,8 @@ use crate::external::SolverFactory;
 use examination::ALL;
 use patient::{Examination, Hindrance, Patient};
 
-/// Examines a solver, the plainest question first. One that says nothing as long as another has
-/// defects is left out then. `progress` is called with the name of each.
+/// Examines a solver, with the simplest examination first. An examination that depends on others is
+/// skipped if these report defects. `progress` is called with the name of each.
 pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorReport {
     let mut report = DoctorReport {
         solver: solver.name().to_owned(),
@@ -54,7 +54,7 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
     report
 }
 
-/// Why nothing can be examined, by the first examination.
+/// Why nothing can be examined, from the first examination.
 fn silent(first: &ExaminationResult) -> Option<String> {
     match first {
         ExaminationResult::Examined { findings, .. } => {
@@ -68,7 +68,7 @@ fn silent(first: &ExaminationResult) -> Option<String> {
     }
 }
 
-/// Name of the finding that a solver does not get through an examination.
+/// Name of the finding on a solver that does not complete an examination.
 const BROKE: &str = "does-not-get-through";
 
 fn examined(examination: &Examination, patient: &Patient<'_>) -> ExaminationResult {

@@ -1,4 +1,4 @@
-//! A solver under examination: the problems that it can take, its runs, and the questions to it.
+//! A solver under examination: its capabilities, its runs, and requests to it.
 
 use super::course::Course;
 use super::finding::SolverFinding;
@@ -7,7 +7,7 @@ use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};
 use crate::subject::Precision;
 use rayon::prelude::*;
 
-/// Result of an examination that was made.
+/// Result of an examination.
 #[derive(Default)]
 pub(super) struct Examined {
     /// Figures that were measured.
@@ -15,7 +15,7 @@ pub(super) struct Examined {
     pub(super) findings: Vec<SolverFinding>,
 }
 
-/// Why an examination could not be made.
+/// Reason why an examination could not be made.
 pub(super) enum Hindrance {
     /// Capabilities that are missing, or the solver's own reason.
     Lacks(String),
@@ -44,7 +44,7 @@ impl Patient<'_> {
         }
     }
 
-    /// The first scene that the solver can take, over these dimensions and laws, in this order.
+    /// The first scene that the solver supports, over these dimensions and laws, in this order.
     pub(super) fn able(
         &self,
         dimensions: &[usize],
@@ -78,7 +78,7 @@ impl Patient<'_> {
         Err(Hindrance::Lacks(fewest.unwrap_or_default().join(", ")))
     }
 
-    /// The run of `scene`, which may end early with a failure.
+    /// Runs `scene`, which may end early with a failure.
     pub(super) fn run(&self, scene: &BoxScene) -> Result<Course, Hindrance> {
         let (problem, _) = scene.problem().map_err(Hindrance::Lacks)?;
         self.run_problem(scene, problem)
@@ -93,12 +93,13 @@ impl Patient<'_> {
                 None => Ok(course),
             }
         };
-        // Collected first: which error is returned must not depend on which run ends first.
+        // Collected first, so that the returned error does not depend on the order in which runs
+        // end.
         let courses: Vec<Result<Course, Hindrance>> = scenes.par_iter().map(complete).collect();
         courses.into_iter().collect()
     }
 
-    /// The run of `problem`, which belongs to `scene`, until its end or a failure.
+    /// Runs `problem`, which belongs to `scene`, to its end or to a failure.
     pub(super) fn run_problem(
         &self,
         scene: &BoxScene,
@@ -130,9 +131,9 @@ impl Patient<'_> {
 pub(super) struct Examination {
     /// Its name in reports.
     pub(super) name: &'static str,
-    /// The sight of a sound solver, in one sentence.
+    /// Expected behaviour of a correct solver, in one sentence.
     pub(super) expected: &'static str,
-    /// Examinations without whose soundness this one says nothing.
+    /// Examinations that must be without defects before this one.
     pub(super) after: &'static [&'static str],
     pub(super) examine: fn(&Patient<'_>) -> Result<Examined, Hindrance>,
 }

@@ -1,4 +1,4 @@
-//! Small scenes, written as suites and handed over like those.
+//! Small scenes, written as suites and passed to the solver in the same way.
 
 use super::course::{AffineField, Course};
 use crate::external::{LevelProblem, ProblemNeeds};
@@ -9,28 +9,27 @@ use crate::suite::{ConvergencePlan, Suite};
 /// A dimension and the name of a law.
 pub(super) type Kind = (usize, &'static str);
 
-/// Laws of finite elasticity, linear where strains are small, the simplest first.
+/// Laws of finite elasticity, linear at small strains, the simplest first.
 pub(super) const FINITE: [&str; 4] = ["linear_elastic", "neo_hookean", "corotated", "hencky"];
 
-/// Laws that are linear elasticity where strains are small; `j2` with a yield stress that no scene
-/// reaches.
+/// Laws that are linear elastic at small strains; `j2` with a yield stress that no scene reaches.
 pub(super) const ELASTIC: [&str; 5] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2"];
 
-/// All laws, for scenes in which the law has no effect, or the effect is not judged.
+/// All laws, for scenes in which the law has no effect, or its effect is not examined.
 pub(super) const ANY: [&str; 7] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2", "newtonian", "linear_fluid"];
 
-/// Cell size (m): a power of two, so that a lattice can lie on cell faces without rounding.
+/// Cell size (m): a power of two, so that a lattice can be on cell faces without rounding.
 pub(super) const H: f64 = 0.125;
 
-/// Factor of a stiffness without effect, even at nodes whose mass is nothing but rounding.
+/// Factor of a stiffness without effect, even at nodes whose mass is only rounding error.
 pub(super) const SOFT: f64 = 1e-24;
 
 /// Names of the faces of a box: those with the lower and the higher coordinate of each axis.
 pub(super) const FACES: [[&str; 2]; 3] = [["left", "right"], ["bottom", "top"], ["back", "front"]];
 
-/// A box of particles on a grid. Vectors have as many numbers as the scene has dimensions.
+/// A box of particles on a grid. Vectors have one number per dimension of the scene.
 #[derive(Debug, Clone)]
 pub(super) struct BoxScene {
     pub(super) dimension: usize,
@@ -62,16 +61,16 @@ pub(super) struct BoxScene {
 }
 
 impl BoxScene {
-    /// A soft body at rest, of `cells` cells along each axis from `from` on, with `room` cells
-    /// around it.
-    pub(super) fn of_cells(kind: Kind, from: [f64; 3], cells: f64, room: f64) -> Self {
+    /// A soft body at rest, of `cells` cells along each axis from `from` on, with `margin` empty
+    /// cells around it.
+    pub(super) fn of_cells(kind: Kind, from: [f64; 3], cells: f64, margin: f64) -> Self {
         let (dimension, law) = kind;
         let low = from[..dimension].to_vec();
         let high = low.iter().map(|x| x + cells * H).collect();
         // Nodes lie at whole multiples of H.
         let node = |x: f64| libm::floor(x / H) * H;
-        let grid_low: Vec<f64> = low.iter().map(|x| node(*x) - room * H).collect();
-        let grid_high = grid_low.iter().map(|x| x + (cells + 1.0 + 2.0 * room) * H).collect();
+        let grid_low: Vec<f64> = low.iter().map(|x| node(*x) - margin * H).collect();
+        let grid_high = grid_low.iter().map(|x| x + (cells + 1.0 + 2.0 * margin) * H).collect();
         Self {
             dimension,
             law,
@@ -81,7 +80,7 @@ impl BoxScene {
             grid: (grid_low, grid_high),
             young: 0.1,
             poisson: 0.3,
-            // No power, product or ratio of the other figures: see `fall::factors`.
+            // Not a power, product or ratio of the other figures: see `fall::factors`.
             density: 1.7,
             velocity: AffineField::default(),
             displacement: AffineField::default(),
@@ -92,18 +91,18 @@ impl BoxScene {
         }
     }
 
-    /// The same run in twice as many steps of half the length.
+    /// This scene with twice as many steps of half the length.
     pub(super) fn with_half_the_step(&self) -> Self {
         Self { dt: 0.5 * self.dt, steps: 2 * self.steps, ..self.clone() }
     }
 
-    /// The same scene in so many steps, in which dilatational waves travel `cells` cells.
+    /// This scene with `steps` steps, in which dilatational waves travel `cells` cells in total.
     pub(super) fn with_waves(self, cells: f64, steps: u64) -> Self {
         let dt = cells * self.h / self.wave_speed() / steps as f64;
         Self { steps, dt, ..self }
     }
 
-    /// The same scene without stiffness.
+    /// This scene with negligible stiffness.
     pub(super) fn soft(&self) -> Self {
         Self { young: SOFT * self.young, ..self.clone() }
     }
@@ -127,7 +126,7 @@ impl BoxScene {
         ((lambda + 2.0 * mu) / self.density).sqrt()
     }
 
-    /// The same body, motion and forces with other units of length, time and mass.
+    /// This scene in other units of length, time and mass.
     pub(super) fn scaled(&self, length: f64, time: f64, mass: f64) -> Self {
         let by = |all: &[f64]| all.iter().map(|x| x * length).collect::<Vec<f64>>();
         let volume = (0..self.dimension).fold(1.0, |product, _| product * length);
@@ -146,7 +145,7 @@ impl BoxScene {
         }
     }
 
-    /// The material, as suites write it.
+    /// The material, in the notation of suites.
     fn material(&self) -> String {
         let Self { law, young, poisson, density, .. } = self;
         let bulk = young / (3.0 * (1.0 - 2.0 * poisson));
@@ -194,10 +193,10 @@ impl BoxScene {
         )
     }
 
-    /// The scene as a problem, with its needs. The state is asked for after every step.
+    /// The scene as a problem, with its requirements. The state is requested after every step.
     ///
     /// # Errors
-    /// One line with the reason why the scene is no problem.
+    /// One line with the reason why the scene is not a valid problem.
     pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), String> {
         let suite = self.suite("basis: linear, transfer: flip, scheme: musl")?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
@@ -214,7 +213,7 @@ impl BoxScene {
         suite.map_err(|diagnostic| diagnostic.to_string())
     }
 
-    /// The run of this crate's MPM with PIC and the named basis: what averaging alone does.
+    /// A run of the built-in MPM with PIC and the named basis: the effect of averaging alone.
     ///
     /// # Errors
     /// One line with the reason why there is none.

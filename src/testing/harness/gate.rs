@@ -17,18 +17,18 @@ use std::path::{Path, PathBuf, absolute};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-/// A folder of suites, and who is put under them.
+/// A folder of suites, with the solver that is tested.
 pub(super) struct Gate {
     pub(super) folder: PathBuf,
     pub(super) snapshots: PathBuf,
     /// The solver in place of the methods of the suites.
     pub(super) solver: Option<&'static dyn SolverFactory>,
-    /// Whether all suites have snapshots in common besides their own.
+    /// Whether there are also snapshots of all suites together.
     pub(super) with_overview: bool,
 }
 
 impl Gate {
-    /// The tests of all files. No suite at all is a failure, not a success.
+    /// The tests of all files. A folder without suites is a failure.
     pub(super) fn trials(&self) -> Vec<Trial> {
         let shown = self.folder.display();
         let nothing = |why: String| vec![broken("suites::exist", why)];
@@ -37,14 +37,14 @@ impl Gate {
             Ok(files) => files,
             Err(error) => return nothing(format!("{shown}: {error}")),
         };
-        // The check of a truth takes a tenth of a second; there may be many.
+        // The check of an exact solution takes 0.1 s, and there may be many suites.
         let found: Vec<_> = files.par_iter().map(|file| self.of_file(file)).collect();
         let (mut trials, mut suites) = (Vec::new(), Vec::new());
         for (cases, suite) in found {
             trials.extend(cases);
             suites.extend(suite);
         }
-        // A report waits for all cases of its suite, and its thread does nothing meanwhile.
+        // A report waits for all cases of its suite, and its thread is idle meanwhile.
         trials.extend(suites.iter().map(report));
         if self.with_overview {
             trials.extend(self.of_all(suites));
@@ -80,7 +80,7 @@ impl Gate {
         }
     }
 
-    /// The folder of a suite's snapshot: where its file lies among the suites.
+    /// The folder of the snapshot of a suite, from the place of its file among the suites.
     fn snapshots_of(&self, file: &Path) -> PathBuf {
         let folder = file.parent().unwrap_or(Path::new(""));
         self.snapshots.join(folder.strip_prefix(&self.folder).unwrap_or(Path::new("")))
@@ -103,10 +103,10 @@ impl Gate {
     }
 }
 
-/// The suite of a solver.
+/// `suite` with `solver` in place of its methods.
 ///
 /// # Errors
-/// One line that says why the solver cannot be put to it.
+/// One line with the reason why the solver cannot run the suite.
 fn judged(suite: &Suite, solver: &dyn SolverFactory) -> Result<Suite, String> {
     let suite = under(suite, solver, true).ok_or("it looks inside the methods of this crate")?;
     match lacking(&suite, solver) {
@@ -134,7 +134,7 @@ fn conforms(solver: &dyn SolverFactory, suite: &Suite) -> Result<Completion, Fai
     }
 }
 
-/// A suite with its outcomes: each case runs once, whichever tests ask for it.
+/// A suite with its outcomes: each case runs once, also if several tests need it.
 struct SharedSuite {
     suite: &'static Suite,
     runner: Runner<'static>,
@@ -199,7 +199,7 @@ fn trials(
     snapshots: &Path,
     solver: Option<&'static dyn SolverFactory>,
 ) -> (Vec<Trial>, Arc<SharedSuite>) {
-    // The tests live as long as the process; so does the suite.
+    // The tests, and so the suite, live until the end of the process.
     let suite: &'static Suite = Box::leak(Box::new(suite));
     let names = suite.case_names();
     let runner = Runner::new(suite);
@@ -215,7 +215,7 @@ fn trials(
     });
     let case = |(index, case): (usize, &&str)| {
         let shared = Arc::clone(&shared);
-        // Of a suite that explores nothing is expected: it must not look like a gate that passed.
+        // An exploring suite has no expectations: it must not look like a gate that passed.
         Trial::ignorable_test(format!("{}::{case}", suite.name), move || shared.hold(index))
             .with_ignored_flag(suite.explores())
     };
@@ -306,7 +306,7 @@ mod tests {
     use super::*;
     use std::fs;
 
-    /// Whoever has planted a change by hand is told which file, and how a change is accepted.
+    /// The failure names the snapshot file and the command that accepts the change.
     #[test]
     fn a_difference_says_which_file_and_how_it_is_accepted() {
         let folder = std::env::temp_dir().join(format!("mpm-verify-drift-{}", std::process::id()));

@@ -13,14 +13,14 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Tests that wait for their cases at once, for each thread that runs cases.
+/// Number of tests that may wait for their cases at the same time, per thread that runs cases.
 const WAITING: usize = 4;
 
-/// Suites of a folder as tests: `SUITE::CASE` holds a case to its expectation, `SUITE::report` the
-/// suite's report to its snapshot, `SUITE::conformance` a solver to the contract of a subject;
-/// `FILE::parse` stands for a file that cannot be used.
+/// Suites of a folder as tests: `SUITE::CASE` compares a case with its expectation, `SUITE::report`
+/// the report of a suite with its snapshot, and `SUITE::conformance` checks that a solver meets the
+/// contract of a subject. `FILE::parse` fails for a file that cannot be used.
 ///
-/// In `tests/verification.rs`, of which `Cargo.toml` says `harness = false`:
+/// In `tests/verification.rs`, for which `Cargo.toml` sets `harness = false`:
 ///
 /// ```no_run
 /// # mod of_yours {
@@ -37,22 +37,23 @@ const WAITING: usize = 4;
 /// }
 /// ```
 ///
-/// Suites are found when the tests run: a new file brings its tests along.
+/// Suites are found when the tests run: a new file needs no registration.
 pub struct SuiteFolder(Gate);
 
 impl SuiteFolder {
-    /// The suites of a folder under the methods that they list. A relative path is one from the
-    /// root of the package, where tests run.
+    /// The suites of a folder with the methods that they list. A relative path starts at the root
+    /// of the package, where tests run.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
         let folder = folder.into();
         Self(Gate { snapshots: folder.clone(), folder, solver: None, with_overview: false })
     }
 
-    /// A solver in place of the methods of the suites, held to what a suite expects of it, or else
-    /// to the order that it claims. What it lacks is ignored, with the reason, and no pass.
+    /// Tests a solver in place of the methods of the suites. Its order is compared with the
+    /// expectation of the suite for this solver, or else with the order that it claims. A case that
+    /// needs a missing capability is ignored, with the reason, and does not count as passed.
     #[must_use]
     pub fn judging(mut self, solver: impl SolverFactory + 'static) -> Self {
-        // The tests live as long as the process; so does the solver.
+        // The tests, and so the solver, live until the end of the process.
         self.0.solver = Some(Box::leak(Box::new(solver)));
         self
     }
@@ -64,23 +65,23 @@ impl SuiteFolder {
         self
     }
 
-    /// Two snapshots of all suites besides: `OVERVIEW`, what came of each case and the matrix of
-    /// problems and methods, and `profile`, memory and passes of a step.
+    /// Adds two snapshots of all suites: `OVERVIEW`, with the result of each case and the matrix of
+    /// problems and methods, and `profile`, with the memory and passes of a step.
     #[must_use]
     pub fn with_overview(mut self) -> Self {
         self.0.with_overview = true;
         self
     }
 
-    /// Does what the command line of the tests says, which is that of `cargo test` and of nextest.
+    /// Runs the tests with the command line of `cargo test` or nextest.
     pub fn main(self) -> ExitCode {
-        // A snapshot that differs ends in a panic, whose backtrace tells nobody anything.
+        // A changed snapshot panics; its backtrace is of no use.
         std::panic::set_hook(Box::new(|panic| eprintln!("{panic}")));
         if self.run(std::env::args_os()) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
     }
 
-    /// Runs the tests that a command line selects (its first word is the program), and says
-    /// whether none has failed.
+    /// Runs the tests that a command line selects (its first argument is the program). Returns
+    /// whether all passed.
     pub fn run<Words>(&self, words: Words) -> bool
     where
         Words: IntoIterator,
@@ -88,7 +89,7 @@ impl SuiteFolder {
     {
         let mut arguments = Arguments::from_iter(words);
         // Cases run on the threads of rayon, and the thread of a test only waits. A thread that has
-        // done its part of one case takes up another, which then holds up the first.
+        // finished its part of one case starts another case, which then delays the first.
         arguments.test_threads =
             arguments.test_threads.or(Some(WAITING * rayon::current_num_threads()));
         let found = libtest_mimic::run(&arguments, self.0.trials());

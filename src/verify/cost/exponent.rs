@@ -1,23 +1,23 @@
 //! Cost of one more digit: work ~ error^exponent, observed and in theory.
 //!
-//! With an error ~ h^p and a work ~ h^-g the exponent is -g/p: g = D + 1 where cells are refined
-//! and time steps follow h, D where they stay, 1 where time steps alone are refined.
+//! With an error ~ h^p and a work ~ h^-g the exponent is -g/p: g = D + 1 if cells are refined and
+//! time steps are proportional to h, D if the steps are constant, 1 if only time steps are refined.
 //!
-//! The line is fitted to `ln error` over `ln work`, since work is counted and has no noise, and
-//! then turned: the exponent is one over its slope, and so are the ends of the interval (the
-//! fiducial limits of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed.,
-//! section 3.2).
+//! The line is fitted to `ln error` over `ln work`, because work is counted and has no noise. The
+//! exponent is the inverse of its slope, and so are the ends of the interval (the fiducial limits
+//! of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed., section 3.2).
 
 use super::sample::{ConvergingPart, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
 
-/// Fewest points with an interval.
+/// Minimum number of points with an interval.
 const FEWEST: usize = 3;
 
-/// Noise-free series have intervals of no width.
+/// Minimum relative width of an interval, for series without noise.
 const ROUNDING: f64 = 1e-9;
 
-/// Work that grows as theory says but for this share does not explain a departure.
+/// Maximum relative difference between observed and theoretical growth of work that does not
+/// explain a departure of the exponent.
 const SAME: f64 = 0.02;
 
 /// The marginal cost of accuracy.
@@ -27,27 +27,27 @@ pub struct Exponent {
     pub observed: Interval,
     /// Value in theory.
     pub theory: f64,
-    /// The observed order of the error over the same levels, and the formal one.
+    /// Observed order of the error over the same levels, and the formal order.
     pub order: (f64, f64),
-    /// The observed growth of work over the same levels, and that of the refinement plan.
+    /// Observed growth of work over the same levels, and the growth by the refinement plan.
     pub growth: (f64, f64),
 }
 
-/// Whether an exponent is that of theory; if not, what differs most.
+/// Agreement of an exponent with theory, or the main cause of the difference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Agreement {
     /// Theory is within the interval.
     Agrees,
     /// The error has another order.
     Order,
-    /// The work grows otherwise.
+    /// The work grows at another rate.
     Growth,
 }
 
 impl Exponent {
-    /// The exponent over the levels of `part` that are asymptotic, or over all of it where these
-    /// are fewer than three; `order` and `growth` are those of theory. None without three levels,
-    /// or where the error is not certain to fall.
+    /// The exponent over the asymptotic levels of `part`, or over all its levels if fewer than
+    /// three are asymptotic; `order` and `growth` are the theoretical values. `None` without three
+    /// levels, or if the interval of the order contains zero.
     pub fn of(samples: &[Sample], part: &ConvergingPart, order: f64, growth: f64) -> Option<Self> {
         let levels = &samples[part.levels.clone()];
         let asymptotic: Vec<Sample> = levels.iter().filter(|one| one.asymptotic).copied().collect();
@@ -70,7 +70,7 @@ impl Exponent {
         let errors = slope(|one| one.spacing, |one| one.error)?.slope;
         let works = slope(|one| one.spacing, |one| one.work)?.slope;
         Some(Self {
-            // Of a falling slope the steep end is the cheap one.
+            // The steep end of a falling slope gives the low cost.
             observed: Interval {
                 value: 1.0 / fall.value,
                 low: 1.0 / fall.high,

@@ -9,8 +9,8 @@
 //! | [`model`](Model) | seconds that are predicted |
 //! | [`predicted_error`](PredictedError) | errors that are predicted, with an interval |
 //!
-//! Work is any number that adds up: particle-node transfers, which are the same everywhere, or
-//! seconds. Rankings extrapolate nothing: an error that no level reaches is not reached.
+//! Work is any additive number: particle-node transfers, which are the same on every machine, or
+//! seconds. Rankings do not extrapolate: an error below that of every level is not reached.
 
 mod exponent;
 mod model;
@@ -28,5 +28,5 @@ pub use ranking::{MethodCost, Ranked, Ranking, by_transfers, rankings};
 pub use sample::{ConvergingPart, End, Reach, Sample, pareto_front};
 pub use timing::{BestCandidate, Machine, TimedSuite, Timing};
 
-/// The errors, over the size of the solution, that tables ask for.
+/// Target errors of tables, as shares of the size of the solution.
 pub const TARGETS: [f64; 3] = [1e-2, 1e-3, 1e-4];

@@ -1,14 +1,14 @@
-//! How long a run takes, from what it has to do:
+//! Predicted time of a run from its workload:
 //!
 //! ```text
 //! seconds = a transfers + b particle updates + c steps x nodes + d steps
 //! ```
 //!
-//! with coefficients that are never negative, fitted to measured levels so that relative errors are
-//! least. Within one refinement the four grow nearly together, and noise would give some of them
-//! negative signs: so every subset is solved, and of those without a negative one the best is kept
-//! (non-negative least squares, Lawson & Hanson 1974, chapter 23; with four columns fifteen subsets
-//! are no effort).
+//! with non-negative coefficients, fitted to measured levels with least relative errors. Within one
+//! refinement the four columns grow nearly in proportion, and noise would give some negative
+//! coefficients. So every subset of columns is solved, and the best one without a negative
+//! coefficient is kept (non-negative least squares, Lawson & Hanson 1974, chapter 23; four columns
+//! have only fifteen subsets).
 
 /// Counts of work of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,10 +23,10 @@ pub struct Workload {
     pub steps: f64,
 }
 
-/// Seconds of each thing that a run has to do.
+/// Seconds per unit of each part of the workload.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Model {
-    /// Of one transfer, particle update, node in a step, and step.
+    /// Seconds per transfer, particle update, node and step, and step.
     pub seconds: [f64; 4],
 }
 
@@ -39,7 +39,7 @@ impl Workload {
 }
 
 impl Model {
-    /// The model of runs that took so many seconds; none if no run took any.
+    /// The model fitted to runs with their times (s); `None` if no run took any time.
     pub fn fit(runs: &[(Workload, f64)]) -> Option<Self> {
         let rows: Vec<[f64; COLUMNS]> = runs
             .iter()
@@ -49,7 +49,7 @@ impl Model {
         let mut best: Option<(f64, [f64; COLUMNS])> = None;
         for subset in 1_u32..1 << COLUMNS {
             let chosen: Vec<usize> = (0..COLUMNS).filter(|k| subset >> k & 1 == 1).collect();
-            // A fit through all points predicts none.
+            // A fit through all points has no predictive value.
             if chosen.len() > (rows.len() / 2).max(1) {
                 continue;
             }
@@ -80,8 +80,8 @@ fn residual(rows: &[[f64; COLUMNS]], seconds: &[f64; COLUMNS]) -> f64 {
     rows.iter().map(off).sum()
 }
 
-/// Least squares over the chosen columns by the normal equations, each column scaled to the length
-/// one; none if columns cannot be told apart.
+/// Solves least squares over the chosen columns by the normal equations, each column scaled to
+/// length 1; `None` if the columns are linearly dependent.
 fn solve(rows: &[[f64; COLUMNS]], chosen: &[usize]) -> Option<[f64; COLUMNS]> {
     let n = chosen.len();
     let length = |k: &usize| rows.iter().map(|row| row[*k] * row[*k]).sum::<f64>().sqrt();
@@ -133,7 +133,7 @@ mod tests {
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
-    /// A level of a study in the plane, with room around the body.
+    /// A level of a study in 2-D, with spare cells around the body.
     fn load(cells: f64) -> Workload {
         let (particles, steps) = (4.0 * cells * cells, 10.0 * cells);
         Workload {

@@ -7,12 +7,12 @@
 //! ```
 //!
 //! The first term is the prediction interval of a regression (Draper & Smith, Applied Regression
-//! Analysis, 3rd ed., section 3.1). The second is for what noise does not cover: an order that
-//! counts as settled may change by 0.25 beyond the levels. Between levels the error is interpolated
-//! on logarithmic axes, with the second term for the distance to the nearer level.
+//! Analysis, 3rd ed., section 3.1). The second one covers systematic changes: an order that counts
+//! as settled may change by 0.25 beyond the levels. Between levels the error is interpolated on
+//! logarithmic axes, with the second term for the distance to the nearer level.
 //!
-//! No error is predicted beyond levels that are not judged to converge, that end in a floor, or
-//! whose order falls at their end, the first that is seen of a floor.
+//! There is no prediction beyond levels that do not converge, that end in a floor, or whose order
+//! falls at the end, which is the first sign of a floor.
 
 use super::sample::{ConvergingPart, End, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
@@ -21,7 +21,7 @@ use crate::verify::verdict::judge::SETTLED;
 use crate::verify::verdict::name::Verdict;
 use std::fmt;
 
-/// Fewest levels with a prediction interval.
+/// Minimum number of levels with a prediction interval.
 const FEWEST: usize = 3;
 
 /// Predicted errors of a method.
@@ -33,7 +33,7 @@ pub struct PredictedError {
     beyond: Result<(FittedLine, f64), Unpredicted>,
 }
 
-/// Why no error is predicted beyond the levels.
+/// Reason why no error is predicted beyond the levels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unpredicted {
     /// The levels have another verdict than converging.
@@ -42,7 +42,7 @@ pub enum Unpredicted {
     End(End),
     /// Fewer than three levels.
     TooFew,
-    /// The order between the two finest levels is below that of all.
+    /// The order between the two finest levels is below that of all levels.
     Falling,
 }
 
@@ -74,19 +74,19 @@ impl PredictedError {
         Self { levels, beyond }
     }
 
-    /// Why no error is predicted beyond the finest level; none if one is.
+    /// Why no error is predicted beyond the finest level; `None` if one is predicted.
     pub fn obstacle(&self) -> Option<Unpredicted> {
         self.beyond.err()
     }
 
-    /// The error at a spacing; none where none is predicted.
+    /// The error at a spacing; `None` if it is not predicted.
     pub fn at(&self, spacing: f64) -> Option<Interval> {
         let finest = self.levels.last()?;
         if spacing < finest.spacing {
             let (line, order) = self.beyond.ok()?;
             let (x, end) = (libm::log(spacing), libm::log(finest.spacing));
             let Interval { value, low, high } = line.another(x);
-            // What is better than theory on coarse grids will not stay so.
+            // An observed order above the formal order on coarse grids will not continue.
             let lost = (line.slope - order) * (end - x);
             let more = SETTLED * (end - x);
             return exp(Interval {
@@ -122,7 +122,7 @@ fn line(levels: &[Sample], formal_order: f64) -> Result<(FittedLine, f64), Unpre
     holds.then_some((line, order)).ok_or(Unpredicted::Falling)
 }
 
-/// From logarithms; none if a figure is no number.
+/// Exponential of each figure; `None` if a result is not finite.
 fn exp(Interval { value, low, high }: Interval) -> Option<Interval> {
     let [value, low, high] = [value, low, high].map(libm::exp);
     (low <= value && value <= high).then_some(Interval { value, low, high })

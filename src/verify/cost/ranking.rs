@@ -16,44 +16,45 @@ pub struct MethodCost {
     pub samples: Vec<Sample>,
     /// The order of the error in theory.
     pub formal_order: f64,
-    /// The growth of the work in theory, see [`ErrorScale`](crate::verify::ErrorScale).
+    /// Theoretical growth of the work, see [`ErrorScale`](crate::verify::ErrorScale).
     pub growth: f64,
 }
 
-/// A method and what accuracy costs with it.
+/// A method with its cost of accuracy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranked {
     /// The method.
     pub method: MethodCost,
-    /// Where it converges.
+    /// The levels over which it converges.
     pub part: ConvergingPart,
-    /// Where it reaches each of the targets.
+    /// Spacing and work at which it reaches each target error.
     pub reaches: Vec<Reach>,
-    /// How many times the least work at each target it takes; none where it does not reach it.
+    /// Work over the least work of all methods at each target error; `None` if it does not reach
+    /// the target.
     pub times: Vec<Option<f64>>,
-    /// Least error of the converging part, or of all levels where there is none.
+    /// Smallest error of the converging part, or of all levels if there is no such part.
     pub best: Option<f64>,
     /// Cost of one more digit.
     pub exponent: Option<Exponent>,
-    /// Its levels on the front.
+    /// Indices of its levels on the Pareto front.
     pub front: Vec<usize>,
 }
 
 /// The methods of one problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking {
-    /// The problem, in words.
+    /// The problem, as text.
     pub problem: String,
     /// Divisor of the errors.
     pub size: f64,
-    /// The errors that were asked for, coarse to fine.
+    /// Target errors, from coarse to fine.
     pub targets: Vec<f64>,
     /// The methods: by the work at the finest target, then at the next coarser one.
     pub rows: Vec<Ranked>,
 }
 
 impl Ranking {
-    /// Ranks `contenders` by what they take for each of `targets`.
+    /// Ranks `methods` by their work for each of `targets`.
     pub fn new(problem: String, size: f64, targets: &[f64], methods: Vec<MethodCost>) -> Self {
         let all: Vec<(usize, usize, Sample)> = methods
             .iter()
@@ -100,7 +101,7 @@ fn ranked(method: MethodCost, targets: &[f64], front: Vec<usize>) -> Ranked {
 }
 
 impl Ranked {
-    /// Why it does not reach the finest target; none if it does.
+    /// Why it does not reach the finest target; `None` if it does.
     pub fn obstacle(&self) -> Option<End> {
         let reached = self.reaches.last().is_some_and(|reach| reach.work().is_some());
         (!reached).then_some(self.part.end)
@@ -119,9 +120,9 @@ fn order(a: &[Reach], b: &[Reach]) -> Ordering {
     pairs.map(compare).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
 }
 
-/// Rankings of the cases of a suite that can be compared, one for each problem; `work` tells what a
-/// level took. Cases that were compared with nothing are left out, and problems without a size or
-/// of fewer than three levels.
+/// Rankings of the comparable cases of a suite, one per problem; `work` returns the work of a
+/// level. Excludes cases without exact solution or reference, problems without an error scale, and
+/// cases with fewer than three levels.
 pub fn rankings(
     cases: &[CaseOutcome],
     work: impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,
@@ -149,7 +150,7 @@ pub fn rankings(
     problems.into_iter().map(rank).collect()
 }
 
-/// The same by transfers, which are the same on every machine.
+/// Rankings of the cases of a suite by transfers, which are the same on every machine.
 pub fn by_transfers(cases: &[CaseOutcome]) -> Vec<Ranking> {
     rankings(cases, |_, _, level| level.run.counters.transfers as f64)
 }

@@ -1,13 +1,13 @@
 //! Levels of one method: error and work of each, the levels over which the method converges, the
 //! Pareto front, and the work at which an error is reached.
 //!
-//! Between two levels of the converging part an error may be interpolated. Anywhere else a small
-//! error may be an accident (an error that passes through zero, a floor that sways), which the next
-//! finer grid does not confirm.
+//! Between two levels of the converging part an error may be interpolated. Elsewhere a small error
+//! may be accidental (a sign change of the error, fluctuations on a floor), and not be confirmed on
+//! the next finer grid.
 
 use std::ops::Range;
 
-/// A setting that was run.
+/// Result of one level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// The spacing that is refined.
@@ -20,30 +20,32 @@ pub struct Sample {
     pub usable: bool,
     /// Whether the judge fits the order to this level.
     pub asymptotic: bool,
-    /// Whether the run broke.
+    /// Whether the run failed.
     pub failed: bool,
 }
 
 impl Sample {
-    /// Whether the level says what an error costs. Written so that NaN does not.
+    /// Whether error and work of the level are valid; false for NaN.
     pub fn counts(&self) -> bool {
         let sound = self.error >= 0.0 && self.error.is_finite();
         self.usable && !self.failed && sound && self.work > 0.0 && self.work.is_finite()
     }
 
-    /// Whether it has a place on logarithmic axes.
+    /// Whether the level has a point on logarithmic axes.
     pub(crate) fn has_logarithm(&self) -> bool {
         self.counts() && self.error > 0.0 && self.spacing > 0.0 && self.spacing.is_finite()
     }
 }
 
-/// Least order between neighbours that is a fall.
+/// Minimum order between neighbouring levels that counts as a fall of the error.
 const LEAST_ORDER: f64 = 0.2;
 
-/// Two levels fall by chance: as many as the judge needs for an order before a floor.
+/// Minimum number of levels of a converging part, as in the judge: an error falls over two levels
+/// by chance.
 const FEWEST: usize = 3;
 
-/// An error that is this much larger than the level before grows; below, it sways on a floor.
+/// Minimum ratio of the error to that of the previous level that counts as growth; smaller changes
+/// are fluctuations on a floor.
 const GROWS: f64 = 1.25;
 
 /// Neighbouring levels over which the error falls.
@@ -55,16 +57,16 @@ pub struct ConvergingPart {
     pub end: End,
 }
 
-/// Why a method goes no further.
+/// Reason for the end of a converging part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
     /// No finer level was run.
     Levels,
-    /// The error falls no more.
+    /// The error does not fall further.
     Floor,
     /// The error grows.
     Grows,
-    /// The run broke.
+    /// The run failed.
     Failed,
     /// A level that does not count.
     Crossings,
@@ -73,7 +75,7 @@ pub enum End {
 }
 
 impl End {
-    /// In the words of tables.
+    /// Text for tables.
     pub fn words(self) -> &'static str {
         match self {
             Self::Levels => "no finer level",
@@ -87,8 +89,9 @@ impl End {
 }
 
 impl ConvergingPart {
-    /// The converging part of levels from coarse to fine: of several the one with the largest fall.
-    /// Empty if there is none; its end then says why.
+    /// The converging part of levels from coarse to fine; if there are several, the one with the
+    /// largest fall of the error. Without a converging part, `levels` is empty and `end` has the
+    /// reason.
     pub fn of(samples: &[Sample]) -> Self {
         let mut best: Option<(f64, Range<usize>)> = None;
         let mut start = 0;
@@ -120,7 +123,7 @@ fn falls(coarse: &Sample, fine: &Sample) -> bool {
     libm::log(coarse.error / fine.error) >= LEAST_ORDER * refinement && refinement > 0.0
 }
 
-/// Reason why the level `next` belongs to the part no more.
+/// Reason why the level `next` is not in the part.
 fn end(samples: &[Sample], next: usize) -> End {
     let Some(finer) = samples.get(next) else { return End::Levels };
     if finer.failed || !finer.error.is_finite() {
@@ -134,12 +137,12 @@ fn end(samples: &[Sample], next: usize) -> End {
     }
 }
 
-/// Share by which an error must be smaller to be worth more work: methods whose errors agree to
-/// more digits than anybody reads are not traded for each other.
+/// Minimum relative decrease of the error that justifies more work: smaller differences are
+/// negligible.
 pub(super) const WORTH: f64 = 0.01;
 
-/// Indices of what is on the front, from the least work to the least error. Of equals the first
-/// counts.
+/// Indices of the samples on the Pareto front, from the least work to the least error. Of equal
+/// samples only the first is included.
 pub fn pareto_front(samples: &[Sample]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..samples.len()).filter(|k| samples[*k].counts()).collect();
     let key = |k: usize| (samples[k].work, samples[k].error);
@@ -158,17 +161,17 @@ pub fn pareto_front(samples: &[Sample]) -> Vec<usize> {
     order
 }
 
-/// Where an error is reached.
+/// Work and spacing at which an error is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reach {
-    /// Between two levels of the converging part, straight on logarithmic axes.
+    /// Between two levels of the converging part, by linear interpolation on logarithmic axes.
     At {
         /// The work.
         work: f64,
         /// The spacing.
         spacing: f64,
     },
-    /// On the coarsest level that counts already, and perhaps for less.
+    /// On the coarsest level of the converging part: an upper bound of the work.
     Already {
         /// Its work.
         work: f64,
@@ -180,7 +183,8 @@ pub enum Reach {
 }
 
 impl Reach {
-    /// Where levels from coarse to fine, converging over `part`, reach the error `target`.
+    /// Work and spacing at which levels from coarse to fine, converging over `part`, reach the
+    /// error `target`.
     pub fn of(samples: &[Sample], part: &ConvergingPart, target: f64) -> Self {
         let mut counted = samples.iter().filter(|one| one.counts());
         let unbroken = samples.iter().all(|one| !one.failed);

@@ -159,7 +159,8 @@ fn noise_widens_the_interval_of_a_predicted_error() {
     assert_relative_eq!(found[1], half_width, max_relative = 1e-4);
 }
 
-/// The error is expected to follow theory; that it goes on as before is within the interval.
+/// The predicted error follows the theoretical order; a continuation of the observed order is
+/// within the interval.
 #[test]
 fn what_is_better_than_theory_is_not_expected_to_stay_so() {
     let found = predicted(&power(3.0, 3.0, 4)).at(1.0 / 32.0).unwrap();
@@ -248,8 +249,8 @@ fn series() -> impl Strategy<Value = Vec<Sample>> {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
 
-    /// An error that counts as reached was reached: some level that counts has at most this error,
-    /// and the work lies between those of levels.
+    /// An error that counts as reached was reached: a level that counts has at most this error, and
+    /// the work is between those of levels.
     #[test]
     fn nothing_is_extrapolated(samples in series(), target in 1e-9..1.0_f64) {
         if let Some(work) = reach(&samples, target).work() {
@@ -260,7 +261,7 @@ proptest! {
         }
     }
 
-    /// A finer target is not reached where a coarser one is not.
+    /// A finer target is not reached if a coarser one is not.
     #[test]
     fn a_coarser_target_is_reached_first(samples in series(), target in 1e-9..1e-1_f64) {
         let fine = reach(&samples, target);
@@ -271,8 +272,8 @@ proptest! {
         }
     }
 
-    /// No level beats one on the front, and every level that counts is beaten or equalled by one,
-    /// but for errors that are the same to who reads them.
+    /// No level dominates one on the front. Every level that counts is dominated or equalled by one
+    /// on the front, up to negligible differences of the error.
     #[test]
     fn the_front_is_the_front(samples in series()) {
         let front = super::pareto_front(&samples);

@@ -5,7 +5,7 @@ use super::ranking::{Ranking, by_transfers, rankings};
 use crate::verify::order::fit::Interval;
 use crate::verify::outcome::SuiteOutcome;
 
-/// Repeated measurements of one thing, in seconds.
+/// Repeated measurements of one quantity, in seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timing {
     /// The median.
@@ -14,27 +14,27 @@ pub struct Timing {
     pub low: f64,
     /// The upper quartile.
     pub high: f64,
-    /// How many there are.
+    /// Number of measurements.
     pub repeats: usize,
 }
 
-/// State of the machine, by which its seconds can be judged.
+/// State of the machine during time measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Machine {
     /// Cores that the process may use.
     pub cores: usize,
-    /// Load average over a minute, before and after, where the system tells it.
+    /// Load average over a minute, before and after, if the system reports it.
     pub load: Option<[f64; 2]>,
-    /// Share of the time for which the measuring thread waited for a core; it has been left out of
-    /// all seconds. Absent where the system does not tell it: then it is in them.
+    /// Share of the time for which the measuring thread waited for a core. This time is excluded
+    /// from all seconds; if the system does not report it (`None`), it is included.
     pub waited: Option<f64>,
-    /// A loop that always does the same, timed between all other measurements: its spread is the
-    /// noise of clock frequency and of other processes.
+    /// A constant loop, timed between all other measurements: its spread is the noise of clock
+    /// frequency and of other processes.
     pub fixed_loop: Option<Timing>,
 }
 
 impl Timing {
-    /// Median and quartiles; none without samples, or if one is not a number.
+    /// Median and quartiles; `None` without samples, or if one is not finite.
     pub fn of(samples: &[f64]) -> Option<Self> {
         if samples.is_empty() || samples.iter().any(|s| !s.is_finite()) {
             return None;
@@ -59,12 +59,12 @@ impl Timing {
 /// A suite with the seconds of its levels.
 #[derive(Debug, Clone)]
 pub struct TimedSuite {
-    /// Results. Cases besides the suite's own are variants of them.
+    /// Results of the cases of the suite, and of variants of them.
     pub outcome: SuiteOutcome,
-    /// For each case and level what it has to do, and how long that took; none of what could not be
-    /// set up. A run that broke took as long as until then.
+    /// For each case and level the workload, and the time that it took; `None` if the set-up
+    /// failed. The time of a failed run ends at the failure.
     pub levels: Vec<Vec<(Workload, Option<Timing>)>>,
-    /// Where.
+    /// State of the machine.
     pub machine: Machine,
 }
 
@@ -81,14 +81,14 @@ impl TimedSuite {
         by_transfers(&self.outcome.cases)
     }
 
-    /// How long a level took.
+    /// Time of a level.
     pub fn timing(&self, case: &str, level: usize) -> Option<Timing> {
         let index = self.outcome.cases.iter().position(|known| known.case == case)?;
         self.levels.get(index)?.get(level)?.1
     }
 
-    /// The cost model of a case, and how far it is off at the finest level when it is fitted to the
-    /// others only: a prediction before that level runs.
+    /// The cost model of a case, and its relative error at the finest level if it is fitted to the
+    /// other levels only: a prediction before that level runs.
     pub fn model(&self, case: usize) -> Option<(Model, Option<f64>)> {
         let levels = self.levels.get(case)?.iter();
         let runs: Vec<(Workload, f64)> =
@@ -100,7 +100,7 @@ impl TimedSuite {
     }
 }
 
-/// The most accurate setting that a cost model predicts to be done within a budget, and what came.
+/// The most accurate setting whose predicted time is within a budget, and its measured result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BestCandidate {
     /// The budget (s).
@@ -119,9 +119,9 @@ pub struct BestCandidate {
     pub error: (Interval, f64),
     /// Whether the setting is finer than all levels that the suite lists.
     pub beyond: bool,
-    /// Why nothing finer was considered, if that is not for the budget.
+    /// Why no finer setting was considered, if the budget is not the reason.
     pub limit: Option<String>,
-    /// Why the run ended early, if it did.
+    /// Reason if the run ended early.
     pub failure: Option<String>,
     /// The model that predicted.
     pub model: Model,

@@ -1,26 +1,26 @@
-//! From a wanted time step to a run that ends exactly where it should.
+//! Computes a time step near the requested one that ends the run exactly at its end.
 
-/// The steps of one run, and the instants at which errors are taken, each of which is the end of a
-/// step. Instants are as equally spaced as the steps allow.
+/// The steps of one run, and the instants at which errors are measured. Each instant is the end of
+/// a step. The spacing of instants is as uniform as the steps allow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clock {
     /// End of the run (s).
     pub until: f64,
     /// Number of steps.
     pub steps: u64,
-    /// Number of instants at which the error is taken, the last one at `until`.
+    /// Number of instants at which the error is measured, the last one at `until`.
     pub instants: u64,
 }
 
-/// No run takes more steps than this: a misspelt dt must not run for years.
+/// Maximum number of steps of a run, so that a misspelt dt does not run for years.
 pub const MOST_STEPS: f64 = 1e9;
 
-/// Largest relative difference between the step that is wanted and the one that is taken. An error
-/// of second order in the step differs by twice that from one level to the next: 0.03 in an order.
+/// Maximum relative difference between the requested step and the actual one. An error of second
+/// order in the step differs by twice this from one level to the next: 0.03 in an order.
 pub const STEP_TOLERANCE: f64 = 0.01;
 
 impl Clock {
-    /// The number of steps nearest to `until / wanted` (s), so that instants do not change the
+    /// The number of steps is nearest to `until / wanted` (s), so that instants do not change the
     /// step. A run of fewer steps than `instants` has an instant after each step. `None` if
     /// `wanted` or `until` is not positive and finite, or if more than [`MOST_STEPS`] steps would
     /// be needed.
@@ -29,18 +29,17 @@ impl Clock {
         Some(Self { until, steps, instants: instants.min(steps) })
     }
 
-    /// The largest step that is not above `wanted` (s) and divides the time between equally spaced
-    /// instants: runs of different steps, which are compared with one another, then have them in
-    /// common. `None` as for [`Clock::new`].
+    /// The largest step, at most `wanted` (s), that divides the time between equally spaced
+    /// instants. Runs with different steps then share their instants. `None` as for [`Clock::new`].
     pub fn with_common_instants(until: f64, wanted: f64, instants: u64) -> Option<Self> {
         let between = until / (wanted * instants as f64);
-        // A ratio that is a whole number but for rounding is that number.
+        // A ratio that is whole up to rounding is rounded to it.
         let between = libm::ceil(between * (1.0 - 1e-12)).max(1.0);
         let steps = Self::usable(until, wanted, instants, between * instants as f64)?;
         Some(Self { until, steps, instants })
     }
 
-    /// `steps`, at least one, if they make a run.
+    /// `steps`, at least one; `None` if they are invalid.
     fn usable(until: f64, wanted: f64, instants: u64, steps: f64) -> Option<u64> {
         let positive = |time: f64| time > 0.0 && time.is_finite();
         let usable = positive(until) && positive(wanted) && instants > 0;
@@ -57,7 +56,7 @@ impl Clock {
         self.until * step as f64 / self.steps as f64
     }
 
-    /// Whether the error is taken after `step` steps.
+    /// Whether the error is measured after `step` steps.
     pub fn is_instant(&self, step: u64) -> bool {
         is_instant(step, self.steps, self.instants)
     }
@@ -66,7 +65,7 @@ impl Clock {
 /// Whether step number `step` of `steps` ends at one of `instants`, which are as equally spaced as
 /// the steps allow; the last one ends the run.
 pub(crate) fn is_instant(step: u64, steps: u64, instants: u64) -> bool {
-    // Instants up to the end of a step: one more than up to the end of the step before.
+    // Number of instants up to the end of a step: it grows by one at an instant.
     let passed = |step: u64| u128::from(step) * u128::from(instants) / u128::from(steps);
     step > 0 && passed(step) > passed(step - 1)
 }

@@ -7,35 +7,37 @@ use crate::exact::{SumDensity, SumPoint, Truth};
 use crate::subject::{Samples, Totals};
 use std::borrow::Cow;
 
-/// Exact values at all labels in so many dimensions, at a time.
+/// Exact values at all labels in the given number of dimensions, at a time.
 pub(super) type ExactAtAll = fn(&dyn Truth, usize, &[f64], f64, &mut [f64]);
 
-/// All that is known of a quantity besides its name.
+/// Properties of a quantity, without its name.
 #[expect(clippy::struct_excessive_bools, reason = "four independent questions, each asked by name")]
 pub(super) struct Declaration {
     /// Its unit; empty for a number.
     pub(super) unit: &'static str,
     pub(super) shape: TensorShape,
-    /// Values of a subject, label after label; empty from one that has none.
+    /// Values of a subject, label after label; empty if the subject has none.
     pub(super) computed: fn(&Samples) -> Cow<'_, [f64]>,
-    /// Exact value at the label X at time t; false from a truth that does not know it.
+    /// Writes the exact value at the label X at time t; false if the exact solution does not define
+    /// it.
     pub(super) exact: fn(&dyn Truth, &[f64], f64, &mut [f64]) -> bool,
-    /// Exact values at all labels in D dimensions at once, where a truth has a faster way.
+    /// Exact values at all labels in D dimensions at once, for exact solutions with a faster
+    /// method.
     pub(super) exact_at_all: Option<ExactAtAll>,
     /// Natural size of exact values, which errors are compared with.
     pub(super) size: SolutionSize,
-    /// Size of the numbers that its value is the difference of, on a body of length L (m); NaN
-    /// where it is not known.
+    /// Size of the numbers whose difference is the value, on a body of length L (m); NaN if it is
+    /// unknown.
     pub(super) rounding_size: fn(f64) -> f64,
-    /// Whether it is an unknown that a subject solves for: tables show its errors.
+    /// Whether it is a primary unknown of a subject: tables show its errors.
     pub(super) is_primary: bool,
     /// Whether only some subjects and some truths have it.
     pub(super) is_optional: bool,
     /// Whether only a body that moves has it.
     pub(super) is_of_motion: bool,
-    /// Whether a subject must keep F for it.
+    /// Whether a subject must store F for the quantity.
     pub(super) needs_deformation_gradient: bool,
-    /// Of a sum over the body, which has no values at labels.
+    /// Declaration of a sum over the body, which has no values at labels.
     pub(super) sum: Option<SumDeclaration>,
 }
 
@@ -58,7 +60,7 @@ pub(super) enum ComputedSum {
     Reaction,
 }
 
-/// Need of a sum, besides a body that moves.
+/// Requirement of a sum, in addition to a moving body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SumNeed {
     /// Nothing.
@@ -67,7 +69,7 @@ pub(crate) enum SumNeed {
     StoredEnergy,
     /// A plane or space around an origin.
     Rotation,
-    /// A face on which the body stands still.
+    /// A face on which the body is at rest.
     Wall,
 }
 
@@ -95,7 +97,7 @@ impl TensorShape {
     /// Numbers at each label in `d` dimensions.
     pub(super) fn components(&self, d: usize) -> usize {
         match self {
-            // Without a dimension there is nothing to compare, be it a number.
+            // In zero dimensions there is nothing to compare, also for a scalar.
             Self::Scalar => d.min(1),
             Self::Vector => d,
             Self::Tensor => d * d,
@@ -167,7 +169,7 @@ pub(super) const TEMPERATURE: Declaration = Declaration {
     ..STRESS
 };
 
-/// A sum of nothing: it has no values at labels.
+/// Common part of the declarations of sums, which have no values at labels.
 const SUM: Declaration = Declaration {
     unit: "J",
     shape: TensorShape::Scalar,

@@ -7,29 +7,29 @@ use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Squares along the longer side of a plane, and parts of a line: what a picture can show.
+/// Number of parts along the longer side of a body: the resolution of a figure.
 const SQUARES: f64 = 20.0;
 const PARTS: f64 = 80.0;
 
-/// Share of a part that is no more than rounding.
+/// Share of a part that counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// The largest error in each part of the body. Of three dimensions the first two are seen, and the
-/// error is the largest along the third.
+/// The largest error in each part of the body. In 3-D the parts are those of the first two axes,
+/// with the largest error along the third.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ErrorField {
     /// Whether it is a plane, and not a line.
     pub is_plane: bool,
     /// Size of a part (m).
     pub size: f64,
-    /// Position now (m) and largest magnitude of the error in each part with particles; NaN where
-    /// one has no error that is a number. A part is a square of many particles, or one particle.
+    /// Current position (m) and largest magnitude of the error in each part with particles; NaN if
+    /// no error in it is finite. A part is a square of many particles, or one particle.
     pub parts: Vec<[f64; 3]>,
 }
 
 impl ErrorField {
-    /// The errors of `of` in `samples` against `truth` at time `t` (s); none if there is no such
-    /// error, and if no particle has a place.
+    /// The errors of `of` in `samples` against `truth` at time `t` (s); `None` if there is no such
+    /// error, or if no particle has a position.
     pub(super) fn of(of: Quantity, samples: &Samples, truth: &dyn Truth, t: f64) -> Option<Self> {
         let (components, errors) = of.differences(samples, truth, t)?;
         let d = samples.dimension;
@@ -51,13 +51,13 @@ impl ErrorField {
         if !(size > 0.0 && size.is_finite()) {
             return None;
         }
-        // Parts smaller than particles: each particle is one.
+        // Parts would be smaller than particles: each particle is one part.
         let volume = samples.weight.iter().sum::<f64>() / samples.len() as f64;
         let spacing = libm::pow(volume, 1.0 / d as f64);
         let is_coarse = spacing >= size;
         let mut parts: BTreeMap<[i64; 2], [f64; 3]> = BTreeMap::new();
-        // The end of the body belongs to the last part, not to one beyond it; a particle that is a
-        // part is one there too.
+        // The end of the body belongs to the last part, not to one beyond it; this also holds for
+        // particles as parts.
         let end = [0, 1].map(|axis| (high[axis] - low[axis]) / size);
         let last = end
             .map(|end| if is_coarse { end } else { (libm::ceil(end - ROUNDING) - 1.0).max(0.0) });
@@ -112,7 +112,7 @@ pub(super) mod tests {
         assert_eq!(largest, (n * n - 1) as f64 * 1e-6);
     }
 
-    /// Of the last particles along an axis only a few have its largest place.
+    /// Only a few of the last particles along an axis have the largest position.
     #[test]
     fn no_part_of_a_whole_body_is_left_out() {
         let mut samples = square(32);
@@ -124,7 +124,7 @@ pub(super) mod tests {
         assert_eq!(field.parts.len(), 400);
     }
 
-    /// A particle without a place is left out; one without an error marks its part.
+    /// A particle without a position is excluded; a particle without an error marks its part.
     #[test]
     fn nan_is_seen() {
         let mut samples = square(10);

@@ -1,17 +1,17 @@
-//! Natural sizes that make the errors and the work of different methods comparable.
+//! Natural scales that make the errors and the work of different methods comparable.
 
 /// Scale that errors of a case are compared by, and growth of its work.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ErrorScale {
-    /// The problem in words: the end of the run, and the truth. Only cases of one problem are
-    /// compared.
+    /// The problem as text: the end of the run, and the kind of solution. Only cases of one problem
+    /// are compared.
     pub problem: String,
-    /// Divisor that makes an error a share of the solution, in the unit of the judged error: 1
-    /// where the suite states a scale, which has been applied, else the largest exact magnitude.
+    /// Divisor that makes an error a share of the solution, in the unit of the judged error: 1 if
+    /// the suite states a scale, which is already applied, otherwise the largest exact magnitude.
     /// NaN if there is none.
     pub size: f64,
-    /// Work grows like spacing^-growth: one power for each axis of the body that is refined, and
-    /// that of the time step.
+    /// Work grows like spacing^-growth: one power for each refined axis of the body, and one for
+    /// the time step.
     pub growth: f64,
 }
 
@@ -22,7 +22,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A rod that is stretched and warms up with time; it knows no stress.
+    /// A rod that is stretched and heated over time, without exact stress.
     struct Rod;
 
     impl Truth for Rod {

@@ -1,4 +1,4 @@
-//! A sum over the body of a subject, held against its exact value.
+//! A sum over the body of a subject, compared with its exact value.
 
 use super::declaration::{ComputedSum, SumDeclaration};
 use super::norm::Norms;
@@ -11,16 +11,17 @@ use crate::subject::Subject;
 pub struct JudgedSum {
     of: Quantity,
     exact: BodySum,
-    /// Axis and end of the one face whose reaction is judged; none: of all.
+    /// Axis and end of the face whose reaction is judged; `None`: the reaction of all faces.
     face: Option<(usize, bool)>,
 }
 
 impl JudgedSum {
-    /// The sum `of` over the body of `problem`; a reaction is that of `walls`, which are all that
-    /// the body has or one of them.
+    /// The sum `of` over the body of `problem`; a reaction is that of `walls`: all walls of the
+    /// body, or one of them.
     ///
     /// # Errors
-    /// Why the exact value is not known, in words that follow the name of the quantity.
+    /// The reason why the exact value is unknown, as a phrase that follows the name of the
+    /// quantity.
     pub fn new(of: Quantity, problem: &Problem, walls: &[usize]) -> Result<Self, String> {
         let SumDeclaration { computed, density, .. } = of.sum().ok_or("is a field")?;
         let region = match computed {
@@ -40,7 +41,7 @@ impl JudgedSum {
         self.exact.size()
     }
 
-    /// The difference from the exact sum at time `t` (s); NaN of a subject that does not say it.
+    /// The difference from the exact sum at time `t` (s); NaN if the subject does not report it.
     pub(super) fn error(&self, subject: &dyn Subject, t: f64) -> [f64; 3] {
         let found = match self.of.sum().map(|sum| sum.computed) {
             Some(ComputedSum::OfTotals(value)) => {

@@ -16,7 +16,7 @@ use crate::named::named;
 use serde::{Deserialize, Serialize};
 
 named! {
-    /// The error that is judged.
+    /// Norm of the judged error.
     #[derive(Default)]
     pub enum NormName {
         /// RMS over labels at the end: the measure of the talk.
@@ -40,14 +40,13 @@ named! {
 }
 
 impl NormName {
-    /// Whether it is the largest over the instants of another norm.
+    /// Whether it is the maximum of another norm over the instants.
     pub(crate) fn is_over_instants(self) -> bool {
         matches!(self, Self::MaxRms | Self::MaxL1 | Self::MaxL2 | Self::MaxLinf)
     }
 }
 
-/// Norms of one field of errors. All are NaN where there is nothing to measure: an empty field
-/// has no error of zero.
+/// Norms of one field of errors. All are NaN for an empty field.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Norms {
     /// Root of the unweighted mean square.
@@ -78,11 +77,11 @@ impl Norms {
         }
     }
 
-    /// The norms of `errors`, which holds `dimension` components for each label, one label after
-    /// the other, with one weight for each label.
+    /// The norms of `errors`, with `dimension` components for each label, label after label, and
+    /// one weight for each label.
     ///
-    /// Not finite if any error or weight is not. NaN if there are no labels, if the lengths of
-    /// the slices do not belong together, if a weight is negative or if all are zero.
+    /// Not finite if an error or weight is not finite. NaN if there are no labels, if the lengths
+    /// of the slices do not match, if a weight is negative or if all are zero.
     pub fn of(errors: &[f64], dimension: usize, weights: &[f64]) -> Self {
         let total: f64 = weights.iter().sum();
         let fits = dimension > 0 && errors.len() == dimension * weights.len();

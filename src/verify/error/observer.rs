@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Velocity at one label during a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
-    /// Reference position of the label that was watched: the nearest to the wanted one (m).
+    /// Reference position of the observed label (m): the nearest to the requested one.
     pub label: Vec<f64>,
     /// Time (s), first velocity component of the subject and of the truth (m/s), at t = 0 and
     /// at each instant.
@@ -15,8 +15,8 @@ pub struct History {
 }
 
 impl History {
-    /// Starts watching the label of `samples` that is nearest to `wanted`; of two equally near
-    /// ones the first. `None` of a subject without labels.
+    /// Starts the history of the label of `samples` that is nearest to `wanted`; the first one of
+    /// two equally near labels. `None` for a subject without labels.
     pub fn start(samples: &Samples, wanted: &[f64]) -> Option<(usize, Self)> {
         let d = samples.dimension;
         let distance = |p: usize| -> f64 {
@@ -36,8 +36,8 @@ impl History {
         self.velocity.push([t, samples.velocity[at * samples.dimension], exact[0]]);
     }
 
-    /// RMS over time of the velocity error, relative to the largest exact speed; none where the
-    /// truth does not move.
+    /// RMS over time of the velocity error, relative to the largest exact speed; `None` if the
+    /// exact solution does not move.
     pub fn relative_error(&self) -> Option<f64> {
         let square: f64 = self.velocity.iter().map(|[_, v, e]| (v - e) * (v - e)).sum();
         let largest = self.velocity.iter().map(|[_, _, e]| e.abs()).fold(0.0, f64::max);
@@ -45,13 +45,13 @@ impl History {
     }
 }
 
-/// Labels on each axis that take part in an interpolation.
+/// Number of labels on each axis in an interpolation.
 const NEAR: usize = 4;
 
-/// The displacement at a fixed place of a body whose labels form a lattice: cubic Lagrange
-/// interpolation, axis by axis, through the four labels around it (all labels of an axis that has
-/// fewer), so that the same place is compared on every level. `None` where there is no lattice
-/// around the place.
+/// The displacement at a fixed point of a body whose labels form a lattice: cubic Lagrange
+/// interpolation, axis by axis, through the four labels around it (all labels of an axis with
+/// fewer), so that the same point is compared on every level. `None` if there is no lattice around
+/// the point.
 pub fn displacement_at(samples: &Samples, place: &[f64]) -> Option<Vec<f64>> {
     let d = samples.dimension;
     if d == 0 || place.len() != d || samples.is_empty() {
@@ -86,8 +86,8 @@ fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
     all[first..].iter().copied().zip(weights).collect()
 }
 
-/// Lagrange interpolation at `x` over the `count` nearest of the ascending coordinates `sorted`, or
-/// over all if there are fewer: index of the first coordinate, and the weight of each.
+/// Lagrange interpolation at `x` over the `count` nearest of the ascending coordinates `sorted`
+/// (all, if there are fewer): index of the first coordinate, and the weight of each.
 pub(crate) fn lagrange_weights(sorted: &[f64], x: f64, count: usize) -> (usize, Vec<f64>) {
     let count = sorted.len().min(count);
     let above = sorted.partition_point(|c| *c < x);
@@ -208,7 +208,7 @@ mod tests {
         assert_eq!(history.velocity, [[2.0, 6.0, 0.5]]);
     }
 
-    /// As many on one side as on the other, but for the ends of the lattice.
+    /// As many points on one side as on the other, except at the ends of the lattice.
     #[rstest]
     #[case::inside(3.5, 2)]
     #[case::at_the_low_end(0.2, 0)]

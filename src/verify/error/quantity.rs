@@ -1,10 +1,10 @@
-//! Quantities that can be judged, each declared once.
+//! Registry of the quantities that can be judged.
 //!
 //! To add one, add its name to [`Quantity`], its [`Declaration`] to the constants of
 //! [`declaration`](super::declaration), and the line of [`Quantity::declaration`] that joins them.
 //!
-//! The error of a tensor at a label is measured by its Frobenius norm, that of a vector by its
-//! length: the square root of the sum of the squares of all components.
+//! The error of a tensor at a label is its Frobenius norm, the error of a vector its length: the
+//! square root of the sum of the squares of all components.
 
 use super::declaration::{
     ANGULAR_MOMENTUM, DEFORMATION_GRADIENT, DISPLACEMENT, Declaration, ENERGY, KINETIC_ENERGY,
@@ -79,7 +79,7 @@ impl Quantity {
         self.declaration().unit
     }
 
-    /// Whether it is an unknown that a subject solves for, whose errors tables show.
+    /// Whether it is a primary unknown of a subject, whose errors tables show.
     pub fn is_primary(self) -> bool {
         self.declaration().is_primary
     }
@@ -94,7 +94,7 @@ impl Quantity {
         self.declaration().is_of_motion
     }
 
-    /// Whether a subject must keep F for it.
+    /// Whether a subject must store F for this quantity.
     pub fn needs_deformation_gradient(self) -> bool {
         self.declaration().needs_deformation_gradient
     }
@@ -104,13 +104,13 @@ impl Quantity {
         self.sum().is_some()
     }
 
-    /// The quantity with values at labels that is shown for it: of a sum the displacement.
+    /// The quantity with values at labels that is shown: for a sum, the displacement.
     #[must_use]
     pub fn at_labels(self) -> Self {
         if self.is_sum() { Self::default() } else { self }
     }
 
-    /// Need of a sum, besides a body that moves; none of a field.
+    /// Requirement of a sum, in addition to a moving body; `None` for a field.
     pub(crate) fn sum_need(self) -> Option<SumNeed> {
         self.sum().map(|sum| sum.needs)
     }
@@ -124,8 +124,8 @@ impl Quantity {
         self.declaration().sum
     }
 
-    /// Size of the numbers whose rounding its error cannot fall below, on a body of length `length`
-    /// (m); NaN where it is not known.
+    /// Size of the numbers whose rounding is a lower bound of its error, on a body of length
+    /// `length` (m); NaN if it is unknown.
     pub fn rounding_size(self, length: f64) -> f64 {
         (self.declaration().rounding_size)(length)
     }
@@ -135,7 +135,7 @@ impl Quantity {
         self.declaration().shape.components(d)
     }
 
-    /// The exact values at all labels; whether the truth knows them.
+    /// Writes the exact values at all labels; false if the exact solution does not define them.
     fn exact_at_all(self, truth: &dyn Truth, samples: &Samples, t: f64, into: &mut [f64]) -> bool {
         let (d, declaration) = (samples.dimension, self.declaration());
         if let Some(exact_at_all) = declaration.exact_at_all {
@@ -146,10 +146,10 @@ impl Quantity {
         places.all(|(label, into)| (declaration.exact)(truth, label, t, into))
     }
 
-    /// The largest magnitude of the exact values at `places` (m) and `times` (s): of a vector its
-    /// length, of a tensor its Frobenius norm. Without a natural zero its change counts: F is taken
-    /// from the identity, of a temperature the range. NaN if the truth does not know it, or it is
-    /// zero throughout.
+    /// The largest magnitude of the exact values at `places` (m) and `times` (s): length of a
+    /// vector, Frobenius norm of a tensor. For a quantity without a natural zero it is the change:
+    /// F minus the identity, the range of a temperature. NaN if the exact solution does not define
+    /// the quantity, or if it is zero everywhere.
     pub fn largest_exact(self, truth: &dyn Truth, places: &[Vec<f64>], times: &[f64]) -> f64 {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for place in places {
@@ -166,7 +166,7 @@ impl Quantity {
         if size > 0.0 && size.is_finite() { size } else { f64::NAN }
     }
 
-    /// The magnitude at one place; of what is measured by its range, the value itself.
+    /// The magnitude at one place; for a quantity that is measured by its range, the value itself.
     fn magnitude(self, truth: &dyn Truth, place: &[f64], t: f64) -> Option<f64> {
         let (d, declaration) = (place.len(), self.declaration());
         let mut exact = vec![0.0; self.components(d)];
@@ -182,15 +182,15 @@ impl Quantity {
     }
 
     /// Norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the subject
-    /// or the truth has no such quantity.
+    /// or the exact solution does not have the quantity.
     pub fn errors(self, samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
         self.differences(samples, truth, t).map_or(Norms::NONE, |(components, error)| {
             Norms::of(&error, components, &samples.weight)
         })
     }
 
-    /// Numbers at each label, and `computed - exact` at the labels of `samples` at time `t`; none
-    /// if the subject or the truth has no such quantity.
+    /// Number of components at each label, and `computed - exact` at the labels of `samples` at
+    /// time `t`; `None` if the subject or the exact solution does not have the quantity.
     pub(crate) fn differences(
         self,
         samples: &Samples,
@@ -219,7 +219,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A plane under uniform shear stress that moves along X; it knows no F.
+    /// A plane under uniform shear stress that moves along X, without exact F.
     struct Sheared;
 
     impl Truth for Sheared {
@@ -285,7 +285,7 @@ mod tests {
         assert!(norms.rms.is_nan() && norms.linf.is_nan(), "{norms:?}");
     }
 
-    /// F of a truth that knows it, held against F of the samples and not against another column.
+    /// F of an exact solution is compared with F of the samples, not with another column.
     #[test]
     fn a_deformation_gradient_is_held_against_its_own() {
         struct Turned;

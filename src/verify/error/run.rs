@@ -14,19 +14,19 @@ use crate::verify::energy_rate::energy_rate;
 use crate::verify::order::fit::Interval;
 use serde::{Deserialize, Serialize};
 
-/// Quantities compared in a run, besides the displacement.
+/// Quantities compared in a run, in addition to the displacement.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Comparison<'a> {
-    /// The quantity that is judged.
+    /// The judged quantity.
     pub of: Quantity,
-    /// Its exact value, where it is a sum over the body.
+    /// Its exact value, if it is a sum over the body.
     pub sum: Option<&'a JudgedSum>,
-    /// Place to be observed (m).
+    /// Point to be observed (m).
     pub observe: Option<&'a [f64]>,
-    /// The truth is a state of rest, and errors are taken at the end only: a speed (m/s) that
-    /// the remaining ones are compared with.
+    /// If the exact solution is a state of rest: the speed (m/s) that residual speeds are divided
+    /// by. Errors are then measured at the end only.
     pub at_rest: Option<f64>,
-    /// Whether the errors over the body are kept.
+    /// Whether the errors over the body are stored.
     pub keeps_field: bool,
 }
 
@@ -37,12 +37,13 @@ impl Comparison<'_> {
     }
 }
 
-/// The share of a run, at its end, in which a body must be at rest. An instant would not do: a
-/// body that swings stands still when it turns.
+/// The last share of a run in which a body must be at rest. An instant would not suffice: an
+/// oscillating body has zero velocity at its turning points.
 const LAST: f64 = 0.1;
 
-/// Steps `subject` through `clock` and takes its error against `truth` at every instant, at the
-/// subject's own reference labels; watches the label nearest to the observed place.
+/// Advances `subject` through `clock` and measures its error against `truth` at every instant, at
+/// the subject's reference labels. Also records the velocity of the label nearest to the observed
+/// point.
 pub fn run(
     subject: &mut dyn Subject,
     truth: &dyn Truth,
@@ -191,13 +192,13 @@ impl<'a> RunMonitor<'a> {
         }
     }
 
-    /// The errors over the body at time `t` (s), of what has values at labels.
+    /// The errors over the body at time `t` (s), for quantities with values at labels.
     fn field(&self, t: f64) -> Option<ErrorField> {
         let Comparison { of, keeps_field, .. } = *self.comparison;
         keeps_field.then(|| ErrorField::of(of.at_labels(), &self.samples, self.truth, t))?
     }
 
-    /// A run that broke has no error, only a reason.
+    /// Result of a failed run, which has a reason and no error.
     fn failed(mut self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
         subject.sample(&mut self.samples);
         let field = self.field(t);
@@ -230,35 +231,35 @@ pub fn errors(samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
 pub struct RunResult {
     /// Errors of the compared quantity.
     pub errors: RunErrors,
-    /// Errors of the displacement (m), where another quantity is compared.
+    /// Errors of the displacement (m), if another quantity is compared.
     pub displacement_errors: Option<RunErrors>,
-    /// How far the body's totals drifted, if the subject gives them; NaN if the run failed.
+    /// Drifts of the totals of the body, if the subject reports them; NaN if the run failed.
     pub drift: Option<ConservationError>,
-    /// The totals at t = 0 and at every instant that was reached (s), if the subject gives them.
+    /// The totals at t = 0 and at every reported instant (s), if the subject reports them.
     pub account: Vec<(f64, Totals)>,
     /// Rate of the energy, d ln E/dt (1/s), over the run, with its confidence interval.
     pub energy_rate: Option<Interval>,
     /// Counters at the end, or at the failure.
     pub counters: RunCounters,
-    /// Steps taken.
+    /// Number of steps.
     pub steps: u64,
-    /// Why and when the run ended early.
+    /// Reason and time if the run ended early.
     pub failure: Option<String>,
-    /// The observed label, if one was asked for and the run came to its end.
+    /// The observed label, if one was requested and the run reached its end.
     pub history: Option<History>,
-    /// Errors over the body at the end, or at the failure, if they were asked for.
+    /// Errors over the body at the end, or at the failure, if they were requested.
     pub field: Option<ErrorField>,
     /// Displacement at the observed place at the end (m), if it could be interpolated.
     pub displacement: Option<Vec<f64>>,
     /// Its distance (m) from the exact one.
     pub observed_error: Option<f64>,
     /// Largest speed towards the end, over
-    /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest), where that is given.
+    /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest), if that is set.
     pub residual_speed: Option<f64>,
 }
 
 impl RunResult {
-    /// Errors of the displacement (m), whatever is compared.
+    /// Errors of the displacement (m), for any judged quantity.
     pub fn errors_of_displacement(&self) -> &RunErrors {
         self.displacement_errors.as_ref().unwrap_or(&self.errors)
     }
@@ -270,7 +271,7 @@ mod tests {
     use crate::subject::RunCounters;
     use approx::assert_relative_eq;
 
-    /// One label whose speed goes up and down while its displacement fades.
+    /// One label whose speed oscillates while its displacement decays.
     struct Swing(f64);
 
     impl Subject for Swing {
@@ -305,7 +306,7 @@ mod tests {
         }
     }
 
-    /// It ends where cos t = 0, and errors of the way there do not count.
+    /// The run ends at cos t = 0, and errors before the end do not count.
     #[test]
     fn a_body_that_turns_is_not_at_rest() {
         let until = 2.5 * std::f64::consts::PI;

@@ -11,7 +11,7 @@ use crate::exact::Truth;
 use crate::subject::Samples;
 use std::cmp::Ordering;
 
-/// The judged quantity of one run, as the difference from its exact value, which is the same in all
+/// The judged quantity of one run, as the difference from its exact value, which is equal in all
 /// runs of a level.
 #[derive(Debug, Clone, Default)]
 pub struct RunRecord {

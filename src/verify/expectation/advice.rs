@@ -1,5 +1,5 @@
-//! Comparison of an observed order with the range that a suite could claim, and advice on what
-//! keeps a claim from being stronger.
+//! Comparison of an observed order with the range that a suite could expect, and advice for a
+//! stronger expectation.
 
 use crate::verify::convergence::{Convergence, LevelOutcome};
 use crate::verify::error::norm::NormName;
@@ -12,17 +12,17 @@ use crate::verify::order::window::FEWEST_LEVELS;
 use crate::verify::verdict::judge::judge;
 use crate::verify::verdict::name::Verdict;
 
-/// Share of the distance from the middle of an interval to its end that an order may take up.
+/// Maximum distance of an order from the middle of an interval, as a share of the half-width.
 const COMFORTABLE: f64 = 0.75;
 
-/// Whether the usual range about `order` holds the observed one with room to spare.
+/// Whether the usual range around `order` contains the observed interval with a margin.
 pub(crate) fn is_inside(observed: &Interval, order: f64) -> bool {
     let room = OrderHypothesis::TOLERANCE - (observed.value - order).abs();
     let room = room.min(COMFORTABLE * OrderHypothesis::TOLERANCE);
     2.0 * observed.half_width() <= room
 }
 
-/// The usual range about an order, as a suite writes it.
+/// The usual range around an order, in the notation of suites.
 pub(crate) fn range(order: f64) -> String {
     let (low, high) = OrderHypothesis::formal(order).range();
     format!("[{}, {}]", format_number(low), format_number(high))
@@ -36,7 +36,7 @@ pub(crate) fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome
 /// An interval of the order wider than this to each side gains from more levels.
 const WIDE: f64 = 0.03;
 
-/// The reasons why a claim is no stronger, and what would make it so: more levels, or another norm.
+/// The reasons why an expectation cannot be stronger, and remedies: more levels, or another norm.
 pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     let mut advice = Vec::new();
     let usable = counted(study).count();
@@ -55,7 +55,7 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     }
     let points = study.judgement.window.as_ref().map_or(0, Vec::len);
     if order.half_width() > WIDE && points >= FEWEST_LEVELS {
-        // The same scatter about the line, with the spread of equal ratios: Sxx ~ n (n^2 - 1).
+        // For equal scatter about the line, and equal ratios of spacing: Sxx ~ n (n^2 - 1).
         let width = |n: usize| {
             let n_f = n as f64;
             two_sided_95(n - 2) / (n_f * (n_f * n_f - 1.0)).sqrt()
@@ -70,7 +70,7 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     advice
 }
 
-/// The norm in which the order is clearest, if that is another one than the judged, and by far.
+/// The norm with the clearest order, if it is much clearer than in the judged norm.
 fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     const CLEARLY: f64 = 0.5;
     if judged.half_width() <= WIDE {

@@ -1,11 +1,11 @@
 //! Requirements of `run --gate` on external solvers.
 //!
-//! The expectations of a suite describe its own methods, from both sides: an order that is too high
-//! shows a defect of the suite. An external solver is held to a lower bound of the order only,
-//! because superconvergence at its sample points is no fault. The 95 % interval of the order must
-//! reach this bound, and must exclude orders that are lower by a half, as faults make them. The
-//! interval need not be above the bound as a whole: a few levels leave a sound solver an interval
-//! of 0.1 and more to each side.
+//! The expectations of a suite bound the order of its own methods on both sides: an order that is
+//! too high shows a defect of the suite. For an external solver there is only a lower bound,
+//! because superconvergence at its sample points is not a defect. The 95 % interval of the order
+//! must reach this bound, and must exclude orders that are lower by 0.5, which is the typical
+//! effect of a defect. The interval may extend below the bound: with few levels, a correct solver
+//! has an interval of 0.1 and more to each side.
 
 use crate::verify::order::fit::Interval;
 use crate::verify::order::format_number::{format_number, rounded};
@@ -16,15 +16,15 @@ use crate::verify::verdict::judge::{Judgement, judge};
 use crate::verify::verdict::name::Verdict;
 use thiserror::Error;
 
-/// Loss of order that a fault causes at least.
+/// Minimum loss of order due to a defect.
 const FAULT: f64 = 0.5;
 
-/// How `run --gate` treats a case of an external solver.
+/// Treatment of a case of an external solver by `run --gate`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Gating {
-    /// The case must meet a requirement.
+    /// The case has a requirement.
     Required(Requirement),
-    /// The case runs and nothing is required, for this reason.
+    /// The case runs without requirement, for this reason.
     NotGated(String),
     /// The case does not run, for this reason of the solver's author.
     Excepted(String),
@@ -37,8 +37,8 @@ pub struct Requirement {
     pub order: Option<f64>,
     /// Errors at or below this bound are accepted without an order.
     pub error_below: Option<f64>,
-    /// Bound on the errors of the suite's own methods, if no other bound is stated. It is not
-    /// required of other methods where the levels are too few for an order.
+    /// Bound on the errors of the suite's own methods, if no other bound is stated. It does not
+    /// apply to other methods if the levels are too few for an order.
     pub own_error_below: Option<f64>,
     /// The reason, in one line.
     pub because: String,
@@ -56,7 +56,7 @@ pub enum Acceptance {
 }
 
 impl Acceptance {
-    /// The verdict in words; an observed order keeps that of the judge.
+    /// The verdict as text; an observed order keeps the verdict of the judge.
     pub(crate) fn verdict(self, judged: Verdict) -> String {
         match self {
             Self::Order if judged == Verdict::Converging => judged.to_string(),
@@ -75,7 +75,7 @@ pub struct UnmetRequirement(String);
 /// Result of a requirement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GateResult {
-    /// The reason for which it is met; otherwise what was required and what was observed.
+    /// Why the requirement is met; otherwise the requirement and the observation.
     pub result: Result<Acceptance, UnmetRequirement>,
     /// A remark on time steps that restored the order.
     pub remark: Option<String>,
@@ -100,8 +100,8 @@ impl Requirement {
         self.error_below.or(self.own_error_below)
     }
 
-    /// Reason for which these levels cannot show what is required, if they cannot. The gate
-    /// rejects a level that fails, however many there are.
+    /// Why these levels cannot test the requirement; `None` if they can. A failed level is never a
+    /// reason: the gate rejects it.
     pub(crate) fn untestable(&self, levels: &[Level]) -> Option<String> {
         let has_failed =
             levels.iter().any(|level| level.failed.is_some() || !level.error.is_finite());
@@ -123,11 +123,11 @@ impl Requirement {
         Some(format!("{count}, and an order needs {FEWEST_LEVELS}{own}"))
     }
 
-    /// How the requirement is met by the errors of `levels`, given the judgement of them and the
-    /// error that rounding explains.
+    /// How the errors of `levels` meet the requirement, given their judgement and the error due to
+    /// rounding.
     ///
     /// # Errors
-    /// One line that says what was required and what was observed.
+    /// One line with the requirement and the observation.
     pub fn check(
         &self,
         levels: &[Level],
@@ -220,7 +220,7 @@ mod tests {
         requirement.check(&levels, Axis::Space, &judgement, 1e-14)
     }
 
-    /// Errors of the order `p`, on so many levels.
+    /// Errors of order `p` on `count` levels.
     fn of_order(p: f64, count: i32) -> Vec<f64> {
         (0..count).map(|k| libm::exp2(-p * f64::from(k))).collect()
     }

@@ -4,27 +4,27 @@ use crate::verify::conservation::{ConservationError, Conserved};
 use crate::verify::figure::{BoundKind, CaseFigure};
 use crate::verify::order::format_number::{format_number, rounded};
 
-/// Bounds, themselves allowed. Every one that is given must hold.
+/// Bounds, which are themselves allowed values. All stated bounds must hold.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Limits {
     /// Bounds on figures, in the order of [`CaseFigure::ALL`].
     pub bounds: Vec<(CaseFigure, f64)>,
     /// Largest relative drifts on any level that counts.
     pub drift: Vec<(Conserved, f64)>,
-    /// Range that must hold the whole confidence interval of the rate of the energy (1/s) on every
-    /// level that counts.
+    /// Range that must contain the whole confidence interval of the rate of the energy (1/s) on
+    /// every level that counts.
     pub energy_rate: Option<(f64, f64)>,
 }
 
 /// Measured values that are limited.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// Values of [`CaseFigure::ALL`]; `None` where the levels do not have the figure.
+    /// Values of [`CaseFigure::ALL`]; `None` if the levels do not have the figure.
     pub figures: [Option<f64>; CaseFigure::ALL.len()],
-    /// Largest drifts of the levels that count; `None` if the subject gives no totals.
+    /// Largest drifts of the levels that count; `None` if the subject reports no totals.
     pub drift: Option<ConservationError>,
-    /// The confidence intervals of the rate of the energy (1/s) on the levels that count, together;
-    /// `None` if one level has none.
+    /// Union of the confidence intervals of the rate of the energy (1/s) on the levels that count;
+    /// `None` if one level has no interval.
     pub energy_rate: Option<(f64, f64)>,
 }
 
@@ -42,9 +42,9 @@ impl Measured {
 /// A figure that is not as expected.
 #[derive(Debug)]
 pub(crate) struct UnmetFigure {
-    /// The expectation, and the figure that came.
+    /// The expectation, and the observed figure.
     pub(crate) line: String,
-    /// Whether there is such a figure at all.
+    /// Whether the figure was measured.
     pub(crate) measured: bool,
 }
 
@@ -81,7 +81,7 @@ impl Check {
 const DIGITS: usize = 4;
 
 impl Limits {
-    /// Whether nothing is limited.
+    /// Whether there are no limits.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
@@ -129,7 +129,7 @@ impl Limits {
         unmet
     }
 
-    /// The limits, in words.
+    /// The limits, as text.
     pub(crate) fn summary(&self) -> Vec<String> {
         let mut parts: Vec<String> = self.checks(None).iter().map(Check::bound).collect();
         let mut grouped: Vec<(f64, Vec<String>)> = Vec::new();
@@ -146,7 +146,7 @@ impl Limits {
         parts
     }
 
-    /// Measured values in words; empty if nothing is limited.
+    /// Measured values as text; empty without limits.
     pub fn found(&self, measured: &Measured) -> String {
         let said = |check: &Check| format!("{} {}", check.figure.text(), check.got());
         let mut parts: Vec<String> = self.checks(Some(measured)).iter().map(said).collect();
@@ -183,7 +183,7 @@ fn rates(interval: (f64, f64)) -> String {
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
-/// Of a drift one digit says enough: it is rounding, or far too much.
+/// One digit of a drift is enough: it is either rounding or far too large.
 fn rounding(drift: f64) -> String {
     format!("{drift:.0e}")
 }

@@ -13,13 +13,13 @@ use super::verdict::name::Verdict;
 /// Bounds, both included.
 pub type Bounds = (f64, f64);
 
-/// An expectation, as binding when it names a failure as when it names an order. Every part that
-/// is present must hold.
+/// An expectation. Expected failures are as binding as expected orders. Every part that is present
+/// must hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expectation {
-    /// The verdict that must come out; none is asked of a case that only limits bind.
+    /// The expected verdict; `None` for a case with limits only.
     pub verdict: Option<Verdict>,
-    /// Bounds that must hold the whole confidence interval of the observed order.
+    /// Bounds that must contain the whole confidence interval of the observed order.
     pub order: Option<Bounds>,
     /// Bounds on the order between the two finest levels.
     pub finest_pair: Option<Bounds>,
@@ -27,7 +27,7 @@ pub struct Expectation {
     pub crossings: Option<bool>,
     /// Bounds on figures.
     pub limits: Limits,
-    /// Whose error the finest level must show.
+    /// Expected cause of the error floor.
     pub floor: Option<FloorCause>,
     /// The reason, in one line.
     pub because: String,
@@ -46,7 +46,7 @@ pub struct CaseFindings {
     pub crossings: Option<u64>,
     /// Measured values that are limited.
     pub measured: Measured,
-    /// Whose error the finest level shows, if that was asked and could be told.
+    /// Cause of the error floor, if it was requested and could be determined.
     pub floor: Option<FloorCause>,
 }
 
@@ -65,17 +65,17 @@ impl Expectation {
         }
     }
 
-    /// Everything that did not come as expected, in words, each failure once; empty if all came.
+    /// One sentence per unmet expectation, each failure once; empty if all are met.
     pub fn unmet(&self, found: &CaseFindings) -> Vec<String> {
         let judged = self.unmet_judgement(found);
-        // A run that failed has left no figures, and that it failed is told already.
+        // A failed run has no figures, and its failure is already reported.
         let failed = judged.is_some() && found.verdict == Verdict::Failed;
         let figures = self.unmet_figures(found).into_iter();
         let told = figures.filter(|figure| figure.measured || !failed);
         judged.into_iter().chain(told.map(|figure| figure.line)).collect()
     }
 
-    /// Verdict and observed order, which are two words for one finding.
+    /// The unmet verdict or observed order: one sentence, because both describe one finding.
     fn unmet_judgement(&self, found: &CaseFindings) -> Option<String> {
         let verdict = self.verdict.filter(|verdict| found.verdict != *verdict);
         let holds = |bounds: &Bounds| {
@@ -139,7 +139,10 @@ impl Expectation {
             format!("{} crossings on the finest level", if some { "some" } else { "no" })
         }));
         parts.extend(self.limits.summary());
-        parts.extend(self.floor.map(|cause| format!("floor of {}", cause.name())));
+        parts.extend(self.floor.map(|cause| match cause {
+            FloorCause::Nothing => "floor that no axis lowers".to_owned(),
+            _ => format!("floor caused by {}", cause.name()),
+        }));
         parts.join(", ")
     }
 }
@@ -233,7 +236,8 @@ mod tests {
             Expectation { verdict: None, order: None, finest_pair: None, ..expectation() };
         assert!(bounded.unmet(&CaseFindings { verdict: Verdict::TooFewLevels, ..SEEN }).is_empty());
         assert_eq!(bounded.unmet(&CaseFindings { verdict: Verdict::Failed, ..SEEN }).len(), 1);
-        let summary = "no crossings on the finest level, largest error at most 1e-2, floor of time";
+        let summary =
+            "no crossings on the finest level, largest error at most 1e-2, floor caused by time";
         assert_eq!(bounded.summary(), summary);
     }
 }

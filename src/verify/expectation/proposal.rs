@@ -1,8 +1,8 @@
-//! Expectations that a run supports, for a suite that states none.
+//! Proposed expectations for a suite that states none, from its runs.
 //!
-//! Theory is asked first: where the observed order agrees with the formal one, that is what is
-//! proposed. What theory does not give is taken from the run, and says so. No interval is proposed
-//! that the run only just meets: twice its uncertainty must fit between the observed order and
+//! Theory comes first: if the observed order agrees with the formal one, the formal order is
+//! proposed. Other values are taken from the run, and marked as such. Intervals that the run meets
+//! only narrowly are not proposed: twice the uncertainty must fit between the observed order and
 //! either end.
 
 use super::advice::{advice, counted, is_inside, range};
@@ -14,18 +14,18 @@ use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::Axis;
 use crate::verify::verdict::name::Verdict;
 
-/// A drift below this is rounding, which the sums of a run keep within a bound of their own.
+/// Maximum drift that counts as rounding of the sums.
 const ROUNDING: f64 = 1e-11;
 
-/// Ratio of a proposed bound to what was found, at least: other processors and settings of a suite
-/// sum in other orders.
+/// Minimum ratio of a proposed bound to the observed value: other processors and settings sum in
+/// another order.
 const ROOM_OF_DRIFT: f64 = 30.0;
 
 /// Ratio of a proposed bound on an error to the largest that was found.
 const ROOM_OF_ERROR: f64 = 2.0;
 
 named! {
-    /// Where an expectation comes from.
+    /// Origin of a proposed expectation.
     pub enum Ground {
         /// The formal order, or a conservation law.
         Theory = "theory",
@@ -39,7 +39,7 @@ named! {
 pub struct ProposedKey {
     /// The key, with its value as a suite writes it.
     pub text: String,
-    /// Where the value comes from.
+    /// Origin of the value.
     pub ground: Ground,
 }
 
@@ -48,11 +48,11 @@ pub struct ProposedKey {
 pub struct Proposal {
     /// The keys, apart from `case` and `because`.
     pub keys: Vec<ProposedKey>,
-    /// The reason, which an author has to complete where theory gives none.
+    /// The reason, which an author has to complete if theory gives none.
     pub because: String,
     /// Verdict and figures of the run.
     pub seen: String,
-    /// Reasons why the claim is no stronger, and ways to a stronger one.
+    /// Reasons why the expectation is not stronger, and ways to a stronger one.
     pub stronger: Vec<String>,
 }
 
@@ -96,7 +96,7 @@ fn seen(study: &Convergence) -> String {
     format!("{}{}", study.verdict(), order.unwrap_or_default())
 }
 
-/// The claim on the verdict, if the run gives one that a repetition would meet.
+/// The expected verdict to propose, if a repetition of the run would meet it.
 fn claim(study: &Convergence) -> Option<ProposedOrder> {
     let formal = study.formal_order;
     let theory = match study.axis {
@@ -151,7 +151,7 @@ fn error_bound(study: &Convergence) -> Option<String> {
     (bound > 0.0 && bound.is_finite()).then(|| format!("error_below: {bound:e}"))
 }
 
-/// The number with one significant digit that is no smaller.
+/// The number with one significant digit, rounded up.
 fn rounded_up(value: f64) -> f64 {
     let text = format!("{value:.0e}");
     let nearest: f64 = text.parse().unwrap_or(value);
@@ -163,7 +163,7 @@ fn rounded_up(value: f64) -> f64 {
     format!("{}e{exponent}", digit + 1).parse().unwrap_or(value)
 }
 
-/// Bounds on the sums that the run kept. Mass is kept by any method whose particles carry it.
+/// Proposed bounds on the conserved sums. Mass is excluded: particles carry it in every method.
 fn drifts(study: &Convergence) -> Vec<ProposedKey> {
     let worst = |sum: Conserved| {
         let drift = |level: &LevelOutcome| level.run.drift.map(|drift| drift.of(sum));
@@ -207,7 +207,7 @@ mod tests {
         propose(study).keys.into_iter().map(|key| key.text).collect()
     }
 
-    /// An order that theory does not give is proposed to the nearest half.
+    /// An order without theory is proposed as the nearest multiple of 1/2.
     #[test]
     fn orders_go_by_halves() {
         let halves = |order: f64| {
@@ -219,7 +219,7 @@ mod tests {
         assert_eq!(halves(1.25), ["verdict: too_low"]);
     }
 
-    /// A run that fails has crossings up to there, and no others are to be expected.
+    /// Crossings are proposed only for runs that reach their end.
     #[test]
     fn crossings_are_proposed_of_runs_that_end() {
         let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);
@@ -231,7 +231,7 @@ mod tests {
         assert_eq!(keys(&study), ["verdict: failed"]);
     }
 
-    /// A bound on a drift leaves room for thirty times of what was found.
+    /// A proposed bound on a drift is at least thirty times the measured drift.
     #[test]
     fn a_drift_has_room_below_its_bound() {
         let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);

@@ -1,7 +1,7 @@
 //! The observed order by regression, with its confidence interval.
 //!
 //! An error `C h^p` with multiplicative noise is the straight line `ln error = ln C + p ln h`.
-//! Least squares over `n` points gives
+//! A fit by least squares over `n` points gives
 //!
 //! ```text
 //! p   = Sxy / Sxx
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! which contains the true order with a probability of 95 % if the noise is log-normal (Draper &
-//! Smith, Applied Regression Analysis, 3rd ed., section 1.4). A departure from the line that is
-//! no noise, such as a drift of the order, widens the interval too.
+//! Smith, Applied Regression Analysis, 3rd ed., section 1.4). A systematic departure from the line,
+//! such as a drift of the order, also widens the interval.
 
 use super::{t_quantile, variance_ratio};
 use serde::{Deserialize, Serialize};
@@ -76,7 +76,7 @@ impl FittedLine {
         (sxx > 0.0 && line.slope.is_finite()).then_some(line)
     }
 
-    /// How far a point lies above the line: `ln` of its error over the error the line predicts.
+    /// Distance of a point above the line: `ln` of its error over the error of the line.
     pub(crate) fn departure(&self, point: &LogPoint) -> f64 {
         (point.y - self.mean_y) - self.slope * (point.x - self.mean_x)
     }
@@ -89,8 +89,9 @@ impl FittedLine {
         Interval { value: self.slope, low: self.slope - half_width, high: self.slope + half_width }
     }
 
-    /// Where another point may lie at `x`, with its 95 % prediction interval: `line(x) -+ t s
-    /// sqrt(1 + 1/n + (x - mean)^2 / Sxx)`; NaN ends for fewer than three points.
+    /// The value of another point at `x`, with its 95 % prediction interval:
+    /// `line(x) -+ t s sqrt(1 + 1/n + (x - mean)^2 / Sxx)`; the ends are NaN for fewer than three
+    /// points.
     pub(crate) fn another(&self, x: f64) -> Interval {
         let (freedom, offset) = (self.points.saturating_sub(2), x - self.mean_x);
         let spread = 1.0 + 1.0 / self.points as f64 + square(offset) / self.sxx;
@@ -100,8 +101,8 @@ impl FittedLine {
         Interval { value, low: value - half_width, high: value + half_width }
     }
 
-    /// The drift of the order over the points this line was put through: fits the parabola
-    /// `line + c q(x)`, `q` being `x^2` made orthogonal to the line.
+    /// The drift of the order over the points of this line: fits the parabola `line + c q(x)`,
+    /// where `q` is `x^2` made orthogonal to the line.
     pub(crate) fn drift(&self, points: &[LogPoint]) -> Option<Trend> {
         let parabola: Vec<LogPoint> =
             points.iter().map(|p| LogPoint { y: square(p.x - self.mean_x), ..*p }).collect();

@@ -21,7 +21,7 @@ pub(crate) fn format_number(x: f64) -> String {
     }
 }
 
-/// The number rounded to so many significant digits.
+/// The number rounded to `digits` significant digits.
 pub(crate) fn rounded(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
 }

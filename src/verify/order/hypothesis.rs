@@ -3,25 +3,23 @@
 use super::format_number::format_number;
 use super::level::Axis;
 
-/// An order that theory gives, and the range in which the observed one must lie.
+/// A theoretical order, and the range in which the observed order must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrderHypothesis {
     /// The order of the method in theory.
     pub formal_order: f64,
-    /// The range of the observed order; `formal_order` -+ [`OrderHypothesis::TOLERANCE`] if not
-    /// given.
+    /// The range of the observed order; default `formal_order` -+ [`OrderHypothesis::TOLERANCE`].
     pub expected: Option<(f64, f64)>,
     /// Axis of refinement: names the spacing in sentences, changes no figure.
     pub axis: Axis,
 }
 
 impl OrderHypothesis {
-    /// How far the observed order may lie from the formal one if no range is given: a fifth of
-    /// the gap between two methods whose orders differ by a half.
+    /// Maximum distance of the observed order from the formal one without stated range: a fifth of
+    /// the gap between two methods whose orders differ by 0.5.
     pub const TOLERANCE: f64 = 0.1;
 
-    /// The widest range that still says something: a wider one could not tell neighbouring
-    /// integer orders apart.
+    /// Maximum width of a range: a wider one could not distinguish neighbouring integer orders.
     pub const WIDEST: f64 = 1.0;
 
     /// The formal order, with the usual tolerance.
@@ -29,12 +27,12 @@ impl OrderHypothesis {
         Self { formal_order: order, expected: None, axis: Axis::Space }
     }
 
-    /// The formal order, with a range of its own.
+    /// The formal order, with a stated range.
     pub const fn within(order: f64, low: f64, high: f64) -> Self {
         Self { formal_order: order, expected: Some((low, high)), axis: Axis::Space }
     }
 
-    /// The same claim for another axis of refinement.
+    /// This hypothesis for another axis of refinement.
     #[must_use]
     pub const fn over(self, axis: Axis) -> Self {
         Self { axis, ..self }
@@ -47,8 +45,8 @@ impl OrderHypothesis {
         self.expected.unwrap_or(usual)
     }
 
-    /// Why this claim cannot be tested, if it cannot: no finite positive range, or one so wide
-    /// that it would let nearly everything pass.
+    /// The reason if this hypothesis cannot be tested: the range is not finite and positive, or so
+    /// wide that nearly every order passes.
     pub(crate) fn diagnostic(&self) -> Option<String> {
         let (low, high) = self.range();
         let orders = [self.formal_order, low, high];

@@ -5,8 +5,8 @@ use crate::named::named;
 use std::cmp::Ordering;
 
 named! {
-    /// An axis of refinement. Errors of the axes add up, so that refining one of them alone ends at
-    /// the error of the others.
+    /// An axis of refinement. Errors of the axes add up, so that refining a single axis ends at the
+    /// error of the others.
     pub enum Axis {
         /// Cells. The time step may follow as a formula of h.
         Space = "space",
@@ -18,7 +18,7 @@ named! {
 }
 
 impl Axis {
-    /// The symbol of the spacing that is judged, as sentences and tables write it.
+    /// The symbol of the refined spacing, for sentences and tables.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Space => "h",
@@ -27,7 +27,7 @@ impl Axis {
         }
     }
 
-    /// The spacing in words.
+    /// Noun for the spacing.
     pub fn noun(self) -> &'static str {
         match self {
             Self::Space => "cell size",
@@ -44,10 +44,10 @@ pub struct Level {
     pub h: f64,
     /// A norm of the error.
     pub error: f64,
-    /// False for a level that is shown but must not count, for instance because particles
-    /// crossed cells there and the theory does not cover that.
+    /// False for a level that is shown but does not count, for instance because particles crossed
+    /// cells there and the theory does not cover this.
     pub usable: bool,
-    /// Why the run of this level failed, if it did.
+    /// Reason if the run of this level failed.
     pub failed: Option<String>,
 }
 
@@ -57,19 +57,19 @@ impl Level {
         Self { h, error, usable: true, failed: None }
     }
 
-    /// The same level, shown but not counted.
+    /// This level, marked as shown but not counted.
     #[must_use]
     pub fn unusable(self) -> Self {
         Self { usable: false, ..self }
     }
 
-    /// The same level as the place of a failure.
+    /// This level, marked as failed for `reason`.
     #[must_use]
     pub fn failing(self, reason: impl Into<String>) -> Self {
         Self { failed: Some(reason.into()), ..self }
     }
 
-    /// Defect that makes this level worthless, usable or not.
+    /// Defect that makes this level invalid, whether it counts or not.
     fn diagnostic(&self, axis: Axis) -> Option<String> {
         let (name, h) = (axis.symbol(), format_number(self.h));
         if let Some(reason) = &self.failed {
@@ -86,8 +86,9 @@ impl Level {
     }
 }
 
-/// Sorts from coarse to fine and merges identical levels; one that counts and one that does not
-/// merge into one that does not. The diagnostic names the first thing that makes the series void.
+/// Sorts from coarse to fine and merges identical levels; if one of these does not count, the
+/// merged level does not count. The diagnostic names the first defect that makes the series
+/// invalid.
 pub(crate) fn arrange(levels: &[Level], axis: Axis) -> (Vec<Level>, Option<String>) {
     let mut sorted = levels.to_vec();
     sorted.sort_by(|a, b| b.h.total_cmp(&a.h).then(a.error.total_cmp(&b.error)));
@@ -125,8 +126,8 @@ fn same(a: f64, b: f64) -> bool {
 /// p = ln(error_coarse / error_fine) / ln(h_coarse / h_fine)
 /// ```
 ///
-/// Negative if the error grows under refinement. None where it does not exist: a zero, negative
-/// or non-finite figure, or spacings that cannot be told apart.
+/// Negative if the error grows under refinement. `None` if it is undefined: for a zero, negative or
+/// non-finite figure, or for equal spacings.
 pub fn observed_order(coarse: &Level, fine: &Level) -> Option<f64> {
     let fall = logarithm(coarse.error)? - logarithm(fine.error)?;
     let ratio = logarithm(coarse.h)? - logarithm(fine.h)?;
@@ -134,7 +135,7 @@ pub fn observed_order(coarse: &Level, fine: &Level) -> Option<f64> {
     order.is_finite().then_some(order)
 }
 
-/// The observed order of each level with the one before; None for the first.
+/// The observed order between each level and the previous one; `None` for the first level.
 pub(crate) fn pairwise(levels: &[Level]) -> Vec<Option<f64>> {
     let pairs = levels.windows(2);
     let orders = pairs.map(|pair| observed_order(&pair[0], &pair[1]));

@@ -9,32 +9,32 @@
 //! ```
 //!
 //! (Roache 1994, 1998; unequal ratios as in Celik et al. 2008.) The classes are those of Eca &
-//! Hoekstra (2014). The order is the solution `p` only where the values converge monotonically:
-//! the logarithm of an absolute value would turn oscillation and divergence into an order.
+//! Hoekstra (2014). The order is the solution `p` only if the values converge monotonically: the
+//! logarithm of an absolute value would assign an order to oscillation and divergence.
 //!
 //! The well-known "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is not offered: with the order
-//! fitted to the same three values it is identically `u1 / u2`, close to one whatever the values
-//! are, and proves nothing. Hold the order against the formal one, or add a level.
+//! fitted to the same three values it is identically `u1 / u2`, close to 1 for any values, and
+//! proves nothing. Compare the order with the formal one, or add a level.
 
 use std::fmt;
 
 /// Safety factor of the grid-convergence index for three grids (Roache 1998).
 pub const SAFETY_FACTOR: f64 = 1.25;
 
-/// How three values behave under refinement.
+/// Behaviour of three values under refinement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RichardsonClass {
-    /// The change shrinks and keeps its sign, as for a positive order.
+    /// The change shrinks and has a constant sign, as for a positive order.
     MonotoneConvergent,
     /// The change shrinks and alternates.
     OscillatoryConvergent,
-    /// The change keeps its sign and does not shrink as for a positive order.
+    /// The change has a constant sign, but does not shrink as for a positive order.
     MonotoneDivergent,
     /// The change alternates and does not shrink.
     OscillatoryDivergent,
     /// All three values are the same.
     Exact,
-    /// One of the two changes is zero: there is no ratio to speak of.
+    /// One of the two changes is zero: the ratio is undefined.
     Degenerate,
     /// A figure is not finite, or the spacings do not shrink.
     Failed,
@@ -59,7 +59,7 @@ impl fmt::Display for RichardsonClass {
 pub struct Richardson {
     /// `(u2 - u3) / (u1 - u2)`, the coarse change over the fine one; `2^p` for halvings.
     pub ratio: f64,
-    /// How the values behave.
+    /// Behaviour of the values.
     pub class: RichardsonClass,
     /// The observed order, only if monotone convergent.
     pub order: Option<f64>,
@@ -96,8 +96,8 @@ impl Richardson {
     }
 }
 
-/// The limit of the ratio for an order of zero, `ln r32 / ln r21`, divides convergence from
-/// divergence; it is one if the spacing shrinks equally.
+/// The limit of the ratio for an order of zero, `ln r32 / ln r21`, separates convergence from
+/// divergence; it is one for equal ratios of spacing.
 fn classify(changes: [f64; 2], ratio: f64, rates: [f64; 2]) -> RichardsonClass {
     let shrinks = rates.iter().all(|rate| rate.is_finite() && *rate > 0.0);
     if !(shrinks && changes.iter().all(|change| change.is_finite())) {
@@ -116,7 +116,7 @@ fn classify(changes: [f64; 2], ratio: f64, rates: [f64; 2]) -> RichardsonClass {
     }
 }
 
-/// Solves `(r32^p - 1) / (1 - r21^-p) = ratio`, whose left side grows with `p`, by bisection.
+/// Solves `(r32^p - 1) / (1 - r21^-p) = ratio` by bisection; the left side is increasing in `p`.
 fn solve(ratio: f64, [coarse, fine]: [f64; 2]) -> f64 {
     let reaches = |p: f64| -libm::expm1(p * coarse) / libm::expm1(-p * fine) >= ratio;
     let mut high = 1.0;

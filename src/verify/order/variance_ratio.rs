@@ -1,9 +1,9 @@
 //! The regularised incomplete beta function at half-integers: the p-value of an F-test.
 //!
-//! If a model with `d` more parameters leaves the residual sum of squares `rss_fine` with `nu`
-//! degrees of freedom where the simpler one leaves `rss_coarse`, then under the simpler model
+//! If a model with `d` more parameters has the residual sum of squares `rss_fine` with `nu` degrees
+//! of freedom, and the simpler model has `rss_coarse`, then under the simpler model
 //! `x = rss_fine / rss_coarse` has the distribution `I_x(nu/2, d/2)`; a small `x` is evidence
-//! against it. Built up from closed forms by the recurrences DLMF 8.17.20 and 8.17.21,
+//! against it. Computed from closed forms by the recurrences DLMF 8.17.20 and 8.17.21,
 //!
 //! ```text
 //! I_x(a+1, b) = I_x(a, b) - x^a (1-x)^b / (a B(a,b))

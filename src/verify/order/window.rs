@@ -1,45 +1,46 @@
-//! Which levels are asymptotic: the window over which an order is fitted.
+//! The window: the asymptotic levels, over which an order is fitted.
 //!
 //! All usable levels count unless there is strong evidence against the outer ones. A shorter
 //! window replaces a longer one only if
 //!
 //! - an F-test (Chow 1960, the test for predictive failure) rejects that the dropped levels lie on
 //!   the line through the kept ones. The risk of a wrong rejection is [`SELECTION_RISK`] for all
-//!   shorter windows together, small against the 5 % that the confidence interval leaves, so that
-//!   choosing does not spoil the interval;
-//! - the dropped levels look like a range and not like an accident: all depart by more than
-//!   [`MATERIAL`] to the same side, the outermost most. An outlier amid good levels is therefore
-//!   kept, and shows as a wide interval;
-//! - levels are dropped at the fine end only where the error stops falling (a floor). Whoever
-//!   drops them owes the reader the verdict `at floor`.
+//!   shorter windows together. It is small compared with the 5 % of the confidence interval, so
+//!   that the selection hardly affects the coverage of the interval;
+//! - the dropped levels depart systematically: all depart by more than [`MATERIAL`] to the same
+//!   side, and the departure grows outwards. An outlier among good levels is therefore kept, and
+//!   widens the interval;
+//! - levels are dropped at the fine end only if the error stops falling (a floor). The verdict is
+//!   then `at floor`.
 //!
-//! The longest such window wins, the finer of two equally long ones; then it is put to the same
-//! test, until none is better.
+//! The longest such window is selected, the finer one of two equally long windows. The test is
+//! repeated on the selected window until no shorter one replaces it.
 
 use std::ops::Range;
 
 use super::fit::{FittedLine, LogPoint};
 use super::variance_ratio;
 
-/// Smallest number of levels for an order: two degrees of freedom remain to contradict it.
+/// Minimum number of levels for an order: two degrees of freedom remain for the interval.
 pub(crate) const FEWEST_LEVELS: usize = 4;
 
-/// The risk that pure noise makes the window shorter, over all candidates of one step: a tenth of
-/// the 5 % of the confidence interval.
+/// The risk that pure noise shortens the window, over all candidates of one step: a tenth of the 5
+/// % of the confidence interval.
 const SELECTION_RISK: f64 = 0.005;
 
-/// The least departure, in `ln error`, for which a level is dropped: 5 %. Keeps round-off from
-/// choosing the window of noise-free data, where any departure is statistically significant.
+/// Minimum departure, in `ln error`, of a dropped level: 5 %. It prevents round-off from
+/// determining the window of noise-free data, where any departure is statistically significant.
 const MATERIAL: f64 = 0.05;
 
-/// An order below this is no fall: over a halving of `h` the error changes by less than 15 %.
+/// Maximum order that does not count as a fall: over a halving of `h` the error changes by less
+/// than 15 %.
 pub(crate) const FLAT_ORDER: f64 = 0.2;
 
-/// Where the error falls by less than this fraction of the order before (and of the formal
-/// order), it has stopped following the line.
+/// Fraction of the previous order (and of the formal order) below which the error has stopped
+/// following the line.
 const FLOOR_FRACTION: f64 = 0.5;
 
-/// A contiguous run of points and the line through it.
+/// A contiguous range of points and the line through it.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     pub(crate) range: Range<usize>,
@@ -52,7 +53,7 @@ impl Window {
         Some(Self { range, line })
     }
 
-    /// Whether the error leaves the line at the fine end for a floor.
+    /// Whether the error departs from the line at the fine end because of a floor.
     pub(crate) fn meets_floor(&self, points: &[LogPoint], formal_order: f64) -> bool {
         let end = self.range.end;
         let above = points[end..].iter().all(|p| self.line.departure(p) > 0.0);
@@ -62,7 +63,7 @@ impl Window {
             && FittedLine::through(&points[end - 1..]).is_some_and(|tail| tail.slope.abs() < limit)
     }
 
-    /// Whether what lies outside may be dropped, were there evidence to do so.
+    /// Whether the levels outside this window may be dropped, if there is evidence.
     fn may_drop_rest(&self, points: &[LogPoint], formal_order: f64) -> bool {
         let Range { start, end } = self.range;
         let departures = |rest: &[LogPoint]| -> Vec<f64> {
@@ -77,14 +78,15 @@ impl Window {
             && (fine.is_empty() || self.meets_floor(points, formal_order))
     }
 
-    /// Whether the F-test rejects, at the level `risk`, that what `shorter` drops lies on its line.
+    /// Whether the F-test rejects, at the significance level `risk`, that the levels dropped by
+    /// `shorter` lie on its line.
     fn is_rejected_by(&self, shorter: &Self, risk: f64) -> bool {
         let dropped = self.range.len() - shorter.range.len();
         let freedom = shorter.range.len() - 2;
         variance_ratio::regularised(shorter.line.rss / self.line.rss, freedom, dropped) < risk
     }
 
-    /// The longest shorter window for which there is strong evidence.
+    /// The longest shorter window with strong evidence.
     fn improved(&self, points: &[LogPoint], formal_order: f64) -> Option<Self> {
         let candidates = shorter_ranges(&self.range);
         let risk = SELECTION_RISK / candidates.len() as f64;
@@ -94,8 +96,8 @@ impl Window {
     }
 }
 
-/// The asymptotic window among the points before `end`, where a floor begins if one is known
-/// to; None if there are too few, or no line through them.
+/// The asymptotic window among the points before `end` (the beginning of a floor, if one is known);
+/// `None` if there are too few points, or no line through them.
 pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> Option<Window> {
     if end < FEWEST_LEVELS {
         return None;
@@ -107,7 +109,8 @@ pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> 
     Some(window)
 }
 
-/// Contiguous parts with enough levels, the longest first, of equal ones the finer first.
+/// Contiguous parts with enough levels, sorted by decreasing length, finer parts first among
+/// equals.
 fn shorter_ranges(range: &Range<usize>) -> Vec<Range<usize>> {
     (FEWEST_LEVELS..range.len())
         .rev()

@@ -1,10 +1,10 @@
 //! One step of a frozen subject as a matrix.
 //!
 //! About a state of rest the step is linear in small perturbations, `s(n+1) = A s(n)`. Column j of
-//! A is what the subject itself makes of a unit perturbation of number j of its state: there is no
-//! second implementation to agree with. The difference is taken on both sides of rest, so that what
-//! is quadratic (volume times stress) drops out, and numbers are measured in their natural sizes,
-//! which is a similarity and leaves eigenvalues alone.
+//! A is computed by the subject itself from a unit perturbation of number j of its state, without a
+//! second implementation. Central differences eliminate quadratic terms (volume times stress).
+//! Numbers are scaled by their natural sizes, which is a similarity transformation and does not
+//! change eigenvalues.
 
 use crate::subject::{Failure, Perturbable};
 use nalgebra::DMatrix;
@@ -30,11 +30,10 @@ pub enum AmplificationError {
     Failed(Failure),
 }
 
-/// The amplification matrix of a step, or of several steps of the lengths `dt` (s) after one
-/// another. `subject` must be frozen and at rest, with speeds of the size `speed` (m/s) and
-/// stresses of the size `modulus` (Pa). Numbers of the state that nothing else depends on and that
-/// only keep their own perturbation (the volume of a particle without stress) have an eigenvalue of
-/// one and no row.
+/// The amplification matrix of a step, or of several consecutive steps of the lengths `dt` (s).
+/// `subject` must be frozen and at rest, with speeds of the size `speed` (m/s) and stresses of the
+/// size `modulus` (Pa). A number of the state that affects only itself, with factor one (the volume
+/// of a particle without stress), has an eigenvalue of one and no row.
 ///
 /// # Errors
 /// If the subject is not at rest or a step fails.
@@ -91,7 +90,7 @@ mod tests {
     use super::*;
     use crate::subject::{RunCounters, Samples, Subject};
 
-    /// A state whose step is `a' = a/2 + b, b' = 3 b`, with a third number that `third` gives.
+    /// A state with the step `a' = a/2 + b, b' = 3 b`, and a third number from `third`.
     struct Linear {
         state: Vec<f64>,
         third: fn(f64) -> f64,
@@ -131,7 +130,8 @@ mod tests {
         amplification(&mut Linear { state: vec![0.0; 3], third }, &[1.0], 10.0, 40.0)
     }
 
-    /// In natural sizes a unit of b is four of a; a number that only keeps itself has no row.
+    /// In natural sizes, a unit of b is four units of a; a number that affects only itself has no
+    /// row.
     #[test]
     fn the_matrix_of_a_linear_step_is_that_step() {
         let found = matrix(|c| c).unwrap();

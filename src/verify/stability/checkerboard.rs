@@ -1,8 +1,8 @@
-//! How far particles disagree about the pressure: neighbours, and all of them.
+//! Non-uniformity of the pressure: between neighbouring particles, and over all particles.
 
 use crate::subject::Samples;
 
-/// Particles beyond which no neighbours are looked for: every pair is asked for its distance.
+/// Maximum number of particles with a neighbour search, which computes the distances of all pairs.
 const MOST: usize = 4096;
 
 /// Labels no further apart than this, in shortest distances, are neighbours along an axis.
@@ -16,7 +16,7 @@ fn pressures(samples: &Samples) -> Option<Vec<f64>> {
     (samples.stress.len() == n * d * d).then(|| (0..n).map(mean).collect())
 }
 
-/// The largest less the smallest mean normal stress, over the largest in magnitude; NaN without
+/// The largest minus the smallest mean normal stress, over the largest in magnitude; NaN without
 /// stresses.
 pub(super) fn stress_spread(samples: &Samples) -> f64 {
     let pressures = pressures(samples).unwrap_or_default();
@@ -25,9 +25,8 @@ pub(super) fn stress_spread(samples: &Samples) -> f64 {
     (high - low) / high.abs().max(low.abs())
 }
 
-/// The RMS of what the mean normal stress of a particle differs by from that of its neighbours,
-/// over the RMS of the mean normal stress itself. NaN without stresses or neighbours, or from too
-/// many particles.
+/// RMS difference between the mean normal stress of a particle and that of its neighbours, over the
+/// RMS of the mean normal stress. NaN without stresses or neighbours, or for too many particles.
 pub(super) fn checkerboard(samples: &Samples) -> f64 {
     let (n, d) = (samples.len(), samples.dimension.max(1));
     let Some(pressure) = pressures(samples).filter(|_| (2..=MOST).contains(&n)) else {
@@ -58,7 +57,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// A row of particles under the given stresses.
+    /// A row of particles with these stresses.
     fn row(stress: &[f64]) -> Samples {
         let n = stress.len();
         Samples {

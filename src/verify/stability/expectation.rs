@@ -9,7 +9,7 @@ use crate::verify::order::format_number::format_number;
 /// Expectation of one row.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StabilityExpectation {
-    /// How the run ends.
+    /// Expected end of the run.
     pub verdict: Option<Stability>,
     /// The limit that is sought.
     pub critical: Option<FigureBounds>,
@@ -17,11 +17,11 @@ pub struct StabilityExpectation {
     pub figures: Vec<(RunFigure, FigureBounds)>,
 }
 
-/// Bounds of a figure; all that are given must hold.
+/// Bounds of a figure; all stated bounds must hold.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FigureBounds {
-    /// A value, and how far from it the figure may be: a share of the value, or of one if that is
-    /// larger.
+    /// A value, and the maximum difference of the figure: a share of the value, or of one if that
+    /// is larger.
     pub is: Option<(f64, f64)>,
     /// The least.
     pub above: Option<f64>,
@@ -30,7 +30,7 @@ pub struct FigureBounds {
 }
 
 impl FigureBounds {
-    /// Bounds that do not hold, in words. Written so that NaN never holds.
+    /// Bounds that do not hold, as text. NaN meets no bound.
     fn unmet(&self, name: &str, got: f64) -> Vec<String> {
         let mut unmet = Vec::new();
         if let Some((value, within)) = self.is {
@@ -52,7 +52,7 @@ impl FigureBounds {
         unmet
     }
 
-    /// The same for a limit, which may lie beyond the range in which it was sought.
+    /// Unmet bounds on a stability limit, which may lie outside the searched range.
     fn unmet_by_limit(&self, limit: StabilityLimit) -> Vec<String> {
         let beyond = |known: f64, holds: bool, side: &str| {
             if holds {

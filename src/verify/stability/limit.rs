@@ -1,16 +1,16 @@
 //! The smallest value of a parameter that is not stable.
 //!
-//! The range is scanned from below, for stability need not be lost once and for all, and the first
-//! interval that ends unstable is halved until it is short enough.
+//! The range is scanned from below, because stability may be lost and regained. The first interval
+//! with an unstable end is bisected until it is short enough.
 
-/// Where stability ends.
+/// Limit of stability.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StabilityLimit {
     /// The lowest value of the range is not stable.
     Below(f64),
-    /// Stable up to here.
+    /// Stable up to this value.
     At(f64),
-    /// Every value that was tried is stable, up to the end of the range.
+    /// Every tested value is stable, up to the end of the range.
     Above(f64),
 }
 
@@ -84,15 +84,15 @@ mod tests {
         assert_eq!(find(|_| false), StabilityLimit::Below(0.1));
     }
 
-    /// Stable again from 5 on: the first loss is what counts.
+    /// The parameter is stable again from 5 on: the first loss of stability counts.
     #[test]
     fn the_first_of_several_ends_counts() {
         let found = find(|x| x <= 1.0 || x >= 5.0).value().unwrap();
         assert!((found - 1.0).abs() <= 1e-3, "{found}");
     }
 
-    /// Each interval of the scan is longer than the one before by the same ratio, and the limit is
-    /// the middle of the last bracket, which is no longer than the tolerance.
+    /// Each interval of the scan is longer than the previous one by a constant ratio, and the limit
+    /// is the middle of the last bracket, which is at most as long as the tolerance.
     #[test]
     fn values_are_tried_in_geometric_progression() {
         let mut tried = Vec::new();

@@ -1,4 +1,4 @@
-//! Stability: whether a run stays bounded, and up to which value of a parameter.
+//! Stability: whether a run stays bounded, and the limit of a parameter.
 //!
 //! | module | holds |
 //! |---|---|

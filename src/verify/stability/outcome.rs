@@ -24,31 +24,31 @@ pub struct StabilityStudy {
 pub struct StabilityRow {
     /// The value.
     pub value: f64,
-    /// The run, where no limit is sought.
+    /// The run, if no limit is sought.
     pub trial: Option<Trial>,
-    /// The limit of the other parameter, where one is sought.
+    /// The limit of the sought parameter, if the study has one.
     pub critical: Option<Critical>,
-    /// Why there is neither.
+    /// Why there is neither a run nor a limit.
     pub refused: Option<String>,
 }
 
-/// Where stability ends, as predicted and as observed.
+/// Limit of stability, predicted and observed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Critical {
     /// From the amplification matrix of a frozen configuration.
     pub predicted: Option<Prediction>,
     /// Runs a share below and above the prediction, each with that share.
     pub confirmed: Vec<(f64, Trial)>,
-    /// By bisection of runs, where there is no prediction.
+    /// Limit by bisection of runs, if there is no prediction.
     pub observed: Option<StabilityLimit>,
 }
 
 /// Limit predicted by an amplification matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
-    /// Where the spectral radius leaves one.
+    /// Value at which the spectral radius exceeds one.
     pub limit: StabilityLimit,
-    /// Real part and magnitude of the imaginary part of the eigenvalue that leaves.
+    /// Real part and magnitude of the imaginary part of the eigenvalue that leaves the unit circle.
     pub leaves: Option<(f64, f64)>,
 }
 
@@ -68,7 +68,7 @@ impl StudyResults for StabilityStudy {
 }
 
 impl StabilityStudy {
-    /// The verdicts that occur, or what was sought.
+    /// The verdicts that occur, or the sought limit.
     pub fn verdict(&self) -> String {
         if let Some(sought) = &self.sought {
             return format!("limit of {sought}");
@@ -106,6 +106,10 @@ impl StabilityStudy {
             let (least, most) = (format_number(least), format_number(most));
             format!("from {least} to {most} over {count} {rows}")
         };
-        if runs == 0 { found } else { format!("{found}; {runs} runs beside the predictions") }
+        if runs == 0 {
+            found
+        } else {
+            format!("{found}; {runs} runs at fractions of the predictions")
+        }
     }
 }

@@ -6,11 +6,11 @@ use nalgebra::linalg::Schur;
 /// Iterations of the QR algorithm after which powers of the matrix answer instead.
 const PATIENCE: usize = 1_000;
 
-/// An entry below the diagonal counts as zero if it is this share of its neighbours on it. With
-/// less than some tens of roundings the algorithm waits for what rounding does not let happen.
+/// An entry below the diagonal counts as zero below this share of its neighbours on the diagonal. A
+/// threshold below some tens of rounding errors is never reached.
 const SMALL: f64 = 1e-13;
 
-/// Squarings of the matrix: powers up to 2^30.
+/// Number of squarings of the matrix: powers up to 2^30.
 const SQUARINGS: i32 = 30;
 
 /// The largest modulus of an eigenvalue.
@@ -18,17 +18,17 @@ const SQUARINGS: i32 = 30;
 pub struct Radius {
     /// The modulus; infinite if an entry of the matrix is not finite.
     pub radius: f64,
-    /// Real part and magnitude of the imaginary part of the eigenvalue that has it, if it was
-    /// computed: -1 is a mode that changes its sign in every step, a complex one a slower
+    /// Real part and magnitude of the imaginary part of the largest eigenvalue, if it was computed.
+    /// At -1, the mode changes its sign in every step; a complex eigenvalue is a slower
     /// oscillation.
     pub eigenvalue: Option<(f64, f64)>,
 }
 
 /// The spectral radius, from the real Schur form of `A + s I` with s = |A|. Without the shift the
-/// QR algorithm goes round for ever on many a matrix of a step: `nalgebra` calls an entry small
-/// beside its neighbours on the diagonal, and a filter (PIC, MUSL) has defective eigenvalues zero,
-/// where the neighbours are rounding themselves. Should it not converge all the same, by Gelfand's
-/// formula, `|A^k|^(1/k)` with k = 2^30.
+/// QR algorithm does not converge for many amplification matrices: `nalgebra` compares an entry
+/// with its neighbours on the diagonal, and filters (PIC, MUSL) have defective zero eigenvalues,
+/// whose diagonal entries are rounding errors. If the algorithm does not converge with the shift
+/// either, the radius follows from Gelfand's formula, `|A^k|^(1/k)` with k = 2^30.
 pub fn spectral_radius(matrix: &DMatrix<f64>) -> Radius {
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return Radius { radius: f64::INFINITY, eigenvalue: None };
@@ -69,8 +69,8 @@ fn by_powers(matrix: &DMatrix<f64>) -> f64 {
     libm::exp(logarithm)
 }
 
-/// The matrix times itself, summed in the order of its columns: the product of the library takes
-/// another order, and fused operations, where the processor has wider registers.
+/// The matrix times itself, summed in the order of its columns: the product of the library has
+/// another order, and uses fused operations on processors with wider registers.
 fn square(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let mut square = DMatrix::zeros(matrix.nrows(), matrix.ncols());
     for (mut into, factors) in square.column_iter_mut().zip(matrix.column_iter()) {
@@ -109,7 +109,7 @@ mod tests {
         assert!(spectral_radius(&two([f64::NAN, 0.0, 0.0, 1.0])).radius.is_infinite());
     }
 
-    /// A cyclic shift, on which QR without exceptional shifts goes round for ever.
+    /// A cyclic shift, for which QR without exceptional shifts does not converge.
     #[test]
     fn a_shift_has_radius_one() {
         let shift = DMatrix::from_fn(7, 7, |i, j| f64::from(u8::from(i == (j + 1) % 7)));

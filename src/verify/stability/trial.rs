@@ -1,9 +1,10 @@
 //! One run, watched for growth.
 //!
-//! The energy is that of a small motion: the kinetic one and `V |sigma|^2 / (2 M)`, with M the
-//! stiffness against uniaxial strain. In 1-D and at small strain that is the strain energy;
-//! elsewhere it is a measure of the size of the stress, which is all that growth needs. It is
-//! compared with its start, or, in a body that starts at rest, with the energy of a strain of one.
+//! The energy is that of a small motion: the kinetic energy plus `V |sigma|^2 / (2 M)`, with the
+//! stiffness M against uniaxial strain. In 1-D and at small strain the second term is the strain
+//! energy; otherwise it measures the size of the stress, which is sufficient to detect growth. The
+//! energy is compared with its initial value, or, if the body starts at rest, with the energy of a
+//! strain of one.
 
 use super::checkerboard::{checkerboard, stress_spread};
 use super::trial_result::{Scales, Stability, Trial};
@@ -11,18 +12,18 @@ use crate::subject::{Failure, Samples, Subject};
 use crate::verify::conservation::{Balance, ConservationError, Conserved};
 use crate::verify::error::norm::larger;
 
-/// Steps after which the state is looked at: each of the first ones, and then at equal distances.
-/// Growth that matters in ten thousand steps is slow, and fast growth is over in these first ones.
+/// Number of first steps with a check after every step; later checks are equally spaced. Growth
+/// that matters in ten thousand steps is slow, and fast growth shows in these first steps.
 const FIRST: u64 = 64;
 const EVERY: u64 = 16;
 
-/// Whether the state after a step is looked at.
+/// Whether the state is checked after a step.
 pub(crate) fn is_looked_at(step: u64, steps: u64) -> bool {
     step <= FIRST || step.is_multiple_of(EVERY) || step == steps
 }
 
-/// Runs `subject` for `steps` steps, whose lengths (s) are taken from `dt` in turn, or until it is
-/// unstable or fails.
+/// Runs `subject` for `steps` steps, whose lengths (s) cycle through `dt`, or until it is unstable
+/// or fails.
 pub fn trial(subject: &mut dyn Subject, dt: &[f64], steps: u64, scales: &Scales) -> Trial {
     let mut monitor = TrialMonitor::new(subject, *scales);
     let mut lengths = dt.iter().cycle();
@@ -109,7 +110,7 @@ impl TrialMonitor {
         }
     }
 
-    /// An energy that is no number is a failure, not growth.
+    /// An energy that is not finite is a failure, not growth.
     fn grown(self, subject: &dyn Subject, step: u64) -> Trial {
         let t = self.time;
         if !self.last.is_finite() {
@@ -161,12 +162,12 @@ impl TrialMonitor {
     }
 }
 
-/// Kinetic energy (J), less that of the centre of mass where that is not asked for.
+/// Kinetic energy (J), without that of the centre of mass if `centred`.
 fn kinetic(subject: &dyn Subject, centred: bool) -> f64 {
     let Some(totals) = subject.totals() else { return 0.0 };
     let square: f64 = totals.momentum.iter().map(|p| p * p).sum();
     let common = if centred { square / (2.0 * totals.mass) } else { 0.0 };
-    // Rounding may take more than there is; NaN stays NaN.
+    // Rounding may make the difference negative; NaN stays NaN.
     let rest = totals.kinetic_energy - common;
     if rest < 0.0 { 0.0 } else { rest }
 }
@@ -257,7 +258,8 @@ mod tests {
         assert_eq!(watched(&[3.0, 5.0, 1.0], false).verdict, Stability::Stable);
     }
 
-    /// 4 kg m/s of 2 kg are 4 J that are no size of the motion about the centre of mass.
+    /// A momentum of 4 kg m/s of 2 kg has 4 J, which are not part of the motion about the centre of
+    /// mass.
     #[test]
     fn a_common_motion_is_left_out_where_it_is_asked() {
         assert_relative_eq!(watched(&[5.0, 9.0], true).energy, 3.0, max_relative = 1e-14);

@@ -4,21 +4,21 @@ use crate::named::named;
 use serde::{Deserialize, Serialize};
 
 named! {
-    /// How a run ended.
+    /// End of a run.
     pub enum Stability {
-        /// The energy stayed within what exchange between its kinds allows.
+        /// The energy stayed within the range of exchange between its kinds.
         Stable = "stable",
         /// It grew beyond that, and not out of all bounds in the steps of the run.
         BoundedGrowth = "bounded_growth",
         /// It grew out of all bounds.
         Unstable = "unstable",
-        /// The subject could not go on, or a figure is not finite.
+        /// The subject failed, or a figure is not finite.
         Failed = "failed",
     }
 }
 
 impl Stability {
-    /// In plain words, as reports print it.
+    /// Text in reports.
     pub fn words(self) -> &'static str {
         match self {
             Self::BoundedGrowth => "bounded growth",
@@ -38,27 +38,28 @@ pub struct Scales {
     pub stable_below: f64,
     /// Energy, over that at the start, beyond which a run is unstable and ends.
     pub unstable_above: f64,
-    /// Whether the kinetic energy is that about the centre of mass: where nothing holds the body, a
-    /// common velocity is no size of its motion.
+    /// Whether the kinetic energy excludes that of the centre of mass: in a free body, the common
+    /// velocity is no measure of the motion.
     pub centred: bool,
-    /// Whether what the grid cannot see of the velocities is measured at every look.
+    /// Whether the part of the velocities in the null space of the map to the grid is measured at
+    /// every check.
     pub null_space: bool,
 }
 
-/// Results of a run. Figures of a run that failed are those up to its last step.
+/// Results of a run. Figures of a failed run are those up to its last step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
-    /// How it ended.
+    /// End of the run.
     pub verdict: Stability,
-    /// Why, where it did not come to its end: what broke, which particle, when.
+    /// Reason if the run did not reach its end: the failure, the particle and the step.
     pub why: Option<String>,
-    /// Steps taken.
+    /// Number of steps.
     pub steps: u64,
     /// The largest energy over that at the start.
     pub energy: f64,
     /// The energy at the end over that at the start.
     pub energy_kept: f64,
-    /// Kinetic energy at the end over that at the start; NaN where there was none.
+    /// Kinetic energy at the end over that at the start; NaN if the latter is zero.
     pub kinetic_kept: f64,
     /// The largest relative change of the momentum.
     pub momentum: f64,
@@ -69,11 +70,11 @@ pub struct Trial {
     /// The largest speed met, over the wave speed.
     pub speed: f64,
     /// Kinetic energy in the null space of the map to the grid, at the end, over the largest
-    /// kinetic energy met; NaN where it is not measured.
+    /// kinetic energy of the run; NaN if it is not measured.
     pub null_share: f64,
     /// The largest kinetic energy met in the null space over the largest kinetic energy met.
     pub largest_null_share: f64,
-    /// The largest less the smallest mean normal stress over the largest in magnitude, at the end.
+    /// The largest minus the smallest mean normal stress over the largest in magnitude, at the end.
     pub stress_spread: f64,
     /// Changes of the pressure from particle to particle over its size, at the end.
     pub checkerboard: f64,

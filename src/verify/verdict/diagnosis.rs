@@ -1,12 +1,12 @@
-//! Why a case does not have the order of theory: what runs that change one thing have shown.
+//! Cause if a case does not have the theoretical order: results of runs with one change.
 
 use crate::verify::order::fit::Interval;
 use crate::verify::order::hypothesis::OrderHypothesis;
 use crate::verify::verdict::judge::Judgement;
 use crate::verify::verdict::name::Verdict;
 
-/// Share of the finest error that a change must leave at most, to be named where none restores the
-/// order.
+/// Maximum ratio of the finest error after a change to that before, if the change is named although
+/// it does not restore the order.
 const FALL: f64 = 0.75;
 
 /// Half of the width of the interval of an order that is settled.
@@ -18,13 +18,14 @@ const RISE: f64 = 0.25;
 /// Orders that differ by less are the same.
 const ALIKE: f64 = 0.1;
 
-/// An order that is restored keeps at most this share of its distance from that of theory.
+/// Maximum ratio of the distances from the theoretical order, after the change over before, if the
+/// change restores the order.
 const CLOSER: f64 = 0.5;
 
 /// Effect of a change that shows the cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Evidence {
-    /// The order is that of theory.
+    /// The order is the theoretical one.
     Restored,
     /// The order is higher, and settled.
     Raised,
@@ -32,29 +33,29 @@ pub enum Evidence {
     Lowered,
 }
 
-/// The finest levels of a case, run with one thing changed.
+/// A run of the finest levels of a case with one change.
 #[derive(Debug, Clone)]
 pub struct ChangedRun {
-    /// The thing that is changed, and into what.
+    /// The change, as text.
     pub change: String,
-    /// The cause, if the change is what helps.
+    /// The cause, if the change helps.
     pub cause: &'static str,
-    /// Change of the suite that keeps the order.
+    /// Change of the suite that restores the order.
     pub remedy: &'static str,
-    /// Why `check` refuses the suite with this change; `None` if it accepts the suite, or if it was
-    /// not asked.
+    /// Why `check` refuses the suite with this change; `None` if it accepts the suite, or was not
+    /// run.
     pub refusal: Option<String>,
-    /// Verdict on these levels, against an order near that of theory.
+    /// Verdict on these levels, for an order near the theoretical one.
     pub verdict: Verdict,
     /// Observed order on these levels.
     pub order: Option<Interval>,
     /// The finest error.
     pub error: f64,
-    /// The finest error over that of the case itself.
+    /// The finest error over that of the unchanged case.
     pub ratio: f64,
     /// `ratio` over the ratio of the sizes of the two exact solutions.
     pub relative_ratio: f64,
-    /// Whether levels are finer, so that their error is smaller whatever the cause.
+    /// Whether the levels are finer, which makes their error smaller for any cause.
     pub is_finer: bool,
 }
 
@@ -65,7 +66,7 @@ pub enum KnownCauseKind {
     UnstableStep,
     /// Particles leave the grid.
     OutsideGrid,
-    /// An equilibrium is asked for, and nothing in the scene removes energy.
+    /// The suite has an equilibrium, but the scene has no dissipation.
     NoDamping,
     /// The errors of an external solver are of the size of the solution on all levels.
     AnotherProblem,
@@ -75,30 +76,30 @@ pub enum KnownCauseKind {
     NotSmooth,
 }
 
-/// A cause that is known from the problem, the levels or the time steps, whatever the method.
+/// A cause that follows from the problem, the levels or the time steps, for any method.
 #[derive(Debug, Clone)]
 pub struct KnownCause {
     /// Its kind.
     pub kind: KnownCauseKind,
     /// The cause, a clause without a full stop.
     pub cause: String,
-    /// The figures behind it, in whole sentences.
+    /// The figures that support the finding, in whole sentences.
     pub evidence: String,
     /// Change of the suite that removes the cause; `None` if there is none.
     pub remedy: Option<String>,
-    /// Observed order without the cause, where that was measured.
+    /// Observed order without the cause, if it was measured.
     pub order: Option<Interval>,
-    /// Whether the observed order is the one that the cause leads to. Otherwise there is a larger
-    /// cause.
+    /// Whether the observed order is the one that follows from the cause. Otherwise there is a
+    /// larger cause.
     pub explains: bool,
 }
 
-/// A cause, by what shows it.
+/// A cause, by its evidence.
 #[derive(Debug, Clone, Copy)]
 pub enum Cause<'a> {
     /// A property of the problem, the levels or the time steps.
     Known(&'a KnownCause),
-    /// A run with one thing changed.
+    /// A run with one change.
     Run(&'a ChangedRun, Evidence),
 }
 
@@ -109,19 +110,19 @@ pub struct Diagnosis {
     pub case: String,
     /// Order of theory.
     pub formal_order: f64,
-    /// The case as it is, all levels of the gate.
+    /// Judgement of the unchanged case on all levels of the gate.
     pub judgement: Judgement,
-    /// Judgement of the case as it is, on the levels that are run again.
+    /// Judgement of the unchanged case on the levels that are run again.
     pub finest: Judgement,
-    /// Finest error of the case as it is.
+    /// Finest error of the unchanged case.
     pub finest_error: f64,
     /// Levels that are run again, by name.
     pub levels: Vec<String>,
-    /// Whether the solver is external, so that its own settings cannot be changed.
+    /// Whether the solver is external, so that its settings cannot be changed.
     pub is_external: bool,
     /// Causes that are known without a change of the method.
     pub findings: Vec<KnownCause>,
-    /// The runs that change one thing.
+    /// The runs with one change each.
     pub runs: Vec<ChangedRun>,
     /// Changes that were possible, and too expensive.
     pub skipped: Vec<String>,
@@ -146,12 +147,12 @@ impl Cause<'_> {
 }
 
 impl Diagnosis {
-    /// Whether the case has the order of theory, so that there is nothing to explain.
+    /// Whether the case has the theoretical order, so that there is nothing to explain.
     pub fn is_sound(&self) -> bool {
         self.judgement.verdict == Verdict::Converging
     }
 
-    /// Whether a finding is the cause whatever else runs with one thing changed show.
+    /// Whether a finding is certainly the cause, without further runs with one change.
     pub fn is_known(&self) -> bool {
         self.findings.iter().any(|finding| finding.kind < KnownCauseKind::CoarseLevels)
     }
@@ -192,19 +193,21 @@ impl Diagnosis {
         causes
     }
 
-    /// Distance of an order from that of theory.
+    /// Distance of an order from the theoretical one.
     fn off(&self, order: Option<Interval>) -> f64 {
         order.map_or(f64::INFINITY, |order| (order.value - self.formal_order).abs())
     }
 
-    /// The run that shows the cause, and its effect. Of the runs that restore the order, the first
-    /// of those that come nearest to theory. Where none does, the first of those that raise the
-    /// order most, if it is settled then. Otherwise the run that takes most off the error.
+    /// The run that shows the cause, and its effect. If runs restore the order, it is the first of
+    /// those nearest to theory. Otherwise it is the first of those with the largest increase of the
+    /// order, if the order is settled. Otherwise it is the run with the largest decrease of the
+    /// error.
     pub fn found(&self) -> Option<(&ChangedRun, Evidence)> {
         let least = self.formal_order - OrderHypothesis::TOLERANCE;
         let is_near = self.finest.verdict == Verdict::Converging;
         let before = self.off(self.finest.order);
-        // An order that is nearly that of theory is restored only by one that is within its range.
+        // An order close to the theoretical one counts as restored only if the new order is within
+        // its range.
         let restores = |run: &&ChangedRun| {
             let is_within = run.order.is_some_and(|order| order.low >= least);
             let is_nearer = self.off(run.order) <= CLOSER * before;
@@ -297,7 +300,8 @@ mod tests {
         assert_eq!(evidence(&diagnosis(low, to(2.4))), None);
     }
 
-    /// An order whose interval leaves the range of theory explains no order that was nearly right.
+    /// An order whose interval leaves the theoretical range does not explain an order that was
+    /// nearly right.
     #[test]
     fn an_order_nearly_right_is_restored_by_a_whole_interval() {
         let near = (Converging, order(1.95, 0.04));
@@ -306,7 +310,7 @@ mod tests {
         assert_eq!(evidence(&diagnosis(near, to(0.15))), None);
     }
 
-    /// 1.81 passes a threshold that 1.79 does not, and explains nothing.
+    /// 1.81 passes a threshold that 1.79 does not pass, but this explains nothing.
     #[test]
     fn an_order_that_hardly_moves_is_not_restored() {
         let low = (TooLow, order(1.79, 0.05));
@@ -340,7 +344,8 @@ mod tests {
         }
     }
 
-    /// A restored order is not limited by the exact solution; a smaller error proves nothing.
+    /// If the order is restored, the exact solution does not limit it; a smaller error alone proves
+    /// nothing.
     #[test]
     fn a_kink_is_the_cause_unless_the_order_is_restored() {
         let low = (TooLow, order(1.0, 0.05));
@@ -363,7 +368,7 @@ mod tests {
         assert_eq!(causes(&found), ["the cause", "the finding"]);
     }
 
-    /// Finer levels have a smaller error whatever its cause is.
+    /// Finer levels have a smaller error for any cause.
     #[test]
     fn a_smaller_error_of_finer_levels_is_no_evidence() {
         let mut found = diagnosis((TooLow, order(1.0, 0.05)), (TooLow, order(1.0, 0.05), 0.25));

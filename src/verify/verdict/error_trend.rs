@@ -1,42 +1,45 @@
-//! Shapes of a series that rule out an order, told by ratios of errors only: no absolute number
-//! enters, so that neither the unit of the error nor that of `h` matters.
+//! Shapes of a series that exclude an order. They are recognised by ratios of errors only, so that
+//! the units of the error and of `h` have no effect.
 
 use std::f64::consts::LN_2;
 
 use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::window::{FEWEST_LEVELS, FLAT_ORDER};
 
-/// A divergence must at least double the error: what grows less may be the noise of a floor.
+/// Minimum total growth of a divergent series: a factor of two. Smaller growth may be noise on a
+/// floor.
 const LEAST_GROWTH: f64 = LN_2;
 
-/// The errors on a floor lie within a factor of two, as round-off noise of -+ 30 % does.
+/// Maximum range of ln(error) on a floor: a factor of two, as for round-off noise of -+ 30 %.
 const FLOOR_BAND: f64 = LN_2;
 
-/// A floor must cost something: over its levels the formal order would have halved the error.
+/// Minimum loss due to a floor: over its levels the formal order would have halved the error.
 const LEAST_LOSS: f64 = LN_2;
 
-/// Fewest levels of a floor, or of a divergence: two successive pairs.
+/// Minimum number of levels of a floor, or of a divergence: two successive pairs.
 const FEWEST_OF_TREND: usize = 3;
 
-/// Before a floor the error must have fallen with at least this order: well above a flat one.
+/// Minimum order before a floor, well above that of a flat series.
 const LEAST_FALL: f64 = 2.5 * FLAT_ORDER;
 
-/// An oscillation swings by more than the noise of a floor does: on average by a factor of 1.5.
+/// Minimum mean change between levels in an oscillation, as a factor: larger than the noise on a
+/// floor.
 const LEAST_SWING: f64 = 1.5;
 
-/// An oscillation has no convincing trend: rises make up for at least a third of the falls, or
-/// falls for a third of the rises.
+/// Minimum ratio of total rise to total fall of an oscillation, or its inverse: a series with a
+/// smaller ratio has a trend.
 const BALANCE: f64 = 1.0 / 3.0;
 
-/// Turns that make an oscillation: a single outlier turns the series twice.
+/// Minimum number of turns of an oscillation: a single outlier causes two turns.
 const TURNS: usize = 3;
 
 /// From which point on the error grows, if it does at the fine end.
 ///
-/// From the first, if the line through all points rises with an order below -0.2 and its
-/// confidence interval excludes zero. Otherwise the part judged begins at the smallest error. It
-/// must have at least three levels, grow at least twofold, and either end above the first error
-/// of the series by that factor, or rise over its last two pairs, or have a rising line as above.
+/// The first level, if the line through all points rises with an order below -0.2 and its
+/// confidence interval excludes zero. Otherwise the divergent part begins at the smallest error. It
+/// must have at least three levels and grow at least twofold. It must also end above the first
+/// error of the series by this factor, rise over its last two pairs, or have a rising line as
+/// above.
 pub(crate) fn divergence(points: &[LogPoint]) -> Option<usize> {
     if points.len() < FEWEST_LEVELS {
         return None;
@@ -66,9 +69,9 @@ fn line_rises(part: &[LogPoint]) -> bool {
         .is_some_and(|order| order.value < -FLAT_ORDER && order.high < 0.0)
 }
 
-/// From which point on the error is flat, if it is at the fine end: the longest tail whose errors
-/// lie in a band of a factor of two with an order of less than 0.2, after a part that fell (or
-/// from the first level on). None if the formal order would not have shown there either.
+/// The first point of a flat fine end: the longest tail whose errors lie in a band of a factor of
+/// two with an order of less than 0.2, after a part that fell (or from the first level on). `None`
+/// if even the formal order would have a negligible effect on the tail.
 pub(crate) fn flat_tail(points: &[LogPoint], formal_order: f64) -> Option<usize> {
     let starts = 0..=points.len().checked_sub(FEWEST_OF_TREND)?;
     starts.into_iter().find(|&start| {
@@ -90,7 +93,7 @@ fn spread(points: &[LogPoint]) -> f64 {
     ys().fold(f64::NEG_INFINITY, f64::max) - ys().fold(f64::INFINITY, f64::min)
 }
 
-/// Whether the error goes up and down by much and without a convincing trend.
+/// Whether the error has large rises and falls, without a clear trend.
 pub(crate) fn oscillates(points: &[LogPoint]) -> bool {
     let steps: Vec<f64> = points.windows(2).map(|pair| pair[1].y - pair[0].y).collect();
     let turns = steps.windows(2).filter(|s| s[0] * s[1] < 0.0).count();

@@ -1,35 +1,35 @@
-//! Whose error a floor is: what happens to it when another axis is refined.
+//! Cause of an error floor, determined by refining another axis.
 //!
-//! The shape of a series tells that the error has stopped falling, not why. So the finest level is
-//! run again with the spacing of another axis halved, one axis at a time. (An error is a sum of
-//! terms in h, in dt and in what else there is; refining one spacing leaves the others' terms: Roy
-//! 2005, J. Comput. Phys. 205, 131.)
+//! The shape of a series shows that the error has stopped falling, but not the cause. So the finest
+//! level is run again with the spacing of another axis halved, one axis at a time. (An error is a
+//! sum of terms in h, dt and other spacings; refining one spacing does not change the other terms:
+//! Roy 2005, J. Comput. Phys. 205, 131.)
 
 use crate::named::named;
 use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::Axis;
 
-/// An axis is named if halving its spacing takes at least a quarter off the error. With order one
-/// that is an axis which makes half of the error, with order two a third.
+/// Minimum relative decrease of the error that identifies an axis when its spacing is halved. The
+/// axis then causes at least half of the error if its order is one, and a third if it is two.
 const LEAST_FALL: f64 = 0.25;
 
 named! {
-    /// Whose error a floor is.
+/// Cause of an error floor.
     #[non_exhaustive]
     pub enum FloorCause {
-        /// That of the time step.
+/// Error of the time step.
         Time = "time",
-        /// That of the cells.
+/// Error of the cell size.
         Space = "space",
-        /// That of the particles.
+/// Error of the particle spacing.
         Particles = "particles",
-        /// No axis that was tried: an error of the model, of the method, of the reference, or
+        /// None of the refined axes: an error of the model, the method or the reference, or
         /// round-off.
         Nothing = "none",
     }
 }
 
-/// The finest level again, with the spacing of one axis halved.
+/// A run of the finest level with the spacing of one axis halved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe {
     /// The axis.
@@ -42,15 +42,15 @@ pub struct Probe {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Floor {
-    /// The error there.
+    /// The error of the finest level.
     pub error: f64,
-    /// One probe for each axis that was tried.
+    /// One probe for each refined axis.
     pub probes: Vec<Probe>,
 }
 
 impl Floor {
-    /// Whose error it is: of the axes that lower it enough the one that lowers it most;
-    /// [`FloorCause::Nothing`] only if every probe came to its end.
+    /// Cause of the floor: of the axes that lower the error enough, the one with the largest
+    /// effect; [`FloorCause::Nothing`] only if every probe reached its end.
     pub fn cause(&self) -> Option<FloorCause> {
         let errors =
             self.probes.iter().filter_map(|probe| Some((probe, *probe.error.as_ref().ok()?)));
@@ -80,22 +80,22 @@ impl Floor {
             Some(FloorCause::Time) => of(Axis::Time),
             Some(FloorCause::Space) => of(Axis::Space),
             Some(FloorCause::Particles) => of(Axis::Particles),
-            Some(FloorCause::Nothing) => "no other axis lowers the error by a quarter".to_owned(),
-            None => "it cannot be told whose the error is".to_owned(),
+            Some(FloorCause::Nothing) => "no finer axis lowers the error by a quarter".to_owned(),
+            None => "the cause of the error is not known".to_owned(),
         };
         let probe = |(k, probe): (usize, &Probe)| {
             let halved = format!("half the {}", probe.axis.noun());
-            let from =
-                if k == 0 { format!("from {} ", format_number(self.error)) } else { String::new() };
             match &probe.error {
-                Ok(error) if k == 0 => {
-                    format!("{halved} takes it {from}to {}", format_number(*error))
-                }
-                Ok(error) => format!("{halved} to {}", format_number(*error)),
-                Err(reason) => format!("{halved} fails ({reason})"),
+                Ok(error) if k == 0 => format!(
+                    "with {halved} the error changes from {} to {}",
+                    format_number(self.error),
+                    format_number(*error)
+                ),
+                Ok(error) => format!("with {halved} to {}", format_number(*error)),
+                Err(reason) => format!("with {halved} the run fails ({reason})"),
             }
         };
-        // Probes that failed come last, so that the figures stand together.
+        // Failed probes come last, so that the figures are together.
         let (told, failed): (Vec<_>, Vec<_>) =
             self.probes.iter().partition(|probe| probe.error.is_ok());
         let probes: Vec<String> = told.into_iter().chain(failed).enumerate().map(probe).collect();
@@ -140,12 +140,13 @@ mod tests {
     fn sentences() {
         assert_eq!(
             floor(1.0, &[(Time, Ok(0.5)), (Particles, Ok(1.0))]).sentence(),
-            "on the finest level the error is that of the time step: half the time step takes it \
-             from 1 to 0.5, half the particle spacing to 1"
+            "on the finest level the error is that of the time step: with half the time step the \
+             error changes from 1 to 0.5, with half the particle spacing to 1"
         );
         assert_eq!(
             floor(1.0, &[(Space, Err("J"))]).sentence(),
-            "on the finest level it cannot be told whose the error is: half the cell size fails (J)"
+            "on the finest level the cause of the error is not known: with half the cell size the run \
+             fails (J)"
         );
     }
 }

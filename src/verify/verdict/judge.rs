@@ -1,4 +1,4 @@
-//! From levels to a verdict: the questions, in the order in which they are asked.
+//! From levels to a verdict: the decision sequence.
 //!
 //! 1. Is every level sound, and the hypothesis testable? Else `failed`.
 //! 2. Are there four usable levels? Else `too few levels`.
@@ -10,7 +10,7 @@
 //! 6. `too good` or `too low` if the order itself is out of the expected range; `converging` if
 //!    the whole interval is inside; `pre-asymptotic` if only the order is.
 //!
-//! Levels that are not usable take part in the first question only.
+//! Levels that are not usable are only used in step 1.
 
 use std::ops::Range;
 
@@ -24,8 +24,8 @@ use crate::verify::order::level::{Level, arrange};
 use crate::verify::order::window;
 use crate::verify::order::window::{FEWEST_LEVELS, Window};
 
-/// The order of a window has settled if its interval is no wider than this to each side: half of
-/// the gap between orders that differ by a half.
+/// Maximum half-width of the interval of a settled order: half of the gap between orders that
+/// differ by 0.5.
 pub(crate) const SETTLED: f64 = 0.25;
 
 /// High orders settle relatively: the same interval about the order 2, as a fraction.
@@ -47,8 +47,8 @@ const FEWEST_BEFORE_FLOOR: usize = 3;
 pub struct Judgement {
     /// The verdict.
     pub verdict: Verdict,
-    /// The observed order over the window, with its 95 % confidence interval: of the asymptotic
-    /// levels, of those before the floor, or of those that diverge. None where there is none.
+    /// The observed order with its 95 % confidence interval: over the asymptotic levels, the levels
+    /// before a floor, or the divergent levels. `None` if there is none.
     pub order: Option<Interval>,
     /// The levels that the order was fitted to, as indices into `levels`.
     pub window: Option<Vec<usize>>,
@@ -56,12 +56,12 @@ pub struct Judgement {
     pub pairwise: Vec<Option<f64>>,
     /// The levels from coarse to fine, identical ones merged.
     pub levels: Vec<Level>,
-    /// One line that says why.
+    /// The reason, in one line.
     pub reason: String,
 }
 
 impl Judgement {
-    /// The judgement of so many levels whose errors are not taken.
+    /// The judgement of `levels` levels without errors.
     pub(crate) fn without_comparison(levels: usize) -> Self {
         Self {
             verdict: Verdict::TooFewLevels,
@@ -92,7 +92,7 @@ pub fn judge(levels: &[Level], hypothesis: &OrderHypothesis) -> Judgement {
     }
 }
 
-/// A verdict whose window is still one of points.
+/// A verdict with its window as points.
 struct Finding {
     verdict: Verdict,
     reason: Reason,
@@ -117,9 +117,9 @@ impl Finding {
 
 /// The usable levels.
 struct JudgedSeries {
-    /// Those with a non-zero error, on logarithmic axes.
+    /// Levels with a non-zero error, on logarithmic axes.
     points: Vec<LogPoint>,
-    /// The indices of those with an exact zero.
+    /// Indices of the levels with zero error.
     zeros: Vec<usize>,
 }
 
@@ -180,8 +180,8 @@ impl JudgedSeries {
         Some(self.before_floor(self.points[start].level, start, hypothesis))
     }
 
-    /// At a floor that begins with the level `from`; the order is that of the asymptotic part of
-    /// the points before `end`.
+    /// Judgement at a floor that begins with the level `from`; the order is that of the asymptotic
+    /// part of the points before `end`.
     fn before_floor(&self, from: usize, end: usize, hypothesis: &OrderHypothesis) -> Finding {
         let window = window::asymptotic(&self.points, end, hypothesis.formal_order);
         self.floor(from, window.map_or(0..end, |window| window.range))
@@ -239,7 +239,7 @@ fn settled(
     (verdict, Reason::Against { verdict, range, overlaps })
 }
 
-/// The change of the order along the window, if it is significant and material.
+/// The change of the order along the window; `None` unless it is significant and material.
 fn drift(window: &Window, points: &[LogPoint]) -> Option<f64> {
     let drift = window.line.drift(points)?;
     (drift.p_value < DRIFT_RISK && drift.change.abs() > DRIFT).then_some(drift.change)

@@ -1,4 +1,4 @@
-//! The verdict: from levels and their orders to one word, with the reason.
+//! The verdict: from levels and their orders to a name, with the reason.
 
 pub(crate) mod diagnosis;
 pub(crate) mod error_trend;

@@ -1,10 +1,10 @@
-//! The words a judgement may use.
+//! Names of verdicts.
 
 use std::fmt;
 use std::str::FromStr;
 
 /// Behaviour of a series of errors. Only [`Verdict::Converging`] supports a claimed order; every
-/// other word is a different way of not doing so.
+/// other verdict is a reason why it is not supported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Verdict {
@@ -18,7 +18,7 @@ pub enum Verdict {
     AtFloor,
     /// The error falls, but no window of levels has a settled order.
     PreAsymptotic,
-    /// The error goes up and down under refinement without a convincing trend.
+    /// The error rises and falls under refinement without a clear trend.
     Oscillatory,
     /// The error grows under refinement.
     Divergent,
@@ -42,7 +42,7 @@ impl Verdict {
         Self::TooFewLevels,
     ];
 
-    /// The verdict in plain words, as reports print it.
+    /// The verdict as reports print it.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Converging => "converging",
@@ -64,19 +64,19 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// A word that is no verdict.
+/// A name that is not a verdict.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{word}` is not a verdict; known: {}", Verdict::ALL.map(Verdict::name).join(", "))]
 #[non_exhaustive]
 pub struct UnknownVerdict {
-    /// The word as it was given.
+    /// The given name.
     pub word: String,
 }
 
 impl FromStr for Verdict {
     type Err = UnknownVerdict;
 
-    /// Reads the name in plain words or in snake case (`too_good`, `pre_asymptotic`).
+    /// Reads the name as printed or in snake case (`too_good`, `pre_asymptotic`).
     fn from_str(word: &str) -> Result<Self, UnknownVerdict> {
         Self::ALL
             .into_iter()

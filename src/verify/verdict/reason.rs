@@ -1,4 +1,4 @@
-//! The one line that says why, for a reader who has only the figures.
+//! The reason of a verdict, in one line with figures.
 
 use super::name::Verdict;
 use crate::verify::order::fit::{FittedLine, LogPoint};
@@ -24,7 +24,8 @@ pub(crate) enum Reason {
     Drift {
         change: f64,
     },
-    /// The order beside the expected range; `overlaps` says whether its interval meets that.
+    /// The order is outside the expected range; `overlaps`: whether its interval overlaps the
+    /// range.
     Against {
         verdict: Verdict,
         range: (f64, f64),
@@ -33,7 +34,7 @@ pub(crate) enum Reason {
 }
 
 impl Reason {
-    /// The sentence, ended by the order over the window if there is one.
+    /// The sentence, which ends with the order over the window if there is one.
     pub(crate) fn sentence(
         &self,
         levels: &[Level],

@@ -4,7 +4,7 @@ use super::samples::{BAR, PLATE};
 use super::{Edits, load, refused};
 use rstest::rstest;
 
-/// A bar without ends.
+/// A periodic bar.
 const RING: &str = r#"suite: ring
 title: Periodic bar
 source: a textbook

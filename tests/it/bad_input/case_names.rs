@@ -1,4 +1,4 @@
-//! Names of cases: whatever tells two methods apart, and no more.
+//! Names of cases contain exactly the settings that distinguish two methods.
 
 use super::samples::{BAR, SWEPT};
 use super::{Edits, load, refused};

@@ -1,4 +1,4 @@
-//! The same method on a fine grid, where that is no truth.
+//! Suites in which a reference run on a fine grid is not allowed.
 
 use super::samples::{BAR, CUBE, PLATE};
 use super::{Edits, refused};

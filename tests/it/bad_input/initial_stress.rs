@@ -22,7 +22,7 @@ fn sound() {
     }
 }
 
-/// What the law, the scene or the study does not go with.
+/// An initial stress is refused with some laws, scenes and studies.
 #[rstest]
 #[case::of_a_law_that_flows(
     BAR,

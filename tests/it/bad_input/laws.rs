@@ -74,7 +74,7 @@ fn a_fluid(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(FLUID, edits, words);
 }
 
-/// A check to one per cent still tells plane strain from plane stress.
+/// A check with a tolerance of 1 % still distinguishes plane strain from plane stress.
 #[rstest]
 #[case(&[("np: \"nu/(1 - nu)\"", "np: nu"), ("- \"(1 + s(X, Y))*(cos", "- ▸\"(1 + s(X, Y))*(cos")])]
 #[case(&[("Ep: \"E/(1 - nu^2)\"", "Ep: E"), ("- \"(1 + s(X, Y))*(cos", "- ▸\"(1 + s(X, Y))*(cos")])]

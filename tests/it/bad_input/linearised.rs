@@ -1,11 +1,11 @@
-//! Linearised solutions: how much of the law they may leave, and what is held to the digit all the
-//! same.
+//! Linearised solutions: the residual that the law may have, and the conditions that keep the
+//! default tolerance.
 
 use super::refused;
 use mpm_verify::suite::embedded;
 use rstest::rstest;
 
-/// The column of water: 2e-6 of its terms is left, and 5e-6 allowed.
+/// The column of water: its relative residual is 2e-6, and 5e-6 is allowed.
 fn column() -> String {
     embedded::source("acoustic-column").expect("a suite").expect("a text").text().to_owned()
 }
@@ -63,7 +63,7 @@ fn a_solution_that_is_stated_to_leave(#[case] edits: &[(&str, &str)], #[case] wo
     refused(&column(), edits, words);
 }
 
-/// What is linear in u holds to the default tolerance: the law alone is linearised.
+/// Conditions that are linear in u keep the default tolerance: only the law is linearised.
 #[rstest]
 #[case::an_initial_displacement(
     &[("[\"mode(X)\"]", "[\"mode(X)*(1 + 1e-6)\"]"), ("[\"mode(X)*cos(", "[▸\"mode(X)*cos(")],

@@ -35,6 +35,7 @@ mod stability;
 mod steps;
 mod tables;
 mod truths;
+mod volume_ratios;
 mod vortex;
 
 use crate::schema;

@@ -1,4 +1,4 @@
-//! What the state across the plane of two dimensions does not go with.
+//! Laws, conditions and studies that a state across the plane excludes in two dimensions.
 
 use super::samples::{BAR, CUBE};
 use super::{Edits, refused};

@@ -1,4 +1,4 @@
-//! Polygons: corners that are those of none, words of faces that it lacks, and what asks for
+//! Polygons: invalid corners, names of faces that a polygon does not have, and keys that need
 //! another body.
 
 use super::samples::PLATE;

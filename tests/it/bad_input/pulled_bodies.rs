@@ -1,5 +1,5 @@
-//! Bodies that are no box, pulled by a force on a set: truths of another volume than that of the part
-//! of the body in the set, and sets beside the body.
+//! Forces on a set of a body that is not a box: solutions with a wrong volume of the set, and sets
+//! outside the body.
 
 use super::{load, refused};
 use rstest::rstest;

@@ -8,8 +8,8 @@ const SECH: &str = "1/cosh(s/w)^2";
 const WINDOW: &str = "cos(pi*max(-w, min(w, s))/(2*w))^6";
 const TRIANGLE: &str = "max(0, 1 - abs(s)/w)";
 
-/// A bar of length 2 with free ends and c = 1, in which a pulse of `shape` and width `w` splits into
-/// two.
+/// A bar of length 2 with free ends and c = 1, in which a pulse of `shape` and width `w` splits
+/// into two pulses.
 fn split(shape: &str, w: f64, displacement: &str) -> String {
     format!(
         r#"

@@ -1,4 +1,4 @@
-//! Slips of the finger: whatever one character does to a suite, loading it never panics.
+//! Random typing errors: loading a suite with one changed character never panics.
 
 #[path = "../fuzz_input/suite_input.rs"]
 mod suite_input;

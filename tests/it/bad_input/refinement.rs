@@ -114,7 +114,7 @@ fn a_plan_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
         ("  initial_velocity", "  loads:\n    - traction: {on: right, value: [0]}\n  initial_velocity"),
         ("refine:", "particles: {perturb: ▸0.3}\nrefine:")
     ],
-    &["particles are moved by up to 0.3", "expected at most 0.25 at a face with a load"]
+    &["particles are moved by up to 0.3", "expected at most 0.25 at a face or rim with a load"]
 )]
 #[case::a_seed_of_nothing(
     &[("refine:", "particles: {shift: [0.1], ▸seed: 3}\nrefine:")],

@@ -1,6 +1,6 @@
-//! The sound suites that the mistakes are made in.
+//! Valid suites, into which tests insert mistakes.
 
-/// A bar that every suite in 1-D here is a copy of, but for one mistake.
+/// A valid bar; tests in 1-D insert one mistake each.
 pub(super) const BAR: &str = r#"suite: bar
 title: Vibrating bar
 source: a textbook
@@ -47,7 +47,7 @@ expect:
     because: two levels support no claim
 "#;
 
-/// The same in 2-D, for mistakes that need a second axis.
+/// A valid plate, for mistakes that need a second axis.
 pub(super) const PLATE: &str = r#"suite: plate
 title: Vibrating plate
 source: a textbook

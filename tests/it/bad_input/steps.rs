@@ -1,4 +1,4 @@
-//! Time steps by rule that make no sense.
+//! Invalid automatic time steps.
 
 use super::{BAR, Edits, SWEPT, refused};
 use rstest::rstest;

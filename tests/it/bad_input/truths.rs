@@ -4,7 +4,7 @@ use super::samples::{BAR, COLUMN, PLATE, PULLED};
 use super::{Edits, refused};
 use rstest::rstest;
 
-/// Refuses, and demands a place, a time and both numbers besides `words`.
+/// Asserts an error with a place, a time and both numbers in addition to `words`.
 fn violated(sound: &str, edits: Edits<'_>, words: &[&str]) {
     let figures = [" is violated at X = (", "), t = ", "expected ", ", found ", " (off by "];
     let label = ["this is not a solution of the problem that the scene states"];
@@ -183,7 +183,7 @@ fn a_force_is_manufactured_for_hencky_as_well(#[case] sound: &str, #[case] edits
         panic!("{diagnostic}");
     }
 }
-/// The same motion with the force that it needs (for nu = 0), which the suite now states itself.
+/// The suite `FORCED` with its force stated (for nu = 0) instead of manufactured.
 fn with_its_force(force: &str) -> String {
     let load =
         format!("  loads: [{{body_force: [\"{force}\"]}}]\n\nexact:\n  equation: neo_hookean\n");

@@ -56,13 +56,13 @@ expect:
     because: two levels support no claim
 "#;
 
-/// In the basis that turns with the material, as benchmark pages give it.
+/// Force in the basis that rotates with the material, as in published benchmarks.
 const CURRENT: &str = r#"  radial(r, a, s): "-centripetal(r, s) + stretch(r, s) + 0*a"
   angular(r, a, s): "tangential(r, s) + 0*a"
   cX(x, y, s): "cos(alpha(x, y, s))*x - sin(alpha(x, y, s))*y"
   sX(x, y, s): "sin(alpha(x, y, s))*x + cos(alpha(x, y, s))*y""#;
 
-/// In the basis of the reference position, as it was published but for one sign.
+/// Force in the basis of the reference position, as published, with one sign corrected.
 const PUBLISHED: &str = r#"  radial(r, a, s): "(stretch(r, s) - centripetal(r, s))*cos(a) - tangential(r, s)*sin(a)"
   angular(r, a, s): "stretch(r, s)*sin(a) - centripetal(r, s)*sin(a) + tangential(r, s)*cos(a)"
   cX(x, y, s): "x + 0*y + 0*s"
@@ -112,9 +112,21 @@ fn the_published_force_is_refused() {
     &[("  loads:", "  boundary: {▸left: fixed}\n  loads:")],
     &["the rims of a body of kind `annulus` are free, not `left`"]
 )]
-#[case::a_rim_that_is_loaded(
-    &[("  loads:", "  loads:\n    - pressure: {on: ▸inner, value: 1}")],
-    &["the rims of a body of kind `annulus` are free, `inner` has no load"]
+#[case::a_rim_that_does_not_exist(
+    &[("  loads:", "  loads:\n    - pressure: {on: ▸iner, value: 1}")],
+    &["the body has no rim `iner`", "did you mean `inner`?"]
+)]
+#[case::two_pressures_on_a_rim(
+    &[("  loads:", "  loads:\n    - pressure: {on: inner, value: 1}\n    - pressure: {on: ▸inner, value: 2}")],
+    &["the rim `inner` has a pressure already"]
+)]
+#[case::a_pressure_at_the_particles_of_a_rim(
+    &[("  loads:", "  loads:\n    - pressure: {on: inner, value: 1, at: ▸particles}")],
+    &["a pressure on a rim acts at the surface", "remove `at`"]
+)]
+#[case::a_pressure_that_the_motion_lacks(
+    &[("  loads:", "  loads:\n    - pressure: {on: outer, value: 1}"), ("    - \"cos(alpha(X", "    - ▸\"cos(alpha(X")],
+    &["boundary condition: the outer rim is under pressure, traction in X", "expected ", "Pa (off by "]
 )]
 #[case::a_rim_that_is_pulled(
     &[("  loads:", "  loads:\n    - traction: {on: ▸inner, value: [1, 0]}")],

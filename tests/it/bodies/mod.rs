@@ -1,4 +1,4 @@
-//! Several bodies on one grid: what they share, what they keep, and how they push each other.
+//! Several bodies on one grid: shared velocities, separate states, and contact.
 
 mod viscosity;
 
@@ -10,7 +10,7 @@ use mpm_verify::mpm::{
 use mpm_verify::subject::{Samples, Start, Subject, Totals};
 use rstest::rstest;
 
-/// The methods, in space only those that take little time.
+/// The methods; in 3-D only fast ones.
 fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     let few = |(basis, transfer): &(BasisName, TransferName)| match transfer {
         TransferName::Flip => matches!(basis, BasisName::Linear | BasisName::ContiguousGimp),
@@ -20,14 +20,14 @@ fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     methods().filter(move |method| dimension < 3 || few(method))
 }
 
-/// Those that bodies can have that meet.
+/// Methods that support coupled bodies.
 fn coupled_methods(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     some(dimension).filter(|(_, transfer)| {
         !matches!(transfer.kind(), TransferKind::Series | TransferKind::Cells)
     })
 }
 
-/// The free body, made of what lies between two heights along the first axis.
+/// The part of the free body between two coordinates on the first axis.
 fn part<const D: usize>(
     method: (BasisName, TransferName),
     scheme: SchemeName,
@@ -75,7 +75,7 @@ fn one_body_with_contact_is_its_solver_bit_for_bit(
     in_dimension!(dimension, is_the_solver(scheme, friction));
 }
 
-/// Two bodies that no node sees both of.
+/// Two bodies without common nodes.
 fn do_not_know_each_other<const D: usize>(scheme: SchemeName) {
     for method in coupled_methods(D) {
         let setups = || [[0.6, 1.6], [5.6, 6.4]].map(|ends| part::<D>(method, scheme, ends));
@@ -124,7 +124,7 @@ fn bodies_that_share_one_field_are_one_body(
     in_dimension!(dimension, halves_are_the_whole(scheme, start));
 }
 
-/// Three bodies that run into each other askew, of which the middle one is heavy.
+/// Three bodies in an oblique collision; the middle one is heavy.
 fn crash<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) -> Vec<Setup<D>> {
     let ends = [[1.4, 2.4], [2.7, 3.7], [4.0, 5.0]];
     let speeds = [0.8, 0.0, -0.6];
@@ -141,8 +141,8 @@ fn crash<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) 
     ends.into_iter().zip(speeds).map(body).collect()
 }
 
-/// Whatever two bodies that collide are to each other, one far away that is listed before them is
-/// nothing to them, bit for bit.
+/// A distant body that is listed before two colliding bodies does not change their result, bit for
+/// bit.
 #[rstest]
 fn a_body_far_away_changes_no_contact(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
@@ -191,8 +191,8 @@ fn bodies_that_collide_keep_their_momentum(
     in_dimension!(dimension, momentum_is_kept(scheme));
 }
 
-/// Two layers without ends along X, one on the other, pressed together and sliding: impulses on
-/// the upper one along its surface and across it.
+/// Two periodic layers that are pressed together and slide: impulses on the upper layer along the
+/// interface and normal to it.
 fn pressed(method: (BasisName, TransferName), scheme: SchemeName, friction: f64) -> [f64; 2] {
     let layer = |low: f64, v: Vector<2>| {
         let mut setup = free_body::<2>(method, scheme);
@@ -225,9 +225,9 @@ fn friction_is_a_share_of_the_pressure_and_none_without(
     }
 }
 
-/// Bars of length 1 with rho = c = 1 that run into each other with a velocity v0 each (V14). Until
-/// when they push each other with more than half of rho c v0, and what share of its velocity each
-/// has afterwards. The push is known by the momentum that one of them has.
+/// Bars of length 1 with rho = c = 1 that collide with a velocity v0 each (V14). Returns the end of
+/// the time with a contact force above rho c v0/2, and the share of its velocity that each bar has
+/// afterwards. The force follows from the momentum of one bar.
 fn impact(cells: usize, scheme: SchemeName) -> (f64, f64) {
     let (h, v0) = (1.0 / cells as f64, 1e-3);
     let bar = |from: f64, v: f64| {
@@ -254,10 +254,10 @@ fn impact(cells: usize, scheme: SchemeName) -> (f64, f64) {
     (last, -before / v0)
 }
 
-/// Contact ends when the wave has been to the free ends and back, after 2L/c. In any scheme of
-/// second order the front of that wave is as wide as h^(2/3) once it has gone a long way (Brenner &
-/// Thomee 1971), and so is the error of the contact time: within h/c on grids like these, and
-/// beyond it in the end.
+/// Contact ends when the wave has travelled to the free ends and back, after 2L/c. In any scheme of
+/// second order the width of its front grows like h^(2/3) over a long distance (Brenner & Thomee
+/// 1971), and so does the error of the contact time: within h/c on these grids, but not on much
+/// finer ones.
 #[rstest]
 fn two_bars_part_when_the_wave_is_back(
     #[values(10, 20, 40)] cells: usize,
@@ -267,7 +267,8 @@ fn two_bars_part_when_the_wave_is_back(
     assert!(off.abs() <= 1.0 + 1e-9, "the bars part {off:.2} h/c after 2L/c");
 }
 
-/// They go back as fast as they came, but for what the front leaves behind in oscillations.
+/// The bars rebound with their initial speed, except for the energy of oscillations behind the
+/// front.
 #[rstest]
 fn two_bars_bounce_with_an_error_of_the_order_of_the_front(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,

@@ -1,4 +1,4 @@
-//! Values of options that are not finite, outside of their range, or of another type.
+//! Values of options that are not finite, out of range, or of another type.
 
 use super::{BAD_INPUT, BAR, Folder, refusals};
 

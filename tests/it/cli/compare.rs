@@ -1,4 +1,4 @@
-//! `compare`: what moved between two runs, where it is said, and the exit status.
+//! `compare`: the changes between two runs, its outputs, and the exit status.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, assert_contains};
 use rstest::rstest;
@@ -45,7 +45,7 @@ fn twice_the_particles_are_more_expensive() {
             "worse: 1 more expensive, 1 gone, 2 targets more expensive to reach\n",
             "\nmore expensive\n",
             "  short-bar::mpm-linear-flip-musl  converging ",
-            // Other levels are no reason to say nothing: both series meet.
+            // Other levels do not prevent the comparison: both series have a common range.
             "levels: 4 -> 4, 0 in common\n",
             " x at 1e-7\n",
             "\ngone\n",
@@ -62,7 +62,7 @@ fn markdown_is_a_comment() {
     assert_contains(&found.out, &["\n<details><summary>1 gone</summary>\n"]);
 }
 
-/// The bar with an error of another size, as a solver that got worse has it.
+/// The bar with a larger error, as from a worse solver.
 fn a_worse_run() -> Folder {
     let folder = runs_of(BAR);
     let text = folder.read("new.json");
@@ -72,8 +72,8 @@ fn a_worse_run() -> Folder {
     folder
 }
 
-/// The steps of the action that compare and comment, with a `gh` that has the reports of the last run
-/// and keeps the comment.
+/// The steps of the CI action that compare and comment, with a mock `gh` that returns the reports
+/// of the last run and stores the comment.
 #[cfg(unix)]
 #[test]
 fn the_workflow_comments_what_moved() {

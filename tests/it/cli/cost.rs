@@ -1,5 +1,5 @@
-//! `cost`: what accuracy costs on this machine. Seconds differ from run to run; what is asked here
-//! is what does not.
+//! `cost`: the cost of accuracy on this machine. Seconds differ from run to run; the tests only
+//! check what does not.
 
 use super::{BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
 use serde_json::Value;
@@ -31,8 +31,8 @@ fn the_report_has_levels_a_model_and_both_rankings() {
         ],
     );
     let rows = |name: &str| out.lines().filter(|line| line.contains(name)).count();
-    // Four levels, a model, and two rows in each of two rankings; beside other tests a finer level can
-    // take less time than a coarser one, and then seconds have no exponent.
+    // Four levels, a model, and two rows in each of two rankings. If other tests run at the same
+    // time, a finer level can take less time than a coarser one: then seconds have no exponent.
     assert!((8..=9).contains(&rows("mpm-linear-flip-musl")), "{out}");
 }
 
@@ -62,7 +62,7 @@ fn every_level_has_its_seconds_and_its_work() {
     assert_eq!(works, ["seconds", "transfers"]);
 }
 
-/// With steps of twice its limit a method breaks; its levels are rows.
+/// With steps of twice its limit a method fails; its levels are still rows.
 #[test]
 fn what_breaks_is_a_row() {
     let folder = Folder::with(
@@ -91,7 +91,7 @@ fn a_budget_is_answered_with_a_setting_and_what_came_of_it() {
     let [low, high] = ["low", "high"].map(|end| best["error"][end].as_f64().expect("an end"));
     assert!(low < errors[0] && errors[0] < high && high < 4.0 * low, "{best}");
     assert!(low < errors[1] && errors[1] < high, "{best}");
-    // Four levels of which the finest has 12 cells take a fraction of this.
+    // Four levels with up to 12 cells take a fraction of this.
     assert!(best["cells"].as_u64() > Some(12) && best["beyond"] == true, "{best}");
     assert_eq!(best["failure"], Value::Null);
     let text = folder.call(&["cost", "bar.yaml", "--budget", "30ms"]).out;

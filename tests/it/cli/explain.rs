@@ -1,4 +1,4 @@
-//! `explain`: the problem, its source, and what is expected and why.
+//! `explain`: the problem, its source, and the expectations with their reasons.
 
 use super::{BAR, Folder, SOUND, assert_contains, refusals};
 use rstest::rstest;
@@ -110,8 +110,8 @@ fn what_a_mechanician_looks_for_comes_first() {
     assert!(none.code != SOUND && none.errors.contains("has no scene to draw"));
 }
 
-/// What the picture of a scene must show: rims with holes, materials, symbols of faces, directions of
-/// loads, and the rest in words.
+/// The picture of a scene shows rims with holes, materials, symbols of faces, directions of loads,
+/// and the rest as text.
 #[rstest]
 #[case::a_hole("expanding-ring", &["fill-rule=\"evenodd\"", "annulus about (0, 0)"], 2)]
 #[case::two_materials("bar-of-two-materials", &["#d55e00", ">body 2<", ">contact<"], 2)]

@@ -1,4 +1,4 @@
-//! Suites that expect nothing: what a run says, and the expectations that it would support.
+//! Suites without expectations: the output of a run, and the expectations that it would support.
 
 use super::{BAD_INPUT, BAR, Folder, SOUND, assert_contains};
 use serde_json::Value;
@@ -90,7 +90,7 @@ fn expectations_that_a_suite_has_do_not_bend_what_is_proposed() {
     assert_eq!(proposals[0], proposals[1]);
 }
 
-/// What a smaller motion would gain is said beside what a run gives.
+/// A proposal states the gain of a smaller amplitude in addition to the results of the run.
 #[test]
 fn a_proposal_says_what_the_amplitude_leaves() {
     let folder = Folder::with("large.yaml", STEPS.replace("1e-3*", "0.1*"));

@@ -1,4 +1,4 @@
-//! Files meant to do harm, or that would by accident: refused at once, in words.
+//! Malicious files, and files that are harmful by accident, are refused immediately with a message.
 
 use super::{BAD_INPUT, Folder, assert_contains};
 use rstest::rstest;
@@ -32,7 +32,7 @@ fn a_file_that_is_not_there() {
     refused(&Folder::new(), &["run", "missing.yaml"], &words);
 }
 
-/// Exit status 2, words on standard error, nothing on standard output, and no delay.
+/// Exit status 2, a message on standard error, nothing on standard output, and no delay.
 fn refused(folder: &Folder, arguments: &[&str], words: &[&str]) {
     let start = Instant::now();
     let found = folder.call(arguments);

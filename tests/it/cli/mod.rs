@@ -1,4 +1,4 @@
-//! The command line as its user meets it: what is printed where, and with which exit status.
+//! The command line: outputs, and exit status.
 
 mod arguments;
 mod check;
@@ -23,7 +23,7 @@ mod time_series;
 pub(crate) use crate::common::folder::{Folder, assert_contains};
 use rstest::rstest;
 
-/// Exit status of a run on which everything came as expected.
+/// Exit status of a run with expected results only.
 pub(crate) const SOUND: i32 = 0;
 
 /// Exit status if some expectation was not met.
@@ -88,7 +88,7 @@ fn ambitious() -> String {
     BAR.replace("short-bar", "ambitious-bar").replace("[1.7, 2.3]", "[2.9, 3.1]")
 }
 
-/// [`BAR`] with a mistake in its ninth line.
+/// [`BAR`] with a mistake in line nine.
 fn mistaken() -> String {
     BAR.replace("short-bar", "mistaken-bar").replace("dimension:", "dimensions:")
 }

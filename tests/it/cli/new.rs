@@ -1,4 +1,4 @@
-//! `new`: suites that run as they are written.
+//! `new`: suites that run without changes.
 
 use super::{Folder, SOUND, assert_contains, refusals};
 use mpm_verify::mpm::{BasisName, SchemeName, TransferName};
@@ -69,7 +69,7 @@ fn a_truth_that_the_material_does_not_have_is_refused() {
     assert!(folder.files(".").is_empty());
 }
 
-/// Whatever is offered makes a suite, or is refused as the pair that it is.
+/// Every offered choice gives a suite, or is refused as an invalid pair.
 #[test]
 fn every_choice_that_is_offered_makes_a_suite() {
     let bases = BasisName::ALL.iter().map(|basis| ("--basis", basis.name()));

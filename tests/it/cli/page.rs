@@ -65,7 +65,7 @@ fn a_page_says_what_is_not_as_expected() {
     assert!(folder.read("page.html").contains("1 file could not be used."));
 }
 
-/// Suites that are left out leave no file to another one.
+/// Skipped suites do not shift the files of other suites.
 #[test]
 fn a_page_of_chosen_cases_has_the_files_of_their_suites() {
     let folder = Folder::with(

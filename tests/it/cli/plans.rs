@@ -1,9 +1,9 @@
-//! Refinement plans: which spacing is judged, where a floor comes from, and what `--full` adds.
+//! Refinement plans: the judged spacing, the cause of a floor, and the effect of `--full`.
 
 use super::{BAR, FAILED, Folder, SOUND, assert_contains};
 use serde_json::Value;
 
-/// The bar with another plan and another time step; nothing is expected of the orders here.
+/// The bar with another plan and another time step, without expected orders.
 fn bar(run: &str, refine: &str, expect: &str) -> String {
     let text = BAR
         .replace("run: {until: 0.05, dt: 1e-3}", run)
@@ -29,8 +29,8 @@ fn column(case: &Value, key: &str) -> Vec<f64> {
     levels.iter().map(|level| level[key].as_f64().expect("a number")).collect()
 }
 
-/// A run takes a whole number of steps: 7e-4 s becomes a 71st of the run. The judge must see what was
-/// taken.
+/// A run has a whole number of steps: a step of 7e-4 s becomes 1/71 of the run. The judge must use
+/// the actual step.
 #[test]
 fn refined_time_steps_are_the_ones_that_are_taken() {
     let text =
@@ -62,8 +62,8 @@ fn cells_and_time_steps_go_together_level_by_level() {
     assert_eq!(column(&case, "steps")[..2], [50.0, 100.0]);
 }
 
-/// Four cells leave an error that no time step removes: the judge sees a floor, the probe tells
-/// whose.
+/// Four cells leave an error that no time step removes: the verdict is a floor, and the probe finds
+/// its cause.
 #[test]
 fn the_axis_that_was_not_refined_is_named() {
     let refine = "refine: {dt: [1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5], cells: 4, ppc: 4}";
@@ -116,7 +116,7 @@ fn reports_speak_of_the_axis_that_is_refined() {
         &flat,
         &[
             "cells 8 on every level;",
-            "dt 0.001, 0.0005, 0.00025 s, to a whole number of steps;",
+            "dt 0.001, 0.0005, 0.00025 s, adjusted to a whole number of steps;",
             "--full adds dt = 0.000125 s",
             "levels dt = 1.000e-03, 5.000e-04, 2.500e-04 s; 8 cells;",
             "dt 1.000e-03 5.000e-04 2.500e-04",

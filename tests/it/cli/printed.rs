@@ -1,11 +1,11 @@
-//! What a run prints of itself, how much, in which colours, and what happens if it cannot.
+//! Output of a run: its extent, its colours, and errors of writing.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
 use rstest::rstest;
 use std::io::Write;
 use std::process::Stdio;
 
-/// Six suites, so many that not every report is printed; the last expects too much.
+/// Six suites, so that not every report is printed; the last has an expectation that fails.
 fn six() -> Folder {
     let folder = Folder::new();
     for number in 1..6 {
@@ -124,7 +124,7 @@ fn standard_input_has_a_name_and_a_limit() {
     let folder = Folder::new();
     let (code, _, errors) = fed(&folder, &["check", "-"], &super::mistaken());
     assert!(code == Some(BAD_INPUT) && errors.contains("<stdin>:9:3"), "{errors}");
-    // Short enough for a pipe that nobody reads to its end.
+    // Short enough for a pipe whose reader stops early.
     let (code, _, errors) = fed(&folder, &["check", "-"], &"a".repeat(65 * 1024));
     assert!(code == Some(BAD_INPUT) && errors.contains("too large"), "{errors}");
 }

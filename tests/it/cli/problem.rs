@@ -27,7 +27,7 @@ fn a_level_is_a_table_of_its_particles() {
     assert!((v[0] - 1e-3 * libm::sin(std::f64::consts::FRAC_PI_2 * x[0])).abs() < 1e-18);
     assert!(column(&table, "mass").iter().all(|mass| *mass == 0.0625));
     assert!(column(&table, "deformation_gradient_xx").iter().all(|f| *f == 1.0));
-    // The finest level, where none is named.
+    // The finest level by default.
     assert_eq!(problem(&[]).lines().count(), 1 + 48);
 }
 

@@ -1,4 +1,4 @@
-//! `run`: reports, verdicts, files, and the exit status that a machine looks at.
+//! `run`: reports, verdicts, files, and the exit status for scripts.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, assert_contains, mistaken};
 use std::io::{BufRead, BufReader, Read};
@@ -156,7 +156,7 @@ fn two_suites_of_one_name_cannot_write_into_one_folder() {
 
 #[test]
 fn a_reader_that_goes_away_is_no_reason_to_panic() {
-    // So many suites that most of them have yet to be printed when the reader goes.
+    // Enough suites that most remain to be printed when the reader closes the pipe.
     let folder = Folder::new();
     for number in 0..40 {
         let suite = BAR.replace("short-bar", &format!("bar-{number}"));
@@ -187,8 +187,8 @@ fn a_reader_that_never_came_is_no_reason_either() {
     assert!(folder.path().is_dir());
 }
 
-/// The first two levels are there, one of them torn; the text, the JSON and the figures are the
-/// same as without. A folder that is none is bad input.
+/// The first two levels are stored, one of them truncated; text, JSON and figures equal those of an
+/// uninterrupted run. A path that is not a folder is bad input.
 #[test]
 fn a_resumed_run_prints_the_same_bytes() {
     let folder = Folder::with("bar.yaml", BAR);

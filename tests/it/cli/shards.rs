@@ -12,7 +12,7 @@ fn suites() -> Folder {
     folder
 }
 
-/// Runs every part, each with a folder of its own.
+/// Runs every part, each with its own folder.
 fn in_parts(folder: &Folder, count: usize) -> Vec<String> {
     let parts = (1..=count).map(|number| {
         let (shard, kept) = (format!("{number}/{count}"), format!("part-{number}"));

@@ -1,4 +1,4 @@
-//! Time steps by rule, and the warning of a step that is too long for any.
+//! Automatic time steps, and the warning of a step that is too long.
 
 use super::{BAR, FAILED, Folder, SOUND, assert_contains};
 use serde_json::Value;
@@ -34,7 +34,7 @@ fn warnings(errors: &str) -> Vec<&str> {
     errors.lines().filter(|line| line.starts_with("warning: ")).collect()
 }
 
-/// A suite that expects what comes of such steps is not warned of them.
+/// A suite with an expectation about such steps gives no warning.
 #[test]
 fn steps_that_are_too_long_warn_where_what_was_expected_did_not_come() {
     let text = bar("dt: 0.02, instants: 1").replace("until: 0.05", "until: 20");

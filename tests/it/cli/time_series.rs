@@ -32,7 +32,7 @@ fn last(series: &str) -> (Vec<Vec<u8>>, f64) {
     (lines.iter().filter(|line| time(line) == end).map(read).collect(), end)
 }
 
-/// What a reader sees there is what was judged.
+/// The written errors are those that were judged.
 #[test]
 fn the_errors_of_the_particles_are_those_of_the_report() {
     let folder = Folder::with("bar.yaml", BAR);
@@ -77,7 +77,7 @@ fn what_did_not_come_as_expected_is_shown_and_no_more() {
     assert_eq!((files.len(), numbers(&files[0], "error of velocity").len() % 12), (1, 0));
 }
 
-/// The state at a failure is the last one, whatever it is; on the level that broke.
+/// The last frame is the state at the failure, on the level that failed.
 #[test]
 fn a_run_that_breaks_is_shown_up_to_there() {
     let folder = Folder::new();
@@ -111,7 +111,7 @@ fn a_folder_that_cannot_be_written_is_told_before_anything_runs() {
     assert!(errors.starts_with("error: --vtu "), "{errors}");
 }
 
-/// Two dimensions: vectors get a third component, tensors nine in all.
+/// In 2-D vectors are extended to three components, and tensors to nine.
 #[test]
 fn a_problem_has_a_vertex_for_each_particle() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! Effects of every kind, from the examples by which their words enrol them.
+//! Effects of every kind, built from the examples with which their keys register them.
 
 use super::H;
 use mpm_verify::mpm::{BasisName, Setup};
@@ -6,8 +6,8 @@ use mpm_verify::study;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{EffectName, Suite};
 
-/// Adds the example of an effect, as strong as `size`, to a body of [`free_body`](super::free_body)
-/// with `basis`, after those that it needs: with 0 it changes nothing.
+/// Adds the example of an effect with strength `size` to a body of [`free_body`](super::free_body)
+/// with `basis`, after the effects that it requires. With strength 0 it changes nothing.
 pub(crate) fn add<const D: usize>(
     name: EffectName,
     setup: &mut Setup<D>,
@@ -20,7 +20,7 @@ pub(crate) fn add<const D: usize>(
     setup.effects.extend(made);
 }
 
-/// A suite of the free body with the example of an effect, and of those that it needs.
+/// A suite of the free body with the example of an effect, and of those that it requires.
 fn suite(name: EffectName, dimension: usize, size: f64) -> String {
     let corner = |cells: f64| format!("{:?}", vec![cells * H; dimension]);
     let (from, to) = (corner(2.03), corner(5.03));

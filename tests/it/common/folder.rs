@@ -1,11 +1,11 @@
-//! A folder of its own for each test, and the program run in it.
+//! A temporary folder for each test, and the program run in it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// A new, empty folder that goes when the test ends.
+/// A new, empty folder that is deleted at the end of the test.
 pub(crate) struct Folder(PathBuf);
 
 /// Printed text of a call, and its exit status.
@@ -53,7 +53,7 @@ impl Folder {
         names
     }
 
-    /// The program with these arguments, about to be run in this folder.
+    /// The program with these arguments, with this folder as working directory.
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_mpm-verify"));
         command.args(arguments).current_dir(&self.0).stdin(Stdio::null());

@@ -1,4 +1,4 @@
-//! A run that is interrupted and goes on, held to one that is not.
+//! Comparison of resumed runs with uninterrupted runs.
 
 use mpm_verify::subject::{Checkpoint, Memory, Samples, Subject};
 
@@ -18,7 +18,7 @@ fn state(subject: &mut impl Subject) -> Vec<u8> {
     checkpoint.into_bytes()
 }
 
-/// All that is seen of a subject, bit by bit.
+/// All observable state of a subject, as bits.
 fn seen(subject: &mut impl Subject) -> (Vec<u8>, Vec<u8>, Vec<u8>, String) {
     let mut samples = Samples::default();
     subject.sample(&mut samples);
@@ -26,8 +26,8 @@ fn seen(subject: &mut impl Subject) -> (Vec<u8>, Vec<u8>, Vec<u8>, String) {
     (state(subject), written(&mut samples), written(&mut totals), counters)
 }
 
-/// A subject that takes its steps without a break, and one that is made anew for the rest of them,
-/// end alike, also if a step fails. Returns whether none did.
+/// Asserts that an uninterrupted run, and one that is resumed by a new subject, end in the same
+/// state, also if a step fails. Returns whether no step failed.
 pub(crate) fn goes_on<S: Subject>(make: impl Fn() -> S, dt: f64, what: &str) -> bool {
     let step = |subject: &mut S, steps| (0..steps).try_for_each(|_| subject.step(dt));
     let mut whole = make();

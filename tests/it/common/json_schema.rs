@@ -3,11 +3,11 @@
 
 use serde_json::{Map, Value};
 
-/// Keywords that refuse nothing.
+/// Keywords without constraints.
 const NOTES: [&str; 7] =
     ["$schema", "title", "description", "default", "definitions", "$defs", "format"];
 
-/// A schema that values can be held against.
+/// A schema for the validation of values.
 pub(crate) struct JsonSchema(Value);
 
 impl JsonSchema {

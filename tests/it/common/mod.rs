@@ -9,7 +9,7 @@ pub(crate) mod vtk;
 
 use mpm_verify::mpm::{
     BasisName, Block, FrameName, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup,
-    TransferName, Vector, combine, kernel, mass_matrix, transfer,
+    TransferName, Vector, VolumeName, combine, kernel, mass_matrix, transfer,
 };
 use mpm_verify::subject::Start;
 
@@ -33,8 +33,8 @@ macro_rules! in_dimension {
 }
 pub(crate) use in_dimension;
 
-/// Every basis with FLIP and with APIC, every transfer with quadratic B-splines: what whole runs
-/// can afford of [`pairs`].
+/// Every basis with FLIP and with APIC, and every transfer with quadratic B-splines: the subset of
+/// [`pairs`] for whole runs.
 pub(crate) fn methods() -> impl Iterator<Item = (BasisName, TransferName)> {
     pairs().filter(|(basis, transfer)| {
         matches!(transfer, TransferName::Flip | TransferName::Apic)
@@ -42,7 +42,7 @@ pub(crate) fn methods() -> impl Iterator<Item = (BasisName, TransferName)> {
     })
 }
 
-/// Every registered pair of basis and transfer that goes together.
+/// Every valid registered pair of basis and transfer.
 pub(crate) fn pairs() -> impl Iterator<Item = (BasisName, TransferName)> {
     let with_every_transfer = |&basis| TransferName::ALL.iter().map(move |&t| (basis, t));
     let together = |(basis, transfer): &(BasisName, TransferName)| {
@@ -84,6 +84,7 @@ pub(crate) fn body<const D: usize>(
         transfer: transfer(name),
         mass: mass_matrix(MassName::Lumped),
         frame: FrameName::Updated,
+        volume: VolumeName::Particle,
         material: Box::new(LinearElastic::new(1.0, 0.3)),
         effects: Vec::new(),
         boundary: Vec::new(),

@@ -1,7 +1,7 @@
-//! Angular momentum, of a body that nothing holds (Jiang et al. 2015; problem V10).
+//! Angular momentum of a free body (Jiang et al. 2015; problem V10).
 //!
-//! A particle's share is `m x cross v`, and with an affine field the antisymmetric part of
-//! `m C D` besides.
+//! The share of a particle is `m x cross v`, plus the antisymmetric part of `m C D` with an affine
+//! field.
 
 use crate::common::{H, body, pairs};
 use mpm_verify::mpm::{
@@ -16,7 +16,7 @@ const CELLS: usize = 12;
 const STEPS: usize = 60;
 const DT: f64 = 0.01;
 
-/// A square or cube that turns about its centre at one radian per second.
+/// A square or cube that rotates about its centre at one radian per second.
 fn turning<const D: usize>() -> Particles<D> {
     let side = H * CELLS as f64;
     let centre = Vector::<D>::from_fn(|axis, _| 0.5 * side + 0.01 * axis as f64);

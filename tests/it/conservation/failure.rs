@@ -1,4 +1,4 @@
-//! A step that cannot go on says what broke and which particle, and never panics.
+//! A step that fails names the quantity and the particle, and never panics.
 
 use crate::common::{DT, body, free_body, in_dimension, methods};
 use mpm_verify::mpm::{
@@ -107,7 +107,7 @@ fn an_inverted_particle_is_named(#[values(1, 2, 3)] dimension: usize) {
 
 type Spoil<const D: usize> = fn(&mut Particles<D>);
 
-/// The culprit has neighbours that see the same nodes, and would be found first.
+/// The failing particle has neighbours with common nodes, which would otherwise be found first.
 fn the_culprit_is_named<const D: usize>() {
     let columns: [(&str, Spoil<D>); 5] = [
         ("deformation gradient", |particles| {
@@ -135,7 +135,7 @@ fn a_state_that_is_no_number_is_traced_to_its_particle(#[values(1, 2, 3)] dimens
     in_dimension!(dimension, the_culprit_is_named());
 }
 
-/// Only those that follow the deformation read it; they have no gradient there.
+/// Only domains that follow the deformation read it; their gradient is undefined there.
 fn a_collapsed_domain_ends_the_run<const D: usize>() {
     for basis in [BasisName::ContiguousGimp, BasisName::Cpdi] {
         for &scheme in SchemeName::ALL {

@@ -1,6 +1,6 @@
-//! Particles as no one would set them up: every method, scheme and material meets every extreme
-//! state in one, two and three dimensions. A step goes on with numbers only, or says which
-//! particle it cannot go on with; it never panics, and never keeps a NaN to itself.
+//! Invalid states of particles: every method, scheme and material meets every extreme state in one,
+//! two and three dimensions. A step ends with finite numbers, or names the particle of the failure;
+//! it never panics, and never hides a NaN.
 
 #[path = "../fuzz_input/scene.rs"]
 mod scene;
@@ -73,7 +73,7 @@ fn extremes<const D: usize>() -> Vec<(&'static str, Spoil<D>)> {
     ]
 }
 
-/// A particle of which one number is none, by the name of the column.
+/// Particles with one invalid number, each with the name of its column.
 fn torn<const D: usize>(value: f64) -> Vec<(&'static str, Particles<D>)> {
     let mut bodies = vec![body::<D>(); 8];
     bodies[0].x[1][D - 1] = value;
@@ -105,7 +105,7 @@ fn meets_every_extreme<const D: usize>() {
             for material in materials() {
                 for (what, spoil) in extremes::<D>() {
                     turn += 1;
-                    // Without a factor in common with the periods of what is chosen by turns.
+                    // A stride without common factor with the periods of the choices.
                     if turn % [1, 7, 13, 61][D] != 0 {
                         continue;
                     }
@@ -127,7 +127,7 @@ fn no_extreme_makes_a_panic_or_a_silent_nan(#[values(1, 2, 3)] dimension: usize)
     in_dimension!(dimension, meets_every_extreme());
 }
 
-/// The culprit is named before it has spread to those that see the same nodes.
+/// The failing particle is named before the failure spreads through common nodes.
 fn names_the_culprit<const D: usize>(value: f64) {
     let start = Start::AtZero;
     for method in every_method() {
@@ -158,7 +158,7 @@ fn a_field_that_is_no_number_is_named(
     in_dimension!(dimension, names_the_culprit(value));
 }
 
-/// A body in which one particle is whatever the numbers say.
+/// A body in which the numbers set the state of one particle.
 fn survives<const D: usize>(scene: &Scene, numbers: &[f64]) {
     let mut particles = body::<D>();
     let mut numbers = numbers.iter().copied();
@@ -176,7 +176,8 @@ fn survives<const D: usize>(scene: &Scene, numbers: &[f64]) {
     scene.holds("numbers", particles);
 }
 
-/// Numbers of which some are as they should be (NaN stands for that), some near, some far.
+/// Numbers for a column: some are replaced by the right number (NaN), some are moderate, some
+/// extreme.
 fn number() -> impl Strategy<Value = f64> {
     prop_oneof![
         6 => Just(f64::NAN),

@@ -11,15 +11,14 @@ mod walls;
 use crate::common::{methods, pairs};
 use mpm_verify::mpm::{BasisName, TransferName};
 
-/// Taylor least squares keeps the momentum of every cell in P2G, but its nodal masses are not those
-/// that G2P would need to give the change of momentum back: the only transfer that claims less.
+/// Taylor least squares conserves the momentum of every cell in P2G, but its nodal masses are not
+/// those with which G2P would return the change of momentum: the only transfer with a weaker claim.
 fn conservative(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     some(dimension).filter(|(_, transfer)| *transfer != TransferName::Tls)
 }
 
-/// The methods in one and two dimensions; in space, where a run costs ten times as much, every
-/// basis with FLIP and every transfer with linear functions or, where that means nothing, with
-/// GIMP.
+/// The methods in 1-D and 2-D. In 3-D, where a run costs ten times as much, every basis with FLIP
+/// and every transfer with linear functions or, if this is invalid, with GIMP.
 fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     let in_space = |(basis, transfer): &(BasisName, TransferName)| match transfer {
         TransferName::Flip => true,

@@ -1,4 +1,4 @@
-//! Whole steps of a body that nothing holds.
+//! Whole steps of a free body.
 
 use super::{conservative, some};
 use crate::common::{DT, body, free_body, in_dimension};
@@ -16,7 +16,7 @@ fn momentum<const D: usize>(particles: &Particles<D>) -> Vector<D> {
     particles.v.iter().zip(&particles.mass).map(|(v, m)| v * *m).sum()
 }
 
-/// Sum of |m v|: what round-off in the momentum is measured by.
+/// Sum of |m v|, the scale of round-off in the momentum.
 fn size<const D: usize>(particles: &Particles<D>) -> f64 {
     particles.v.iter().zip(&particles.mass).map(|(v, m)| v.norm() * m).sum()
 }
@@ -46,7 +46,7 @@ fn a_free_body_keeps_its_linear_momentum(
 }
 
 /// The node ahead of a body whose last particle lies exactly on a node has no mass: with linear
-/// functions it takes a force V sigma/h from the particle, which is lost, and has no velocity, which
+/// functions it takes a force V sigma/h from the particle, which is lost, and its zero velocity
 /// strains the particle by v dt/h.
 #[rstest]
 fn linear_functions_know_no_body_that_ends_on_a_node(

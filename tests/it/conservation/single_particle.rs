@@ -75,9 +75,9 @@ fn apic(scheme: SchemeName, xi: f64, sigma: f64, courant: f64, steps: usize) -> 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
 
-    /// The affine field remembers what the force has done. With `s = C^2 / (xi (1 - xi))` and g the
+    /// The affine field stores the effect of the force. With `s = C^2 / (xi (1 - xi))` and g the
     /// velocity gradient times dt, over E: USL and MUSL `g <- g - s sigma`, `sigma <- sigma + g`;
-    /// USF the same in the other order. Leapfrogs, in a frame that does not move (sigma is tiny).
+    /// USF in the opposite order. These are leapfrogs, in a fixed frame (sigma is tiny).
     #[test]
     fn apic_follows_the_recursion_of_an_oscillator(
         xi in 0.05..0.95_f64,
@@ -103,7 +103,8 @@ proptest! {
         }
     }
 
-    /// PIC forgets what FLIP keeps, and a lone particle has nothing to keep: the same factors.
+    /// PIC and FLIP differ by the velocity relative to the grid, which a single particle does not
+    /// have: the factors are equal.
     #[test]
     fn pic_has_the_factors_of_flip(xi in 0.02..0.98_f64, courant in 0.01..1.5_f64) {
         let dt = courant * H / libm::sqrt(YOUNG / DENSITY);
@@ -119,9 +120,9 @@ proptest! {
     }
 }
 
-/// The share of `sigma` and of the velocity gradient that one step of an affine transfer leaves:
-/// the eigenvalues of the oscillator in `(sigma, C)` lie on the unit circle up to
-/// `C = 2 sqrt(xi (1 - xi))`, and one leaves it beyond.
+/// The factor of `sigma` and of the velocity gradient in one step of an affine transfer: the
+/// eigenvalues of the oscillator in `(sigma, C)` are on the unit circle up to `C = 2 sqrt(xi (1 -
+/// xi))`; beyond this limit one leaves it.
 #[test]
 fn apic_is_an_oscillator_up_to_its_courant_limit() {
     for xi in [0.1, 0.25, 0.5, 0.9] {
@@ -140,7 +141,7 @@ fn apic_is_an_oscillator_up_to_its_courant_limit() {
     }
 }
 
-/// One step of APIC from rest: `a = -sigma V grad N / m`, and the strain it makes is that of USL.
+/// One step of APIC from rest: `a = -sigma V grad N / m`, and its strain is that of USL.
 #[test]
 fn apic_and_flip_make_the_same_first_step() {
     for scheme in [SchemeName::Usl, SchemeName::Usf] {

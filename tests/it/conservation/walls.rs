@@ -1,4 +1,4 @@
-//! Bodies between walls, and on axes that have none.
+//! Bodies between walls, and on periodic axes.
 
 use super::{conservative, some};
 use crate::common::{DT, H, free_body, in_dimension};
@@ -62,7 +62,7 @@ fn a_periodic_body_keeps_mass_and_momentum(
     in_dimension!(dimension, nothing_is_lost_around_the_corner(scheme, start));
 }
 
-/// The walls take momentum along their normal, and none along themselves.
+/// The walls change the momentum along their normal, but not along themselves.
 fn slides<const D: usize>(scheme: SchemeName) {
     for method in conservative(D) {
         let mut setup = full::<D>(method, scheme, true);
@@ -145,8 +145,8 @@ fn a_layer_between_driven_walls_follows_them_in_every_scheme(
     in_dimension!(dimension, follows(scheme, start));
 }
 
-/// Gravity moves what is between the walls just as the walls move: nothing is strained, if the
-/// walls have the velocity of the right time.
+/// Gravity accelerates the body between the walls like the walls themselves: there is no strain if
+/// the velocity of the walls is that of the right time.
 fn falls_with_its_walls<const D: usize>(scheme: SchemeName) {
     let g = Vector::<D>::from_fn(|i, _| if i == D - 1 { 0.0 } else { 2.0 });
     for method in some(D) {
@@ -194,7 +194,8 @@ fn a_fixed_wall_holds_the_corner_of_a_driven_one() {
     assert!((solver.grid().velocity[next] - expected).norm() <= 1e-14);
 }
 
-/// The particles of a set go where they are driven, whatever the rest of the body does.
+/// The particles of a driven set follow the prescribed motion, for any motion of the rest of the
+/// body.
 fn set_follows<const D: usize>(scheme: SchemeName, start: Start) {
     for method in some(D) {
         let mut setup = Setup { start, ..free_body::<D>(method, scheme) };

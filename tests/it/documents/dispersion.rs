@@ -111,7 +111,7 @@ fn with(page: &str, name: &str, table: &str) -> String {
     format!("{before}{begin}{table}\n<!-- end -->{after}")
 }
 
-/// The page as it is, and as it should be.
+/// The present page, and the generated page.
 fn page() -> (String, String) {
     let page = std::fs::read_to_string(path()).expect(PAGE);
     let tables = [

@@ -1,5 +1,5 @@
-//! The figures of documents, drawn again where that is quick: `ci/check` compares the others with those
-//! of its run of all suites.
+//! Checks the figures of documents that are quick to draw; `ci/check` compares the others with
+//! those of its run of all suites.
 
 use super::whole_suites;
 use crate::common::folder::Folder;

@@ -9,13 +9,13 @@ use std::path::Path;
 
 const PAGE: &str = "docs/methods.md";
 
-/// Parts of a method that a table has a column for each name of.
+/// Parts of a method with one table each, which has a column for each name.
 const PARTS: [&str; 2] = ["basis", "transfer"];
 
-/// Fewest bases of a suite that has a row of its own.
+/// Minimum number of bases of a suite with its own row.
 const FEWEST: usize = 3;
 
-/// A case that is asked for a verdict.
+/// A case with an expected verdict.
 struct Asked {
     folder: String,
     suite: String,
@@ -63,7 +63,7 @@ fn head(first: &str, names: &BTreeSet<&str>) -> String {
     format!("\n| {first} | {} |\n|---|{}\n", names.join(" | "), "---|".repeat(names.len()))
 }
 
-/// What suites of several bases expect of each, in the order of their folders.
+/// Table of the expectations of suites with several bases, in the order of folders.
 fn outcomes(asked: &[Asked]) -> String {
     let mut cells: BTreeMap<(&str, &str), BTreeMap<&str, BTreeSet<&str>>> = BTreeMap::new();
     for case in asked {
@@ -107,7 +107,7 @@ fn table(part: &str, asked: &[Asked]) -> String {
     table
 }
 
-/// The page with a table made anew.
+/// The page with its table `of` replaced.
 fn with(page: &str, of: &str, table: &str) -> String {
     let begin = format!("<!-- methods by {of} -->\n");
     let (before, rest) = page.split_once(&begin).expect("a place for the table");
@@ -115,7 +115,7 @@ fn with(page: &str, of: &str, table: &str) -> String {
     format!("{before}{begin}{table}\n<!-- end -->{after}")
 }
 
-/// The page as it is, and as it should be.
+/// The present page, and the generated page.
 fn page() -> (String, String) {
     let (page, asked) = (std::fs::read_to_string(root().join(PAGE)).expect(PAGE), asked());
     let anew = PARTS.iter().fold(with(&page, "suite", &outcomes(&asked)), |page, part| {

@@ -1,5 +1,5 @@
-//! The documents, held to the program: it understands the command lines that they show, and loads
-//! the suites. (`tests/architecture` holds their paths, names and JSON to the repository.)
+//! Checks of the documents against the program: it parses the command lines, and loads the suites.
+//! (`tests/architecture` checks paths, names and JSON.)
 
 mod dispersion;
 mod figures;
@@ -26,7 +26,7 @@ fn documents() -> Vec<Document> {
     documents
 }
 
-/// Adds the documents below a folder, but for what is built.
+/// Adds the documents below a folder, except build output.
 fn read(root: &Path, folder: &Path, documents: &mut Vec<Document>) {
     for entry in fs::read_dir(folder).expect("a folder of documents") {
         let path = entry.expect("an entry").path();
@@ -41,8 +41,7 @@ fn read(root: &Path, folder: &Path, documents: &mut Vec<Document>) {
     }
 }
 
-/// The arguments that a line gives to the program, as far as the shell would pass them on. Single
-/// quotes hold words together.
+/// The arguments of the program in a line, up to the end of the command. Single quotes group words.
 fn arguments(line: &str) -> Option<Vec<&str>> {
     let call = line.split(['#', '>', '|']).next().unwrap_or_default();
     let mut is_quoted = false;
@@ -61,8 +60,8 @@ fn arguments(line: &str) -> Option<Vec<&str>> {
     Some(words.collect())
 }
 
-/// The program parses a line's arguments in order, so that `--help` behind them is reached only if
-/// each of them is understood; then nothing is run. The help is that of the subcommand.
+/// The program parses the arguments of a line in order, so that `--help` at the end is reached only
+/// if all other arguments are valid; then nothing runs. The help is that of the subcommand.
 fn understood(arguments: &[&str]) -> Result<(), String> {
     let program = Command::new(env!("CARGO_BIN_EXE_mpm-verify"))
         .args(arguments)

@@ -1,5 +1,5 @@
-//! The tour, taken: each block of commands is run, in order and in one folder, and must say what the
-//! block of text behind it shows.
+//! Runs the tour: each block of commands runs, in order and in one folder, and must print the text
+//! of the next block.
 
 use super::markdown::Document;
 use crate::common::folder::Folder;

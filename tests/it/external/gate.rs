@@ -57,7 +57,7 @@ fn gate(folder: &Folder, targets: &[&str], options: &[&str]) -> Answer {
     folder.call(&[&start[..], options, targets].concat())
 }
 
-/// Without `methods` of its own that could be judged, the bar names a solver and expects nothing.
+/// The bar with a named solver, without other methods and without expectation.
 fn naming_the_solver() -> String {
     let text =
         bar().replace("  - fem: {element: linear, mass: lumped}", "  - external: {name: odd}");
@@ -188,7 +188,7 @@ fn a_named_suite_that_is_not_applicable_fails_unless_allowed() {
     folder.write("foreign.yaml", foreign.replace("small_strain", "hencky\n  tolerance: 1e-2"));
     let found = gate(&folder, &["bar.yaml", "foreign.yaml"], &[]);
     assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
-    // What is lacking stands in the line of the case.
+    // The line of the case names the missing capability.
     let line = found.out.lines().find(|line| line.contains("hencky-bar")).expect("a line");
     assert!(line.contains("n/a") && line.contains("lacks laws: hencky"), "{line}");
     assert!(found.errors.contains("hencky-bar; `--allow-not-applicable`"), "{}", found.errors);
@@ -197,7 +197,7 @@ fn a_named_suite_that_is_not_applicable_fails_unless_allowed() {
     assert_eq!(gate(&folder, &["foreign.yaml"], &["--allow-not-applicable"]).code, FAILED);
 }
 
-/// The suite keeps its time step on all levels: shorter steps show whether that limits the order.
+/// The suite has one time step on all levels: shorter steps show whether the step limits the order.
 #[rstest]
 #[case::an_error_in_time("h*h + 7000*d*d", SOUND)]
 #[case::an_error_in_space("h + 7000*d*d", FAILED)]
@@ -238,7 +238,8 @@ fn steps_that_follow_the_cells_are_not_shortened() {
     assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
 }
 
-/// A translation under a law that the solver lacks: it gets the problem with its own.
+/// A translation under a law that the solver does not support: the problem uses a law of the
+/// solver.
 #[test]
 fn a_translation_needs_no_particular_law() {
     let folder = folder("0");

@@ -1,12 +1,12 @@
-//! Processes that break the protocol, each in its own way. Whatever they do, the other levels go
-//! on, and the verdict says what happened.
+//! Processes that break the protocol in different ways. The other levels still run, and the verdict
+//! names the violation.
 
 use super::bar;
 use super::program::HELLO;
 use crate::cli::{BAD_INPUT, FAILED, Folder, SOUND};
 use rstest::rstest;
 
-/// A script that is sound until it is asked to advance, and then does `then`.
+/// A script that is correct until it is asked to advance, and then runs `then`.
 fn script(then: &str) -> String {
     format!(
         "read -r m; echo '{HELLO}'\nread -r m || exit 0\ncase \"$m\" in *bye*) exit 0;; esac\n\
@@ -14,7 +14,7 @@ fn script(then: &str) -> String {
     )
 }
 
-/// What a run of `script` prints, with its exit status.
+/// Exit status and output of a run of `script`.
 fn run(script: &str, more: &[&str]) -> (i32, String) {
     let folder = Folder::new();
     folder.write("bar.yaml", bar());
@@ -90,7 +90,7 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
 #[case::a_closed_pipe("exec >&-; sleep 99", "closed its output and went on")]
 #[case::its_own_word("echo '{\"type\":\"failed\",\"reason\":\"all is lost\"}'", "all is lost")]
 fn what_breaks_the_protocol_fails_and_says_how(#[case] then: &str, #[case] words: &str) {
-    // What is waited for to the end is waited for briefly.
+    // A test that needs the whole timeout uses a short one.
     let patience = if then.ends_with("sleep 99") { "0.3s" } else { "1s" };
     let zeros = format!("{:?}", [0; 16]);
     let (code, said) =
@@ -100,7 +100,8 @@ fn what_breaks_the_protocol_fails_and_says_how(#[case] then: &str, #[case] words
     assert!(flat.contains(words), "no `{words}` in\n{said}");
 }
 
-/// A process that reads nothing is found by its silence, however much waits in its pipe.
+/// A process that reads nothing is detected by the response timeout, for any amount of data in its
+/// pipe.
 #[test]
 fn a_process_that_reads_nothing_is_silent() {
     let deaf = format!(
@@ -115,7 +116,7 @@ fn a_gate_fails_with_its_solver() {
     assert_eq!(run(&script("exit 1"), &["--gate", "--brief"]).0, FAILED);
 }
 
-/// Whatever a process has started dies with it.
+/// Child processes of a solver are killed with it.
 #[test]
 fn no_grandchild_is_left() {
     let folder = Folder::new();

@@ -4,7 +4,7 @@ use super::bar;
 use crate::cli::{FAILED, Folder, SOUND, on_one_grid};
 use mpm_verify::external::protocol_schema;
 
-/// What a solver of one-dimensional elasticity says first.
+/// First message of a solver of one-dimensional elasticity.
 pub(crate) const HELLO: &str = r#"{"type":"hello","protocol":1,"name":"odd","version":"1","capabilities":{"dimensions":[1],"laws":["linear_elastic"],"conditions":["free","fixed"]}}"#;
 
 /// The exact solution with an error of h^2: a solver of order 2 that needs no steps.
@@ -75,7 +75,7 @@ fn a_gate_holds_a_program_to_its_order() {
     assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
 }
 
-/// What a solver lacks is no verdict on it, and never a pass.
+/// A missing capability gives neither a verdict nor a pass.
 #[test]
 fn what_a_program_lacks_is_not_applicable() {
     let folder = folder();
@@ -88,7 +88,7 @@ fn what_a_program_lacks_is_not_applicable() {
     assert!(found.errors.contains("no case is applicable to the solver"), "{}", found.errors);
 }
 
-/// The force on a node while a particle crosses it is nothing that a solver tells.
+/// A solver does not report the force on a node while a particle crosses it.
 #[test]
 fn studies_that_look_inside_a_method_are_left_out() {
     let found = folder().call(&["run", "bar.yaml", "grid-crossing", "--solver", SOLVER, "--brief"]);

@@ -103,7 +103,7 @@ fn a_level_whose_spread_exceeds_a_tenth_of_its_error_does_not_count() {
     let errors: Vec<f64> = levels(&steady.cases[0]).iter().map(|level| level.error).collect();
     let [.., coarser, finest] = errors[..] else { panic!("two levels or more") };
     assert!(coarser > 2.0 * finest, "{errors:?}");
-    // A spread of about 0.8 of the noise: a seventh of the finest error, less of the others.
+    // A spread of about 0.8 of the noise: 1/7 of the finest error, and less of the others.
     let found = repeated(finest / 6.0);
     let case = &found.cases[0];
     let exclusions: Vec<_> = levels(case).iter().map(LevelOutcome::exclusion).collect();

@@ -1,4 +1,4 @@
-//! Several solvers in one report: names, cases, gates, and what cannot be told apart.
+//! Several solvers in one report: names, cases, gates, and refused duplicates.
 
 use super::bar;
 use super::program::{HELLO, SECOND_ORDER};
@@ -6,7 +6,7 @@ use crate::cli::{BAD_INPUT, Folder, SOUND};
 use rstest::{fixture, rstest};
 use serde_json::Value;
 
-/// A folder with a suite and two solvers, the second of which has another factor in its error.
+/// A folder with a suite and two solvers, whose errors differ by a factor.
 #[fixture]
 fn folder() -> Folder {
     let folder = Folder::new();

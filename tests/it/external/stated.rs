@@ -9,7 +9,7 @@ use mpm_verify::suite::{ExternalMethod, Suite};
 use mpm_verify::verify::CaseOutcome;
 use rstest::rstest;
 
-/// The bar under a solver of another program besides MPM.
+/// The bar with an external solver in addition to MPM.
 fn with_entry(entry: &str) -> String {
     bar().replace("  - fem: {element: linear, mass: lumped}", &format!("  - external: {entry}"))
 }

@@ -1,4 +1,4 @@
-//! Values that the harness hands over: constants in the message `problem`, and fields at requested
+//! Values that the harness passes: constants in the message `problem`, and fields at requested
 //! places and times.
 
 use super::program::{HELLO, SECOND_ORDER};
@@ -6,14 +6,14 @@ use crate::cli::{Folder, SOUND};
 use mpm_verify::external::{
     FieldName, FieldPlaces, LevelProblem, ProgramLimits, SolverFactory, SolverProgram,
 };
-use mpm_verify::study::level_problem;
+use mpm_verify::study::{level_problem, needs};
 use mpm_verify::subject::Samples;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{ConvergencePlan, Suite, embedded};
 use rstest::rstest;
 use serde_json::{Value, json};
 
-/// A body with every load and condition that the protocol hands over.
+/// A body with every load and condition of the protocol.
 const LOADED: &str = r#"suite: loaded
 title: A body with many loads
 source: a test
@@ -65,8 +65,8 @@ fn hello() -> String {
     .to_string()
 }
 
-/// A script that sends `requests` while it is set up, keeps the problem and the answers in the file
-/// `log`, and then breaks off.
+/// A script that sends `requests` during its set-up, stores the problem and the answers in the file
+/// `log`, and then exits.
 fn script(requests: &[Value]) -> String {
     let ask = |request: &Value| format!("echo '{request}'; read -r m; echo \"$m\" >>log\n");
     let ask: String = requests.iter().map(ask).collect();
@@ -183,7 +183,7 @@ expect:
 
 #[test]
 fn the_initial_state_is_known_at_any_place_of_the_body() {
-    // The second place is on the slanting side, but for rounding.
+    // The second place is on the slanting side, up to rounding.
     let places = [0.25, 0.125, 1.0 - 0.2, 0.1 + 1e-12];
     let request = |of: &str| json!({"type": "values", "of": of, "reference_position": places});
     let names = ["displacement", "velocity", "deformation_gradient", "initial_stress", "stress"];
@@ -249,7 +249,8 @@ fn fields_agree_with_the_particles(#[case] name: &str) {
     }
 }
 
-/// Nodes on the rim of a disk belong to it, and on the axis of a body of revolution stress is known.
+/// Nodes on the rim of a disk belong to the disk, and the stress on the axis of a body of
+/// revolution is defined.
 #[test]
 fn nodes_on_a_rim_and_on_an_axis_are_inside() {
     let ring = problem_of("expanding-ring");
@@ -276,7 +277,34 @@ fn nodes_on_a_rim_and_on_an_axis_are_inside() {
     assert!(stress.is_ok(), "{stress:?}");
 }
 
-/// The first state of a solver with points of its own is the initial state there.
+/// A pressure on a rim names the rim, and its values are known on that circle alone.
+#[test]
+fn a_pressure_on_a_rim_is_handed_over() {
+    let name = "pressurised-cylinder-in-plane";
+    let tube = problem_of(name);
+    let load = serde_json::to_value(&tube.loads[0]).expect("JSON");
+    assert_eq!((&load["load"], &load["rim"]), (&json!("pressure"), &json!("inner")));
+    assert_eq!((load.get("face"), &load["values"]["pressure"]), (None, &json!(1e-5)));
+
+    // A formula that depends on the place, and is Lame's pressure on the rim.
+    let text = embedded::source(name).expect("a suite").expect("a text").text().to_owned();
+    let text = text.replace("value: p}", "value: \"p*(X^2 + Y^2)/a^2\"}");
+    let source = Source::from_text("suite.yaml", &text).expect("a text");
+    let suite = Suite::load(&source).unwrap_or_else(|error| panic!("{error}"));
+    let plan = suite.plan::<ConvergencePlan>().expect("a study of an order");
+    assert!(needs(plan).loaded_rims);
+    let case = &plan.cases[0];
+    let tube = level_problem(name, plan, case, plan.refine.levels[0]).expect("a problem");
+    let fields = tube.fields.expect("fields");
+    let at =
+        |place: &[f64; 2]| fields.values(FieldName::Load(0), 0.0, &FieldPlaces::new(place, &[0]));
+    let on_rim = at(&[0.6, -0.8]).expect("a place on the rim");
+    assert!((on_rim[0] / 1e-5 - 1.0).abs() < 1e-14, "{on_rim:?}");
+    let reason = at(&[0.6, 0.9]).expect_err("a place inside").to_string();
+    assert!(reason.contains("is not on the inner rim, whose radius is 1 m"), "{reason}");
+}
+
+/// The first state of a solver with its own sample points is the initial state there.
 #[test]
 fn points_start_in_the_initial_state() {
     let folder = Folder::new();
@@ -383,7 +411,7 @@ fn fails(script: &str, reason: &str) {
     assert!(flat.contains("explored short-bar::odd converging"), "{}", found.out);
 }
 
-/// A solver of version 1 is not given what only version 2 has in numbers.
+/// A solver of version 1 does not receive loads and conditions whose numbers only version 2 passes.
 #[test]
 fn version_1_lacks_loads_and_conditions_with_numbers() {
     let folder = Folder::new();
@@ -423,7 +451,7 @@ fn a_check_lists_what_a_solver_can_take() {
     assert!(found.out.ends_with(&quiet.out), "{}", found.out);
 }
 
-/// A name that means nothing is reported by every command, and where it is lacking.
+/// An unknown name is reported by every command, and in the list of missing capabilities.
 #[rstest]
 #[case::check("check", SOUND)]
 #[case::run("run", 1)]

@@ -1,6 +1,6 @@
 //! Gates that fail for a change, each with the cause.
 
-/// What a change matters to.
+/// Runs that a change affects, with the cause.
 struct Known {
     /// How the name of the run, `suite::case`, begins.
     run: &'static str,

@@ -1,10 +1,10 @@
-//! A small body, the methods and laws that it may meet, and what a step owes whatever the state of
-//! the particles: numbers only, or the particle to blame. Shared by the fuzz target and the tests.
+//! A small body, its methods and laws, and the invariant of a step for any state of the particles:
+//! all numbers are finite, or an error names the particle. Shared by the fuzz target and the tests.
 
 use mpm_verify::mpm::{
     BasisName, Block, Damping, Fixed, FrameName, Gravity, MassName, MaterialPlan, Particles,
-    Roller, SchemeName, Setup, Side, Solver, TransferName, Vector, combine, kernel, mass_matrix,
-    transfer,
+    Roller, SchemeName, Setup, Side, Solver, TransferName, Vector, VolumeName, combine, kernel,
+    mass_matrix, transfer,
 };
 use mpm_verify::subject::{Failure, Samples, Site, Start, Subject};
 
@@ -75,7 +75,7 @@ impl Scene {
     /// not periodic, at the last.
     ///
     /// # Errors
-    /// Those of [`Solver::new`].
+    /// As [`Solver::new`].
     pub(crate) fn solver<const D: usize>(
         &self,
         particles: Particles<D>,
@@ -90,6 +90,7 @@ impl Scene {
             transfer: transfer(name),
             mass: mass_matrix(mass),
             frame,
+            volume: VolumeName::Particle,
             material: self.material.build(),
             effects: vec![
                 Box::new(Gravity(Box::new(|_| Vector::from_element(-0.1)))),
@@ -125,7 +126,7 @@ impl Scene {
         }
     }
 
-    /// The stable time step of whatever state is a number in the range asked for, or a failure.
+    /// For any state, the stable time step is a number in the requested range, or a failure.
     fn predicts<const D: usize>(&self, what: &str, particles: Particles<D>) {
         const LONGEST: f64 = 0.1;
         let Ok(solver) = self.solver(particles) else { return };

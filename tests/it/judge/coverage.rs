@@ -1,4 +1,4 @@
-//! Does the interval that the judge reports contain the true order as often as it says?
+//! Tests that the interval of the judge contains the true order with its nominal probability.
 
 use std::f64::consts::PI;
 
@@ -19,7 +19,7 @@ const POINTS: usize = 100_000;
 const HALVINGS: [f64; 8] = [5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0];
 const UNEQUAL: [f64; 8] = [5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 120.0, 160.0];
 
-/// Departures of `ln error` from the line, of a size of about one.
+/// Distributions of departures of `ln error` from the line, with a size of about one.
 #[derive(Debug, Clone, Copy)]
 enum Noise {
     Normal,
@@ -29,7 +29,7 @@ enum Noise {
     Laplace,
     /// To one side.
     Exponential,
-    /// Normal, each level with a size of its own between a half and two.
+    /// Normal, with a different size on each level, between 0.5 and 2.
     Uneven,
     /// Normal, with a factor that all levels share: any two are correlated to 0.9.
     Common,
@@ -136,7 +136,7 @@ fn the_interval_of_the_judge_covers_the_true_order_in_95_per_cent_of_many(
 }
 
 /// The probability that the interval of a regression over `levels` equal steps of `ln h` covers the
-/// slope, for normal noise of which neighbours are correlated: that of `e' C e >= 0` with
+/// slope, for normal noise with correlated neighbours: the probability of `e' C e >= 0` with
 /// `C = t^2/(n - 2) M - x x'/x'x`, M being the projection on residuals and x the centred `ln h`
 /// (Imhof 1961, Biometrika 48, eq. 3.2).
 fn coverage_by_theory(levels: usize, correlation: f64) -> f64 {
@@ -162,8 +162,8 @@ fn coverage_by_theory(levels: usize, correlation: f64) -> f64 {
     0.5 + (0..POINTS).map(integrand).sum::<f64>() / POINTS as f64 / PI
 }
 
-/// Where neighbours are correlated the interval covers what theory says of a regression, and not
-/// 95 %: no interval can, see [`a_power_of_h_shifts_the_order_and_nothing_else`].
+/// For correlated neighbours the coverage of the interval is that of regression theory, and not 95
+/// %: no interval can achieve that, see [`a_power_of_h_shifts_the_order_and_nothing_else`].
 #[rstest]
 #[case(0.0, 0.95)]
 #[case(0.5, 0.847)]
@@ -177,8 +177,8 @@ fn correlated_neighbours_are_covered_as_theory_says(#[case] correlation: f64, #[
     assert!((share - theory).abs() <= 0.01, "{share}, and {theory} in theory");
 }
 
-/// Any noise may have a part `a ln h`. No residual shows it, so no interval that follows the
-/// residuals can allow for it: the order and both ends move by `a`.
+/// Any noise may have a part `a ln h`. It leaves no residual, so that no interval based on
+/// residuals can include it: the order and both ends are shifted by `a`.
 #[rstest]
 fn a_power_of_h_shifts_the_order_and_nothing_else(
     #[values(0.02, 0.3, 1.0)] power: f64,

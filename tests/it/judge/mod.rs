@@ -27,8 +27,8 @@ fn judged(errors: &[f64], order: f64) -> Judgement {
     judge(&halvings(errors), &OrderHypothesis::formal(order))
 }
 
-/// A small random generator of its own (xorshift64*, Vigna 2016), so that every platform and
-/// every version of the dependencies sees the same series.
+/// A small random generator (xorshift64*, Vigna 2016), so that the series do not depend on the
+/// platform or on versions of dependencies.
 struct Random(u64);
 
 impl Random {

@@ -60,7 +60,7 @@ fn a_claim_that_everything_meets_is_refused(#[case] claim: OrderHypothesis) {
     assert_eq!(judgement.verdict, Verdict::Failed, "{}", judgement.reason);
 }
 
-/// An all-zero field that equals an all-zero truth proves nothing.
+/// A zero field that equals a zero solution proves nothing.
 #[test]
 fn no_error_at_all_is_not_convergence() {
     assert_eq!(judged(&[0.0; 6], 2.0).verdict, Verdict::AtFloor);
@@ -112,7 +112,7 @@ fn an_order_inside_with_an_interval_outside_does_not_pass(#[case] order: f64) {
     assert!(judgement.reason.contains("sticks out"));
 }
 
-/// An order out of the range is one thing, an interval that is far from it another.
+/// An order outside the range differs from an interval that is far from the range.
 #[rstest]
 #[case(1.85, 0.06, Verdict::TooLow, "below [1.9, 2.1], but the interval overlaps it")]
 #[case(2.15, 0.06, Verdict::TooGood, "above [1.9, 2.1], but the interval overlaps it")]
@@ -135,7 +135,7 @@ fn an_order_out_of_the_range_may_be_undecided(
     assert_eq!(undecided, interval.low <= 2.1 && interval.high >= 1.9);
 }
 
-/// No silent substitute: what the order was fitted to is shown, and an outlier stays in it.
+/// No silent replacement: the fitted levels are shown, and an outlier stays among them.
 #[test]
 fn an_outlier_is_kept_wherever_it_lies() {
     for outlier in 1..7 {
@@ -159,7 +159,7 @@ fn a_drift_through_the_expected_range_is_not_settled() {
     assert!(judgement.reason.contains("drifts by -0.400"), "{}", judgement.reason);
 }
 
-/// Small figures keep their digits.
+/// Small figures are printed with all digits.
 #[test]
 fn a_reason_tells_3_2e_9_from_3_2e_7() {
     let at = |error: f64| judged(&[error; 4], 2.0).reason;

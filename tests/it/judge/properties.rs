@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::Random;
 use mpm_verify::verify::{Judgement, Level, OrderHypothesis, Verdict, judge};
 
-/// Series of all kinds: falling, flat, growing, with a floor, with noise from none to wild.
+/// Series of all kinds: falling, flat, growing, with a floor, with and without noise.
 fn series() -> impl Strategy<Value = Vec<Level>> {
     let shape = (4_usize..10, -2.0..5.0_f64, 0.0..3.0_f64, any::<bool>(), 0.0..1.0_f64);
     let noise = prop_oneof![Just(0.0), 0.0..0.05_f64, 0.0..2.0_f64];
@@ -38,7 +38,7 @@ fn of_an_order(random: &mut Random) -> (Vec<Level>, f64) {
     (series, order)
 }
 
-/// A level so much finer than the finest, on the line through the window.
+/// A level finer by the factor `finer`, on the line through the window.
 fn on_the_line(judgement: &Judgement, finer: f64) -> Level {
     let window = judgement.window.as_ref().unwrap();
     let points = || window.iter().map(|k| &judgement.levels[*k]);
@@ -118,9 +118,9 @@ proptest! {
     }
 }
 
-/// A finer level on the line makes the interval narrower, and a pass stays one. One in some
-/// thousand does not, where coarse levels had been left out together: with the finer level the
-/// evidence is enough against the outer ones alone, and an inner one comes back into the window.
+/// A finer level on the line makes the interval narrower, and a pass stays a pass. In one of some
+/// thousand cases it does not, if coarse levels had been dropped together: with the finer level the
+/// evidence suffices against the outer ones only, and an inner one is in the window again.
 #[test]
 fn a_consistent_finer_level_turns_no_pass_into_a_failure() {
     let mut random = Random(2027);

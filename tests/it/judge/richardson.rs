@@ -1,4 +1,4 @@
-//! Three values and what they say.
+//! Tests of Richardson extrapolation from three values.
 
 use approx::assert_relative_eq;
 use rstest::rstest;
@@ -62,7 +62,7 @@ fn a_power_of_h_is_recovered(
     assert_relative_eq!(richardson.gci.unwrap(), SAFETY_FACTOR * distance, max_relative = 1e-8);
 }
 
-/// A negative order diverges, whatever the spacings.
+/// A negative order is divergent for any spacings.
 #[rstest]
 fn a_negative_power_of_h_diverges(
     #[values(-0.2, -1.0)] order: f64,

@@ -1,4 +1,4 @@
-//! Synthetic series and the verdict that each must get.
+//! Synthetic series with their expected verdicts.
 
 use approx::assert_abs_diff_eq;
 use rstest::rstest;
@@ -95,7 +95,7 @@ fn a_plateau_of_another_axis_is_a_floor_and_the_order_before_is_kept() {
     assert_abs_diff_eq!(judgement.order.unwrap().value, 2.0, epsilon = 0.03);
 }
 
-/// Levels behind the first error of zero are those of the floor, whatever they show.
+/// Levels after the first zero error belong to the floor, for any errors.
 #[test]
 fn the_order_before_a_floor_is_that_of_the_levels_before_it() {
     let judgement = judged(&[1.0, 0.25, 0.0625, 0.015_625, 0.0, 0.002, 0.0005], 2.0);

@@ -48,8 +48,8 @@ fn a_linear_temperature_is_shown_as_it_is(
     }
 }
 
-/// The heat that the particles gain is what entered: 7 W/m through an edge of 0.5 m, and 5 W/kg
-/// in 1.5 kg.
+/// The heat of the particles increases by the inflow: 7 W/m through an edge of 0.5 m, and 5 W/kg in
+/// 1.5 kg.
 #[rstest]
 fn no_heat_is_lost(
     #[values(BasisName::Linear, BasisName::Cpdi, BasisName::CubicBSpline)] basis: BasisName,
@@ -74,7 +74,8 @@ fn no_heat_is_lost(
     assert_relative_eq!(gained, 0.05 * (7.0 * 0.5 + 5.0 * 1.5), max_relative = 1e-12);
 }
 
-/// In a body of one temperature nothing flows, and forward Euler takes r dt of it in each step.
+/// In a body of uniform temperature there is no flux, and forward Euler subtracts r dt of it in
+/// each step.
 #[rstest]
 fn a_source_has_the_temperature_at_the_start_of_the_step(
     #[values(

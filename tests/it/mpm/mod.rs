@@ -11,3 +11,4 @@ mod second_opinion;
 mod stable_time_step;
 mod tls;
 mod traction;
+mod volume_average;

@@ -67,7 +67,7 @@ fn of_any_velocity<const D: usize>() {
         let nodes = nodal.iter().zip(&grid.mass).filter(|(_, m)| **m > 0.0);
         let seen: f64 = nodes.map(|(momentum, m)| momentum.norm_squared() / m).sum();
         assert!(seen < 1e-24 * square(particles, &particles.v), "{basis:?}");
-        // and the rest has no such part.
+        // and the remaining part is orthogonal to it.
         let rest = particles.v.iter().zip(&found).map(|(v, found)| v - found);
         let rest: Vec<f64> = rest.flat_map(|v| v.data.0[0]).collect();
         solver.set_state(&rest);

@@ -57,8 +57,8 @@ fn reactions_are_what_changes_the_momentum(
     in_dimension!(dimension, balances(scheme, start));
 }
 
-/// Under uniform stress a roller takes the normal traction of its face, at its edges too, and a wall
-/// that moves tells no reaction.
+/// Under uniform stress the reaction of a roller is the normal traction of its face, also at its
+/// edges. A moving wall has no reaction.
 #[test]
 fn a_roller_takes_the_traction_of_its_face() {
     let mut setup = full::<2>(BasisName::Linear, SchemeName::Usl);

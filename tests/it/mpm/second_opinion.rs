@@ -1,7 +1,9 @@
-//! The solver held to an implementation that shares no code with it, `tests/second_opinion`: its
-//! errors and fields on some levels of the suites, to 1e-9.
+//! Comparison of the solver with an independent implementation, `tests/second_opinion`: errors and
+//! fields on some levels of the suites, to 1e-9.
 
-use mpm_verify::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName};
+use mpm_verify::mpm::{
+    BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, VolumeName,
+};
 use mpm_verify::study;
 use mpm_verify::subject::{Failure, Samples, Start, Subject};
 use mpm_verify::suite::{ConvergencePlan, Method, Suite, embedded};
@@ -49,6 +51,7 @@ fn method(words: &[&str]) -> Method {
         start: named(&starts, Start::name, start),
         mass: MassName::Lumped,
         frame: FrameName::Updated,
+        volume: VolumeName::Particle,
     }
 }
 
@@ -80,7 +83,7 @@ fn read(text: &str) -> Vec<Level> {
     levels
 }
 
-/// Displacement, velocity, stress and F - I of all particles; the last is empty if nothing in the
+/// Displacement, velocity, stress and F - I of all particles; the last is empty if no part of the
 /// solver reads F.
 fn fields(samples: &Samples) -> [Vec<f64>; 4] {
     let Samples { displacement, velocity, stress, deformation_gradient, .. } = samples;
@@ -90,7 +93,7 @@ fn fields(samples: &Samples) -> [Vec<f64>; 4] {
     [displacement.clone(), velocity.clone(), stress.clone(), strain.collect()]
 }
 
-/// What a run of the solver gives, as in [`End::Sound`], but the fields of all particles.
+/// Results of a run of the solver, as in [`End::Sound`], but with the fields of all particles.
 struct Found {
     figures: [f64; 6],
     fields: [Vec<f64>; 4],
@@ -119,14 +122,14 @@ fn run(
     Ok(Found { figures, fields: fields(&samples) })
 }
 
-/// Fails unless `ours` is `theirs` but for `TOLERANCE` of `size`, or `rounding`.
+/// Asserts that `ours` and `theirs` differ by at most `TOLERANCE` of `size`, or by `rounding`.
 fn hold(what: &str, ours: f64, theirs: f64, size: f64, rounding: f64) {
     let difference = (ours - theirs).abs();
     let sound = difference <= TOLERANCE * size || difference <= rounding;
     assert!(sound, "{what}: {ours:e}, and {theirs:e} by the second opinion; size {size:e}");
 }
 
-/// Holds the run of a level of a suite to what the second opinion found.
+/// Compares the run of a level with the results of the independent implementation.
 fn hold_level(plan: &ConvergencePlan, level: &Level) {
     let Level { method, cells, steps, end } = level;
     let planned = plan.refine.levels.iter().find(|level| level.cells == *cells);

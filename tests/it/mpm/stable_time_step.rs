@@ -1,4 +1,4 @@
-//! The stable time step, with what effects add to the stiffness.
+//! The stable time step, with the stiffness of effects.
 
 use crate::common;
 use approx::assert_relative_eq;
@@ -8,7 +8,7 @@ use mpm_verify::mpm::{
 };
 use rstest::rstest;
 
-/// That of a square of c = 1 m/s in a grid of unit cells, with an effect (s).
+/// Stable time step (s) of a square with c = 1 m/s in a grid of unit cells, with an effect.
 fn step(material: MaterialPlan, effect: impl Effect<2> + 'static) -> f64 {
     let (from, to) = (Vector::from_element(1.0), Vector::from_element(5.0));
     let particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
@@ -19,8 +19,8 @@ fn step(material: MaterialPlan, effect: impl Effect<2> + 'static) -> f64 {
     Solver::new(setup).unwrap().stable_time_step(10.0, 60).unwrap()
 }
 
-/// A viscosity shortens the step of a law in rate form, which adds stress to stress, by as much as
-/// that of a law of F.
+/// A viscosity shortens the step of a law in rate form, which adds stress to the stored stress, by
+/// as much as that of a law of F.
 #[test]
 fn a_viscosity_counts_once_whatever_the_law() {
     let viscous = |material, linear| {
@@ -46,8 +46,8 @@ fn a_foundation_counts_by_its_stiffness() {
     assert_relative_eq!(square(3.0) - square(0.0), 3.0, max_relative = 1e-3);
 }
 
-/// Predictions are shared by methods that are said to have the same response: they have the same
-/// bits. Some have not, so that the test would see a claim too many.
+/// Methods that are declared to have the same response share predictions: they have the same bits.
+/// Some methods have another response, so that the test would detect a wrong declaration.
 #[rstest]
 fn methods_of_the_same_response_share_their_step(
     #[values(

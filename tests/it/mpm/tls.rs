@@ -6,8 +6,8 @@ use mpm_verify::mpm::{
 };
 use rstest::rstest;
 
-/// Eight cells with three particles each under a uniform stress, of which the last of the
-/// fourth cell has passed into the fifth.
+/// Eight cells with three particles each under a uniform stress; the last particle of the fourth
+/// cell has moved into the fifth.
 fn uneven() -> (Grid<1>, Particles<1>) {
     let grid = kernel::<1>(BasisName::Linear).grid(Vector::zeros(), 1.0, [8], [true]);
     let block = Block { from: Vector::<1>::new(0.0), to: Vector::<1>::new(8.0), density: 2.0 };

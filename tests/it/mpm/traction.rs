@@ -56,8 +56,8 @@ fn at_the_surface_the_moment_is_right_too(
     assert_relative_eq!(moment, 2.0 * arm, max_relative = 1e-13);
 }
 
-/// A shear traction of 2 Pa on the right side of Cook's panel, 16 m long at x = 48 m: whatever
-/// the map starts with, force and moment about the origin are those of the side.
+/// A shear traction of 2 Pa on the right side of Cook's panel, 16 m long at x = 48 m: force and
+/// moment about the origin are those of the side, for any first corner of the map.
 #[rstest]
 fn a_side_carries_its_whole_load_where_it_is(
     #[values(0, 1, 2, 3)] first: usize,

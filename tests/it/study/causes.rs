@@ -73,7 +73,7 @@ fn diagnosis(text: &str, budget: f64) -> Diagnosis {
     diagnose(&suite, &source, 0, budget, None).expect("a run").expect("an order")
 }
 
-/// The text of a diagnosis without line breaks. No figure in it is NaN.
+/// The text of a diagnosis without line breaks. It contains no NaN.
 fn page(found: &Diagnosis) -> String {
     let page = report::diagnosis(found).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(!page.contains("NaN") && !page.contains("inf"), "{page}");
@@ -287,7 +287,7 @@ fn column(loads: &str) -> String {
     text.replace("{a: 1e-4, c: 10, omega: \"pi/2*c\"}", "{g: 0.01, c: 10}")
 }
 
-/// Findings of `check` about energy that nothing removes.
+/// Findings of `check` about missing dissipation.
 fn of_check(text: &str) -> Vec<Severity> {
     let (source, suite) = load(text);
     let all = preflight(&suite, &source).into_iter();

@@ -1,4 +1,5 @@
-//! Scales that make errors and work of different cases comparable, of a bar whose solution is known.
+//! Scales that make errors and work of different cases comparable, for a bar with an exact
+//! solution.
 
 use crate::cli::BAR;
 use approx::assert_relative_eq;
@@ -27,7 +28,7 @@ fn the_size_is_that_of_the_largest_displacement() {
     assert_relative_eq!(scale("observe:", stated).size, 1.0);
 }
 
-/// One power for the axis of the bar, and as many as the step has of the spacing.
+/// One power for the axis of the bar, plus the power of the spacing in the step.
 #[rstest]
 #[case::constant("dt: 1e-3", 1.0)]
 #[case::with_the_spacing("dt: \"h/250\"", 2.0)]

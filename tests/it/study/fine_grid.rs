@@ -1,11 +1,11 @@
-//! The same method on a fine grid as truth, beside an exact solution.
+//! A reference run on a fine grid, compared with an exact solution.
 
 use mpm_verify::study::Runner;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::{CaseOutcome, Convergence};
 
-/// A bar that swings, held against its formula and against 192 cells.
+/// A vibrating bar, compared with its formula and with a run on 192 cells.
 const BAR: &str = r#"suite: bar
 title: Vibrating bar
 source: a test

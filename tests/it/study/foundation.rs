@@ -6,9 +6,9 @@ use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::{CaseOutcome, LevelOutcome};
 use rstest::rstest;
 
-/// A free bar that springs pull back as a whole, in six steps of 1/w. The leapfrog of an oscillator
-/// turns by 2 asin(w dt/2) in a step, here by 60 degrees: after six it is back where it was, while
-/// the exact one has turned by 6 radians.
+/// A free bar on springs that act on its whole displacement, in six steps of 1/w. The leapfrog of
+/// an oscillator advances the phase by 2 asin(w dt/2) per step, here by 60 degrees: after six steps
+/// it is back at its start, while the exact phase has advanced by 6 radians.
 const FREE: &str = r#"suite: free
 title: Free bar
 source: a test
@@ -33,7 +33,7 @@ methods:
   - fem: {element: linear, mass: consistent, start: half_step_back}
 "#;
 
-/// The same in the plane, pulled towards a place for each particle that formulas of x give.
+/// A plate with forces towards a point that formulas of x give for each particle.
 const PLATE: &str = r#"suite: plate
 title: Free plate
 source: a test
@@ -99,8 +99,8 @@ fn the_load_is_that_of_the_particles_own_displacement(
     }
 }
 
-/// sqrt(2/(l + w^2)), with l = 4/h^2 of the bar at most; a wave crosses a cell of 1/8 in 25 times the
-/// step that the springs alone leave.
+/// sqrt(2/(l + w^2)), with l = 4/h^2 at most for the bar; a wave crosses a cell of 1/8 in 25 times
+/// the limit of the springs.
 #[test]
 fn the_stable_step_knows_the_stiffness_of_a_load() {
     for case in &cases(STIFF) {

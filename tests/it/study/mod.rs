@@ -6,6 +6,7 @@ mod error_scale;
 mod fine_grid;
 mod foundation;
 mod keys;
+mod locking;
 mod polygons;
 mod predicted_error;
 mod preflight;

@@ -1,4 +1,5 @@
-//! Predicted errors against what is found: the finest level of each case from the coarser ones.
+//! Predicted errors compared with observed ones: the finest level of each case from the coarser
+//! levels.
 
 use mpm_verify::study::Runner;
 use mpm_verify::suite::{ConvergencePlan, Suite, embedded};
@@ -7,7 +8,7 @@ use mpm_verify::verify::{
 };
 use std::sync::Arc;
 
-/// Fewest levels of a case, so that four remain to be judged.
+/// Minimum number of levels of a case, so that four remain to be judged.
 const FEWEST: usize = 5;
 
 /// A case with the error of its finest level.
@@ -36,7 +37,7 @@ fn back_test(name: &'static str) -> Option<Found> {
     Some(found)
 }
 
-/// The finest level, predicted from what is judged of the coarser ones.
+/// The prediction of the finest level from the judgement of the coarser ones.
 fn of_the_finest(
     plan: &ConvergencePlan,
     case: &CaseOutcome,
@@ -68,7 +69,8 @@ fn of_the_finest(
     Some((error.high / error.low, error.low <= measured && measured <= error.high))
 }
 
-/// Share of the suites whose predictions all have what is found, and the median of the widths.
+/// Share of the suites whose observed errors are all in the predicted intervals, and the median of
+/// the widths.
 fn covered(found: &[Found]) -> (f64, f64) {
     let given: Vec<&Found> = found.iter().filter(|one| !one.predicted.is_empty()).collect();
     let held = given.iter().filter(|one| one.predicted.iter().all(|(_, holds)| *holds)).count();

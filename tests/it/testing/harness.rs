@@ -63,7 +63,7 @@ fn neither_gate_knows_of_the_other() {
     let drifted = tests(&folder);
     assert!(passes(&drifted, Some("swinging-bar::own-solver")));
     assert!(!passes(&drifted, Some("swinging-bar::report")));
-    // Whether the new report waits for a review beside it is for the environment to say.
+    // Whether a new report is written next to it depends on the environment.
     assert_eq!(folder.read("kept/swinging-bar.snap"), drifted_from);
 }
 
@@ -113,7 +113,8 @@ fn a_breach_of_the_contract_fails_by_itself() {
     assert!(!passes(&idle, Some("swinging-bar::conformance")));
 }
 
-/// What a solver lacks is ignored; a solver that can do nothing of it all does not pass.
+/// A case that needs a missing capability is ignored; a solver without an applicable case does not
+/// pass.
 #[test]
 fn nothing_applicable_is_no_pass() {
     let folder = folder();

@@ -1,4 +1,5 @@
-//! The solver of `examples/own_solver`, held to ours: its algorithm is the same.
+//! Comparison of the solver in `examples/own_solver` with the built-in solver: both use the same
+//! algorithm.
 
 #[path = "../../../examples/own_solver/solver.rs"]
 pub(crate) mod solver;

@@ -1,9 +1,9 @@
-//! Particles of `phyz-particle`, stepped for the adapter `phyz.py`: little-endian doubles on standard
-//! input and output.
+//! Particles of `phyz-particle`, stepped for the adapter `phyz.py`: little-endian doubles on
+//! standard input and output.
 //!
-//! In: number of particles, h, dt, size of the box, E, nu, mass and volume of a particle, share of FLIP;
-//! then position and velocity of each. From then on: a number of steps in, and out the same six
-//! of each particle.
+//! Input: number of particles, h, dt, size of the box, E, nu, mass and volume of a particle, share
+//! of FLIP; then position and velocity of each particle. After that, each input is a number of
+//! steps, and each output the position and velocity of each particle.
 
 use phyz_math::Vec3;
 use phyz_particle::{Material, MpmSolver, Particle};

@@ -1,12 +1,12 @@
 //! Syntax tree to program: resolves names, puts functions in place, folds constants.
 //!
-//! Registers are handed out like a stack. Compiling a node at the register `at` writes to `at` and
-//! above, never below, and returns where the value is: there, in a variable, in a register below
-//! that holds an argument or an index, or nowhere because it is a constant.
+//! Registers are allocated like a stack. Compiling a node at the register `at` writes to `at` and
+//! above, never below, and returns the location of the value: this register, a variable, a lower
+//! register with an argument or an index, or a constant.
 //!
 //! Calls of user functions, whose bodies are put in place.
 //!
-//! Tables, whose name stands for an expression of one variable or constant.
+//! Tables: names of expressions of one variable or constant.
 //!
 //! Sums, which become loops.
 
@@ -21,11 +21,11 @@ use super::program::{Action, Instruction, Loop, Operand, run};
 use super::scope::{Scope, Tabulated};
 use std::collections::BTreeSet;
 
-/// Most nodes of a formula, with those of the functions it calls.
+/// Maximum number of nodes of a formula, including the functions it calls.
 const MAX_NODES: usize = 100_000;
-/// Deepest nesting of a formula, with that of the functions it calls.
+/// Maximum nesting depth of a formula, including the functions it calls.
 const MAX_DEPTH: usize = 256;
-/// Most operations of one evaluation, with every term of every sum.
+/// Maximum number of operations of one evaluation, including every term of every sum.
 const MAX_OPERATIONS: u64 = 10_000_000;
 
 /// The formula or function body that is being compiled, and the values of its local names.
@@ -84,8 +84,8 @@ impl<'a> ProgramBuilder<'a> {
         self.compile(&mut frame, expr.root(), 0)
     }
 
-    /// Compiles a node and those below it. A chain of left operands, as long as the source permits,
-    /// is walked in a loop; only what the parser nests is walked by recursion.
+    /// Compiles a node and its children. A chain of left operands, which may be as long as the
+    /// source, is processed in a loop; recursion is limited by the nesting depth of the parser.
     fn compile(
         &mut self,
         frame: &mut Frame<'a>,
@@ -152,7 +152,8 @@ impl<'a> ProgramBuilder<'a> {
         Err(FormulaError::new(node.span.clone(), excess))
     }
 
-    /// Appends an instruction with the result in the register `to`, or evaluates it at once.
+    /// Appends an instruction with the result in the register `to`, or evaluates it immediately if
+    /// its arguments are constant.
     fn emit(&mut self, action: Action, to: usize) -> Operand {
         if action.arguments().all(|operand| matches!(operand, Operand::Constant(_))) {
             let mut result = [0.0];
@@ -235,7 +236,7 @@ impl<'a> ProgramBuilder<'a> {
 }
 
 impl<'a> ProgramBuilder<'a> {
-    /// Compiles the expression of a table, with what it is read by.
+    /// Compiles the expression of a table at its argument.
     pub(self) fn table(
         &mut self,
         frame: &Frame<'a>,
@@ -275,11 +276,12 @@ impl<'a> ProgramBuilder<'a> {
     }
 }
 
-/// Most terms of a sum.
+/// Maximum number of terms of a sum.
 const MAX_TERMS: f64 = 100_000.0;
 
 impl<'a> ProgramBuilder<'a> {
-    /// Compiles a sum to a loop, whose total is kept at `at` and whose index in the next register.
+    /// Compiles a sum to a loop, whose total is in the register `at` and whose index in the next
+    /// one.
     pub(self) fn sum(
         &mut self,
         frame: &mut Frame<'a>,
@@ -343,8 +345,8 @@ impl<'a> ProgramBuilder<'a> {
         Err(FormulaError::new(frame.expr.node(node).span.clone(), message))
     }
 
-    /// Takes back the loop that begins at `start` if it can be evaluated at once: because there
-    /// are no terms, or because it reads nothing but constants and its own registers.
+    /// Removes the loop that begins at `start` if it can be evaluated immediately: because there
+    /// are no terms, or because it reads only constants and its own registers.
     fn settle(&mut self, start: usize, at: usize, terms: f64) -> Operand {
         let own = |operand| match operand {
             Operand::Constant(_) => true,

@@ -7,11 +7,11 @@ use crate::exact::formula::lexer::FormulaError;
 use crate::exact::formula::program::Operand;
 use crate::nearest::{by_nearness, nearest};
 
-/// Most constants that a message lists.
+/// Maximum number of constants that a message lists.
 const LISTED: usize = 8;
 
 impl<'a> ProgramBuilder<'a> {
-    /// The value that a name stands for.
+    /// The value of a name.
     pub(super) fn name(
         &mut self,
         frame: &Frame<'a>,
@@ -45,7 +45,7 @@ impl<'a> ProgramBuilder<'a> {
         Err(FormulaError::unknown(span, name).help(help))
     }
 
-    /// The error for the call of a `name` that is no function.
+    /// The error for the call of a `name` that is not a function.
     pub(super) fn not_a_function(&self, frame: &Frame, node: &Node, name: &str) -> FormulaError {
         let local = frame.locals.iter().any(|(local, _)| *local == name);
         let role = match frame.function {
@@ -67,8 +67,7 @@ impl<'a> ProgramBuilder<'a> {
             .help(format!("write `{name}*(...)` to multiply"))
     }
 
-    /// The names that may stand in the place of `name`: the nearest, or else the variables, and the
-    /// constants.
+    /// Suggestions for `name`: the nearest name, or else the variables and constants.
     fn instead(&self, frame: &Frame, name: &str) -> String {
         let known = frame.locals.iter().map(|(local, _)| *local);
         match (meant(name, known.chain(self.declared())), self.constants(name)) {
@@ -89,7 +88,7 @@ impl<'a> ProgramBuilder<'a> {
         (!listed.is_empty()).then(|| format!("declared: {}{more}", listed.join(", ")))
     }
 
-    /// Every name that may be meant in any frame.
+    /// Every name that is valid in any frame.
     fn declared(&self) -> impl Iterator<Item = &str> {
         let constants = self.scope.constants().map(|(name, _)| name);
         let declared = constants.chain(self.scope.tables()).chain(self.scope.functions());
@@ -98,7 +97,7 @@ impl<'a> ProgramBuilder<'a> {
 }
 
 impl Frame<'_> {
-    /// The names that the formula or function has of its own.
+    /// The local names of the formula or function, as text.
     pub(super) fn listing(&self) -> String {
         let names: Vec<String> =
             self.locals.iter().map(|(local, _)| format!("`{local}`")).collect();
@@ -125,7 +124,7 @@ pub(in crate::exact::formula) fn elsewhere(name: &str) -> Option<String> {
     known.map(|(_, help)| (*help).to_owned())
 }
 
-/// The question whether the nearest candidate is meant, if one is near.
+/// The text "did you mean" with the nearest candidate, if one is near.
 pub(in crate::exact::formula) fn meant<'a>(
     name: &str,
     candidates: impl Iterator<Item = &'a str>,

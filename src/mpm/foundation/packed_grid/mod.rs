@@ -40,7 +40,7 @@ pub(in crate::mpm) struct PackedField<N> {
     layout: Layout,
 }
 
-/// Nodes along each axis, one where there is no axis.
+/// Nodes along each axis, one if there is no such axis.
 fn counts<const D: usize>(grid: &Grid<D>) -> [usize; 3] {
     std::array::from_fn(|axis| grid.counts.get(axis).copied().unwrap_or(1))
 }
@@ -94,12 +94,12 @@ impl PackedField<Node4> {
         FieldView { nodes: &self.nodes, layout: self.layout }
     }
 
-    /// Packs a field of vectors and, in the lanes `beside` it, perhaps another one.
+    /// Packs a field of vectors and, optionally, the field `second` in the lanes after it.
     pub(in crate::mpm) fn pack<const D: usize>(
         &mut self,
         grid: &Grid<D>,
         field: &[Vector<D>],
-        beside: Option<&[Vector<D>]>,
+        second: Option<&[Vector<D>]>,
     ) {
         self.shaped(grid);
         let ([across, rows, planes], [_, row, plane, _]) = (counts(grid), self.layout.strides);
@@ -114,10 +114,10 @@ impl PackedField<Node4> {
             let there = if D == 1 { piece(k) } else { row_of_field(k) };
             let (here, beyond) = here.split_at_mut(there.len());
             let values = here.iter_mut().zip(&field[there.clone()]);
-            if let Some(beside) = beside {
-                for ((Node4(here), value), beside) in values.zip(&beside[there]) {
+            if let Some(second) = second {
+                for ((Node4(here), value), second) in values.zip(&second[there]) {
                     *here = lanes(value);
-                    here[D..2 * D].copy_from_slice(beside.as_slice());
+                    here[D..2 * D].copy_from_slice(second.as_slice());
                 }
             } else {
                 values.for_each(|(Node4(here), value)| *here = lanes(value));
@@ -143,7 +143,7 @@ pub(in crate::mpm) struct Columns<'a, const D: usize> {
     pub(in crate::mpm) mass: Option<&'a mut [f64]>,
     /// From the first lanes.
     pub(in crate::mpm) momentum: Option<&'a mut [Vector<D>]>,
-    /// From the lanes after it, or from the first ones where they hold nothing else.
+    /// From the lanes after it, or from the first lanes if there is nothing else.
     pub(in crate::mpm) force: Option<&'a mut [Vector<D>]>,
     /// Nodes of the grid before the first one of these columns.
     pub(in crate::mpm) before: usize,
@@ -160,7 +160,7 @@ fn nodes_of_layer<const D: usize>(grid: &Grid<D>) -> usize {
 }
 
 impl<const D: usize> Columns<'_, D> {
-    /// The same columns.
+    /// Reborrows the columns for a shorter lifetime.
     pub(in crate::mpm) fn reborrow(&mut self) -> Columns<'_, D> {
         let Self { mass, momentum, force, before } = self;
         let (mass, momentum, force) =
@@ -269,8 +269,8 @@ mod tests {
     }
 
     proptest! {
-        /// Every place of the packed field stands for one node of the grid: packing writes the
-        /// value of that node there, and folding adds it back.
+        /// Every place of the packed field represents one node of the grid: packing writes the
+        /// value of the node there, and folding adds it back.
         #[test]
         fn packing_and_folding_are_transposes(
             counts in [1_usize..6, 1..6],

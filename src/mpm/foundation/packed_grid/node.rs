@@ -1,5 +1,5 @@
-//! Nodes of packed fields, which have as many numbers as a register, and views of the fields: all
-//! of a field, or consecutive layers.
+//! Nodes of packed fields, with as many numbers as a register, and views of the fields: the whole
+//! field, or consecutive layers.
 
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::simd::{LANES, Plain, Register, Simd};
@@ -31,7 +31,7 @@ pub trait PackedNode: Copy + Debug + Default + Send + Sync {
     /// Lanes of a force alone.
     fn of_force<S: Simd>(simd: S, force: S::F64x4) -> Self::Lanes<S>;
 
-    /// Lanes of momentum and mass together with those of a force.
+    /// Joins the lanes of momentum and mass with those of a force.
     fn join<S: Simd>(simd: S, inertia: S::F64x4, force: S::F64x4) -> Self::Lanes<S>;
 
     /// Adds the numbers of another node.
@@ -47,8 +47,7 @@ pub trait PackedNode: Copy + Debug + Default + Send + Sync {
     fn force(&self) -> [f64; LANES];
 }
 
-/// First lane of a force among the four that hold it. Along one axis they hold a momentum and a
-/// mass as well.
+/// First lane of a force among its four lanes. In 1-D these also contain a momentum and a mass.
 pub(in crate::mpm) const fn force_lane(dimension: usize) -> usize {
     if dimension == 1 { 1 } else { 0 }
 }

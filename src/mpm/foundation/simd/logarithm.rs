@@ -1,8 +1,8 @@
 //! Natural logarithms of several numbers at a time.
 //!
 //! The operations of `libm::log` (FreeBSD's `e_log.c`: the error is below one unit in the last
-//! place) without its branches, so that the compiler fills registers with them. A test holds them
-//! to the same bits.
+//! place) without its branches, so that the compiler vectorises them. A test checks that the bits
+//! are equal.
 
 use super::{BATCH, F64Batch};
 
@@ -56,7 +56,7 @@ fn ln_of_normal(x: f64) -> f64 {
     s * (half_square + (odd + even)) + k * LN2_LOW - half_square + f + k * LN2_HIGH
 }
 
-/// The same where one of them is zero, negative, subnormal or no finite number.
+/// `ln x` lane by lane, for batches with a number that is zero, negative, subnormal or not finite.
 #[cold]
 #[inline(never)]
 fn one_by_one(x: &F64Batch) -> F64Batch {
@@ -79,7 +79,7 @@ mod tests {
 
         #[test]
         fn logarithms_have_the_bits_of_the_library(bits in any::<[u64; BATCH]>()) {
-            // Of each batch all numbers are positive and normal, so that none is done one by one.
+            // All numbers of each batch are positive and normal, so that the fast path is used.
             holds(bits.map(|bits| f64::from_bits(bits % (0x7fe << 52) + (1 << 52))));
         }
 

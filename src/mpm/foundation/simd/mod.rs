@@ -11,9 +11,9 @@
 //!             nodes of eight numbers are two registers of AVX2 or one of AVX-512
 //! ```
 //!
-//! Each lane does the same IEEE operations at every level, products and sums fused where the source
-//! says so and nowhere else, so that results have the same bits on every processor (held by tests
-//! in `tests/it/mpm/kernel`).
+//! Each lane does the same IEEE operations at every level. Products and sums are fused only where
+//! the source requests it, so that results have the same bits on every processor (tested in
+//! `tests/it/mpm/kernel`).
 //!
 //! Processor levels, each with its registers.
 //!
@@ -33,8 +33,8 @@ use std::ops::Range;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 use std::sync::LazyLock;
 
-/// Loop over registers. All functions it calls must be `#[inline(always)]`: others are compiled
-/// for the baseline processor.
+/// Loop over registers. All functions that it calls must be `#[inline(always)]`: other functions
+/// are compiled for the baseline processor.
 pub trait SimdPass: Sized {
     /// Whether the loop runs faster with the registers of AVX-512, 32 in place of 16 and twice as
     /// wide.
@@ -44,7 +44,7 @@ pub trait SimdPass: Sized {
     fn run<S: Simd>(self, simd: S);
 }
 
-/// Runs `pass` at `level`; [`Basis::run`](crate::mpm::Basis::run) says where it is compiled.
+/// Runs `pass` at `level`; see [`Basis::run`](crate::mpm::Basis::run) for where it is compiled.
 #[inline(always)]
 pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -73,8 +73,8 @@ pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 static LEVEL: LazyLock<Level> = LazyLock::new(Level::new);
 
-/// Runs `loops` that name no registers, compiled for those of AVX2 where the processor has them.
-/// All functions they call must be `#[inline(always)]`, and so must they.
+/// Runs `loops` without explicit registers, compiled for AVX2 if the processor has it. The closure
+/// and all functions that it calls must be `#[inline(always)]`.
 #[inline(always)]
 pub(in crate::mpm) fn vectorized<R>(loops: impl FnOnce() -> R) -> R {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]

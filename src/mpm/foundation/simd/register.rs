@@ -10,7 +10,7 @@ pub(in crate::mpm) const LANES: usize = 4;
 /// Several `f64`.
 pub trait Register: Copy + Add<Output = Self> + AddAssign + Mul<f64, Output = Self> {
     /// `self + a b`, rounded once: IEEE 754's fusedMultiplyAdd, with the same bits on a processor
-    /// that has no instruction for it.
+    /// without such an instruction.
     fn plus_product(self, a: Self, b: f64) -> Self;
 }
 
@@ -106,8 +106,8 @@ impl Array {
     }
 }
 
-/// `a b + c`, rounded once. Where every processor of the target has an instruction for it, that;
-/// elsewhere the library's, since not every platform's own is right.
+/// `a b + c`, rounded once. Uses the instruction if every processor of the target has it, otherwise
+/// the version of this crate, because some platform libraries are wrong.
 #[inline(always)]
 fn fused(a: f64, b: f64, c: f64) -> f64 {
     if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {

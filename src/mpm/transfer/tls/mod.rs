@@ -1,10 +1,10 @@
 //! Taylor least squares: integrals over reconstructed fields instead of sums over particles.
 //!
-//! In each cell a linear Taylor polynomial is fitted to the particles' data, and nodal mass,
+//! In each cell a linear Taylor polynomial is fitted to the data of the particles, and nodal mass,
 //! momentum and internal force are integrated from it by Gauss's rule (Wobbes, Moeller, Galavi &
 //! Vuik 2019, IJNME 117): the internal force of a uniform stress is zero between any two full
-//! cells, however many particles each holds. Densities of mass and momentum keep their sums in
-//! every cell; the stress is a plain fit. Velocities come back as in FLIP.
+//! cells, for any number of particles in each. The fits of densities of mass and momentum conserve
+//! their sums in every cell; the stress is a plain fit. Velocities are transferred back as in FLIP.
 //!
 //! A linear Taylor polynomial through the data of the particles in one cell.
 
@@ -145,13 +145,13 @@ fn p2g_momentum<const D: usize>(
 struct Fit<'a, const D: usize> {
     /// Positions of all particles (m), inside the grid on periodic axes.
     x: &'a [Vector<D>],
-    /// Those in the cell, at least one.
+    /// Indices of the particles in the cell, at least one.
     members: &'a [usize],
 }
 
 impl<const D: usize> Fit<'_, D> {
     /// Value at `point` of the polynomial whose integral over the cell is `sum`, and whose slope
-    /// fits the densities that particles have: `f(x) = mean + g . (x - centre)`, g by least squares
+    /// fits the densities of the particles: `f(x) = mean + g . (x - centre)`, g by least squares
     /// (Wobbes et al. 2019, with the Taylor basis of degree one).
     fn conserved<T>(
         &self,
@@ -189,9 +189,10 @@ impl<const D: usize> Fit<'_, D> {
         self.members.iter().map(|&p| dyad(&arm(p), &arm(p))).sum()
     }
 
-    /// `mean + g . (x - about)` with the slope g that fits best; no slope where the particles do
-    /// not span all axes among themselves. Through the mean of a cell and a row of particles there
-    /// would be one too, as steep as the row is near to the centre, and masses of nodes below zero.
+    /// `mean + g . (x - about)` with the slope g of the best fit; zero slope if the particles do
+    /// not span all axes. A line through the mean of a cell and a single row of particles would
+    /// exist too, but it would be the steeper the closer the row is to the centre, and give
+    /// negative nodal masses.
     fn sloped<T>(
         &self,
         point: &QuadraturePoint<D>,
@@ -225,7 +226,7 @@ mod tests {
     use approx::assert_abs_diff_eq;
     use rstest::rstest;
 
-    /// Eight cells with three particles each, of which the last of the fourth cell has passed into
+    /// Eight cells with three particles each; the last particle of the fourth cell has moved into
     /// the fifth.
     fn uneven() -> (Grid<1>, Particles<1>) {
         let grid = Grid::new(Vector::zeros(), 1.0, [8], [true], [8]);
@@ -235,7 +236,7 @@ mod tests {
         (grid, particles)
     }
 
-    /// A linear field goes through the fit unchanged, a density keeps its sum.
+    /// The fit reproduces a linear field, and conserves the sum of a density.
     #[rstest]
     fn linear_fields_are_exact(#[values(0.1, 0.5, 0.93)] at: f64) {
         let (grid, particles) = uneven();

@@ -27,7 +27,7 @@ pub(in crate::mpm) struct QuadraturePoint<const D: usize> {
     pub(in crate::mpm) particle: Option<usize>,
     /// Centre of its cell (m).
     pub(in crate::mpm) centre: Vector<D>,
-    /// Second moments of a fit below this (m^2) are none.
+    /// Second moments of a fit below this value (m^2) count as zero.
     pub(in crate::mpm) smallest: f64,
     pub(in crate::mpm) members: (usize, usize),
 }
@@ -128,8 +128,8 @@ impl<const D: usize> QuadraturePoints<D> {
         }
     }
 
-    /// Sorts by counting, so that particles keep their order within a cell. A particle outside the
-    /// grid is left out, as the loops leave it out.
+    /// A counting sort, so that particles keep their order within a cell. Particles outside the
+    /// grid are ignored, as in the loops.
     fn sort(&mut self, grid: &Grid<D>, particles: &Particles<D>) {
         let cells: usize = grid.cells.iter().product();
         self.first.fill(0);
@@ -145,7 +145,7 @@ impl<const D: usize> QuadraturePoints<D> {
         for cell in 0..=cells {
             self.first[cell + 1] += self.first[cell];
         }
-        // Each first place moves on to that of the next cell, and is moved back below.
+        // Each first place advances to that of the next cell, and is restored below.
         for (p, cell) in self.cell.iter().enumerate() {
             self.order[self.first[*cell]] = p;
             self.first[*cell] += 1;

@@ -4,7 +4,7 @@
 use super::style::{FONT, INK, PAPER, TEXT, TITLE, style_sheet};
 use super::svg::{SvgElement, number};
 
-/// Room at both ends of a title, and above it.
+/// Margin at both ends of a title, and above it.
 const LEFT: f64 = 14.0;
 const TOP: f64 = 18.0;
 /// Height of a line of a title.
@@ -37,12 +37,12 @@ pub(crate) struct Heading {
 }
 
 impl Heading {
-    /// `title` in as many lines as it takes.
+    /// Wraps `title` into lines of at most `width`.
     pub(crate) fn new(title: &str, width: f64) -> Self {
         Self { lines: wrap(title, 1.12 * TITLE, width - 2.0 * LEFT, LINES), width }
     }
 
-    /// Where the figure below may begin (px).
+    /// Vertical position (px) at which the figure below may begin.
     pub(crate) fn bottom(&self) -> f64 {
         TOP + LEADING * self.lines.len() as f64
     }
@@ -57,10 +57,11 @@ impl Heading {
     }
 }
 
-/// Estimated width of `text` in pixels at font size `size`; SVG leaves text widths to the viewer.
+/// Estimated width of `text` in pixels at font size `size`; in SVG, the actual width depends on the
+/// viewer.
 ///
-/// The estimate follows `DejaVu Sans`, the widest face of the font stack: what fits there fits
-/// in Helvetica too.
+/// The estimate follows `DejaVu Sans`, the widest face of the font stack: a text that fits in it
+/// also fits in Helvetica.
 pub(crate) fn text_width(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum::<f64>() * size
 }
@@ -72,13 +73,13 @@ fn advance(c: char) -> f64 {
         'I' | ':' | ';' | '/' | '-' | '(' | ')' | '[' | ']' | 'f' | 't' | 'r' => 0.4,
         'm' | 'w' | 'M' | 'W' | '@' | '%' => 0.99,
         'A'..='Z' | '=' | '+' | '<' | '>' | '~' | '\u{2212}' | '×' | '&' | '#' => 0.8,
-        // Beyond Latin and Greek the glyphs may be as wide as they are high.
+        // Glyphs beyond Latin and Greek may be as wide as high.
         '\u{0}'..='\u{3ff}' => 0.63,
         _ => 1.0,
     }
 }
 
-/// Cuts `text` to `limit` pixels, with an ellipsis where something is missing.
+/// Shortens `text` to `limit` pixels, with an ellipsis for removed text.
 pub(crate) fn shorten(text: &str, size: f64, limit: f64) -> String {
     if text_width(text, size) <= limit {
         return text.to_owned();

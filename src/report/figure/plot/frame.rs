@@ -19,7 +19,7 @@ pub(crate) struct Titles<'a> {
 pub(crate) struct Plot<'a> {
     titles: Titles<'a>,
     heading: Heading,
-    /// The box that holds the data.
+    /// The box around the data.
     pub(crate) frame: Rect,
     x: PlotAxis,
     y: PlotAxis,
@@ -54,7 +54,7 @@ const MAJOR: f64 = 6.0;
 const MINOR: f64 = 3.0;
 
 impl<'a> Plot<'a> {
-    /// Lays the frame out so that titles and tick labels have their place around it.
+    /// Computes the layout of the frame with space for titles and tick labels around it.
     pub(crate) fn new(titles: Titles<'a>, x: Scale, y: Scale) -> Self {
         let heading = Heading::new(titles.title, WIDTH);
         let y = PlotAxis::new(y, FRAME_HEIGHT, |_| TEXT + 10.0);
@@ -89,7 +89,7 @@ impl<'a> Plot<'a> {
         (self.frame.w / self.x.scale.span(), self.frame.h / self.y.scale.span())
     }
 
-    /// A text in the middle of a frame which has nothing else to show.
+    /// A text in the middle of an empty frame.
     pub(crate) fn placeholder(&self, text: &str) -> SvgElement {
         let middle = (self.frame.x + self.frame.w / 2.0, self.frame.y + self.frame.h / 2.0);
         SvgElement::text(middle, "middle", text).set("fill", NEUTRAL)
@@ -191,7 +191,7 @@ impl<'a> Plot<'a> {
     }
 }
 
-/// Width of the sample of line and marker in front of a text.
+/// Width of the line-and-marker sample before a text.
 pub(crate) const KEY: f64 = 30.0;
 
 const KEY_GAP: f64 = 7.0;
@@ -221,7 +221,7 @@ impl LegendEntry {
     }
 }
 
-/// All entries, in as many columns as fit into the width of the figure.
+/// All entries, in as many columns as fit the width of the figure.
 #[derive(Clone, Debug)]
 pub(crate) struct Legend {
     entries: Vec<LegendEntry>,
@@ -237,7 +237,7 @@ impl Legend {
         Self { entries, rows }
     }
 
-    /// Height (px), with the distance from what is below; zero if there are no entries.
+    /// Height (px), including the distance to the element below; zero without entries.
     pub(crate) fn height(&self) -> f64 {
         if self.entries.is_empty() { 0.0 } else { LEGEND_ROW * self.rows as f64 + LEGEND_MARGIN }
     }

@@ -3,7 +3,7 @@
 use super::style::{MarkerShape, PAPER};
 use super::svg::{Pt, SvgElement};
 
-/// How a marker is filled.
+/// Filling of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fill {
     /// In the colour of the series.
@@ -17,7 +17,7 @@ pub(crate) enum Fill {
 /// Nominal radius of a marker.
 pub(crate) const RADIUS: f64 = 4.2;
 
-/// A crossed marker is larger, so that the cross inside can be seen in print.
+/// A crossed marker is larger, so that the cross inside is visible in print.
 const CROSSED_RADIUS: f64 = 5.6;
 
 /// A marker centred at `at`.
@@ -49,7 +49,7 @@ pub(crate) fn draw(shape: MarkerShape, fill: Fill, colour: &str, at: Pt) -> SvgE
     crossed
 }
 
-/// An arrow from `tail` straight up to `tip`: the value lies beyond the frame.
+/// An arrow from `tail` straight up to `tip`: the value is beyond the frame.
 pub(crate) fn arrow_up(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
     let mut arrow =
         SvgElement::new("g").set("fill", "none").set("stroke", colour).at("stroke-width", 1.3);
@@ -59,7 +59,7 @@ pub(crate) fn arrow_up(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
     arrow
 }
 
-/// How far the middle of a triangle's area lies below the marker's centre, in radii.
+/// Distance of the centroid of a triangle below the centre of the marker, in radii.
 fn lowered(shape: MarkerShape) -> f64 {
     match shape {
         MarkerShape::Up => 0.2,

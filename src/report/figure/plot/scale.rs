@@ -1,13 +1,13 @@
-//! From values to positions along an axis.
+//! Conversion of values to positions along an axis.
 
 use super::canvas::text_width;
 use super::style::{SUPERSCRIPT, TEXT};
 use super::svg::{Pt, SvgElement};
 
-/// The working coordinate of an axis: what is linear in pixels.
+/// The working coordinate of an axis, which is linear in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ScaleKind {
-    /// The value divided by ten to the given power.
+    /// The value divided by a power of ten.
     Linear {
         /// The power of ten which all tick labels share; 0 when they are plain decimals.
         power: i32,
@@ -33,14 +33,14 @@ pub(crate) struct Pad {
     pub(crate) hi: f64,
 }
 
-/// A logarithmic axis spans at least this many decades: rounding noise between equal errors must
+/// Minimum length of a logarithmic axis (decades), so that rounding noise between equal errors does
 /// not fill the figure.
 const MIN_DECADES: f64 = 0.5;
 
-/// A linear axis spans at least this fraction of its largest value, for the same reason.
+/// Minimum length of a linear axis, as a fraction of its largest value, for the same reason.
 const MIN_SPREAD: f64 = 1e-7;
 
-/// Below this magnitude (close to the subnormal numbers) a value is drawn as zero.
+/// Magnitude (close to the subnormal numbers) below which a value is drawn as zero.
 const TINY: f64 = 1e-290;
 
 impl Scale {
@@ -61,7 +61,7 @@ impl Scale {
         } else {
             libm::floor(libm::log10(largest)) as i32
         };
-        // Dividing before any difference is taken keeps the extremes of f64 from overflowing.
+        // Dividing before taking differences avoids overflow at the extremes of f64.
         let unit = libm::pow(10.0, f64::from(power));
         let (lo, hi, largest) = (lo / unit, hi / unit, largest / unit);
         let widen = if largest < TINY {
@@ -84,7 +84,7 @@ impl Scale {
         self.kind
     }
 
-    /// The power of ten that all labels share, where they do.
+    /// The common power of ten of all labels, if any.
     pub(crate) fn factor(&self) -> Option<Label> {
         match self.kind {
             ScaleKind::Linear { power } if power != 0 => Some(Label::power("×10", power)),
@@ -151,8 +151,8 @@ impl Label {
         if self.exponent.is_none() {
             return SvgElement::text(at, anchor, &self.base);
         }
-        // Two texts that meet at `joint`, and not one with a raised part: some converters anchor
-        // each part of a text anew.
+        // Two texts that meet at `joint` instead of one text with a raised part: some converters
+        // anchor each part of a text separately.
         let left_of_joint = text_width(&self.base, TEXT);
         let joint = match anchor {
             "start" => at.0 + left_of_joint,

@@ -1,6 +1,6 @@
-//! Sizes, colours, and what tells one series from another.
+//! Sizes, colours, and the marks that distinguish series.
 
-/// Width of a figure in pixels: on a narrow screen its texts still have 9 pixels.
+/// Width of a figure in pixels, so that texts still have 9 pixels on a narrow screen.
 pub(crate) const WIDTH: f64 = 440.0;
 /// Height of the frame around the data in pixels.
 pub(crate) const FRAME_HEIGHT: f64 = 256.0;
@@ -31,7 +31,7 @@ pub(crate) const CONTEXT: &str = "#8e8e8e";
 /// The Pareto front, a band below all lines.
 pub(crate) const FRONT: &str = "#fbe9a6";
 
-/// Colours on light paper with those that replace them on dark paper.
+/// Colours on light paper, with their replacements on dark paper.
 const PALETTE: [(&str, &str); 8] = [
     (PAPER, "#15181e"),
     (INK, "#e6e6e6"),
@@ -43,9 +43,8 @@ const PALETTE: [(&str, &str); 8] = [
     (FRONT, "#4a4a2a"),
 ];
 
-/// Colours of series on light and on dark paper, after those of Okabe and Ito. The yellow is left
-/// out, orange and sky blue are darker on light paper: WCAG 2.2 (1.4.11) asks for a contrast of
-/// 3:1.
+/// Colours of series on light and on dark paper, after Okabe and Ito. Yellow is excluded, and
+/// orange and sky blue are darker on light paper: WCAG 2.2 (1.4.11) requires a contrast of 3:1.
 const SERIES: [(&str, &str); 7] = [
     ("#0072b2", "#4ba6e3"),
     ("#d55e00", "#f0803c"),
@@ -56,9 +55,9 @@ const SERIES: [(&str, &str); 7] = [
     ("#000000", "#ffffff"),
 ];
 
-/// The style sheet that gives figures dark colours where the reader prefers them. Elements have
-/// plain light colours as attributes, so that the figure is the same in print and in programs that
-/// do not know `light-dark()`. Colours outside the palette, such as those of fields, do not change.
+/// The style sheet for dark colours, for readers who prefer them. Elements have light colours as
+/// attributes, so that the figure does not change in print and in programs without `light-dark()`.
+/// Colours outside the palette, such as those of fields, do not change.
 pub(crate) fn style_sheet() -> String {
     let rule = |(light, dark): &(&str, &str)| {
         let colour = format!("light-dark({light},{dark})");

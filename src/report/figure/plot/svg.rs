@@ -1,6 +1,6 @@
 //! The SVG writer: an element owns its attributes and its content, already escaped.
 //!
-//! Building the document as a tree keeps the tags balanced by construction.
+//! The document is built as a tree, so that tags are always balanced.
 
 use std::fmt::Write as _;
 
@@ -91,7 +91,7 @@ impl SvgElement {
         self
     }
 
-    /// Appends a child on a line of its own.
+    /// Appends a child on its own line.
     pub(crate) fn add(&mut self, child: &Self) {
         self.content.push('\n');
         self.content.push_str(&child.render());
@@ -108,7 +108,7 @@ impl SvgElement {
     }
 }
 
-/// A coordinate with two decimals; a negative zero would make equal figures differ in bytes.
+/// A coordinate with two decimals, without negative zero: equal figures must have equal bytes.
 pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     if text == "-0.00" { "0.00".to_owned() } else { text }

@@ -1,4 +1,4 @@
-//! Where an axis is ticked, and what the ticks say.
+//! Positions and labels of ticks.
 
 use super::scale::Label;
 use super::scale::{Scale, ScaleKind};
@@ -12,7 +12,7 @@ pub(crate) struct Tick {
     pub(crate) label: Option<Label>,
 }
 
-/// Decades of a logarithmic axis below which it is labelled between powers of ten too.
+/// Number of decades of a logarithmic axis below which it also has labels between powers of ten.
 const SHORT: f64 = 2.0;
 
 /// Between these powers of ten a short logarithmic axis shows plain numbers.
@@ -24,8 +24,8 @@ const DIGITS: [i32; 9] = [1, 2, 3, 4, 5, 6, 7, 8, 9];
 /// With more decades than this the ticks within them would merge.
 const TICKED_DECADES: f64 = 8.0;
 
-/// The densest ticks whose labels keep their distance on an axis of `length` pixels, where
-/// `extent` is the space which a label takes along the axis, its margin included.
+/// The densest ticks whose labels do not touch on an axis of `length` pixels; `extent` is the space
+/// of a label along the axis, including its margin.
 pub(crate) fn choose(scale: &Scale, length: f64, extent: impl Fn(&Label) -> f64) -> Vec<Tick> {
     let fits = |ticks: &Vec<Tick>| {
         let major: Vec<_> = ticks
@@ -61,7 +61,7 @@ fn linear(scale: &Scale, count: u32) -> Vec<Tick> {
     let step = digit * libm::pow(10.0, power);
     let decimals = (-power).max(0.0) as usize;
     let minor = step / parts as f64;
-    // The ends are ticked even where rounding puts them just outside.
+    // The ends have ticks even if rounding puts them just outside.
     let first = libm::ceil(lo / minor - 1e-6) as i64;
     let last = libm::floor(hi / minor + 1e-6) as i64;
     (first..=last)
@@ -84,7 +84,7 @@ fn decades(scale: &Scale, stride: i32) -> Vec<Tick> {
     })
 }
 
-/// Labels at 1, 2 and 5 times a power of ten, or at more digits where these are fewer than three.
+/// Labels at 1, 2 and 5 times a power of ten, or with more digits if there are fewer than three.
 fn short_log(scale: &Scale) -> Vec<Vec<Tick>> {
     // One notation for the whole axis.
     let (lo, hi) = scale.ends();
@@ -127,7 +127,7 @@ fn log_ticks(
     for power in libm::floor(lo) as i32..=libm::ceil(hi) as i32 {
         for &digit in digits {
             let at = scale.fraction_of_working(f64::from(power) + libm::log10(f64::from(digit)));
-            // The ends are ticked even where rounding puts them just outside.
+            // The ends have ticks even if rounding puts them just outside.
             if (-1e-9..=1.0 + 1e-9).contains(&at) {
                 let label = label(digit, power);
                 ticks.push(Tick { at, label });

@@ -17,7 +17,8 @@ struct Triangle {
 }
 
 impl Triangle {
-    /// Whether the triangle is neither too flat nor too narrow. Sides that are not numbers are.
+    /// Whether the triangle is neither too flat nor too narrow; false for sides that are not
+    /// finite.
     fn is_drawn(&self) -> bool {
         self.run >= SHORTEST && self.rise >= SHORTEST
     }
@@ -27,11 +28,12 @@ impl Triangle {
 #[derive(Clone, Debug)]
 pub(crate) struct TriangleRow {
     triangles: Vec<Triangle>,
-    /// Maximum width of the row, whatever the vertical axis.
+    /// Maximum width of the row, for any vertical axis.
     widest: f64,
 }
 
-/// Length of both sides (px) where the slope on paper is 1. Other slopes keep the area.
+/// Length of both sides (px) if the slope on paper is 1. Triangles of other slopes have the same
+/// area.
 const SIDE: f64 = 44.0;
 /// Maximum length of a side (px).
 const LONGEST: f64 = 52.0;
@@ -66,7 +68,7 @@ impl TriangleRow {
         Self { triangles, widest }
     }
 
-    /// Orders whose triangles would be too flat, too steep or too small to be read.
+    /// Orders whose triangles would be too flat, too steep or too small to be readable.
     pub(crate) fn left_out(&self) -> impl Iterator<Item = f64> {
         self.triangles.iter().filter(|triangle| !triangle.is_drawn()).map(|triangle| triangle.order)
     }
@@ -75,11 +77,11 @@ impl TriangleRow {
         self.triangles.iter().filter(|triangle| triangle.is_drawn())
     }
 
-    /// Share of the frame that must be free below the data so that triangles touch none of `paths`.
+    /// Share of the frame that must be free below the data so that triangles do not touch `paths`.
     /// `plot` is drawn with `pad` at the ends of its vertical axis; `paths` are its pixels.
     ///
-    /// A wider strip compresses the data, and triangles of the new axis are lower. A triangle that
-    /// is too narrow now may then be drawn, so that all heights count.
+    /// A wider strip compresses the data, so that the triangles become lower. A triangle that is
+    /// too narrow now may then be drawn, so that all heights count.
     pub(crate) fn strip(&self, plot: &Plot, paths: &[Vec<Pt>], pad: Pad) -> f64 {
         let highest = self.triangles.iter().map(|t| t.rise).fold(0.0, f64::max);
         let left = plot.frame.right() - self.widest - CLEAR;
@@ -122,7 +124,7 @@ impl TriangleRow {
     }
 }
 
-/// The lowest pixel of a path right of `left`.
+/// The lowest pixel of a path to the right of `left`.
 fn lowest_right_of(path: &[Pt], left: f64) -> Option<f64> {
     let points = path.iter().filter(|point| point.0 >= left).map(|point| point.1);
     let crossing = path.windows(2).filter(|ends| ends[0].0 < left && ends[1].0 >= left);
@@ -133,7 +135,7 @@ fn lowest_right_of(path: &[Pt], left: f64) -> Option<f64> {
     points.chain(crossing).max_by(f64::total_cmp)
 }
 
-/// An order as it is customarily written: thirds as fractions, others as short decimals.
+/// An order in the usual notation: thirds as fractions, others as short decimals.
 pub(crate) fn name(order: f64) -> String {
     const TOLERANCE: f64 = 0.005;
     let thirds = libm::round(3.0 * order);

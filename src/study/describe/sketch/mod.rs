@@ -1,7 +1,7 @@
 //! A sketch of a scene: bodies, grid, faces and loads, as text and as SVG.
 //!
-//! Symbols are the customary ones (hatching for a fixed face, rollers, arrows for loads). What a
-//! picture cannot say stands below it in the words of reports.
+//! Symbols follow the usual conventions (hatching for a fixed face, rollers, arrows for loads).
+//! Text below the picture states the rest, as in reports.
 
 mod shape;
 mod svg;

@@ -5,10 +5,10 @@ use crate::report::figure::plot::style::{INK, look};
 use crate::report::figure::plot::svg::{Pt, SvgElement, number};
 use crate::suite::model::Scene;
 
-/// Share of its colour that a body has, so that the grid is seen through it.
+/// Opacity of a body, so that the grid stays visible.
 const OPACITY: &str = "0.35";
 
-/// Distance, over the size of a body, of points that are one but for rounding.
+/// Maximum distance of equal points, relative to the size of the body: rounding error.
 const ROUNDING: f64 = 1e-9;
 
 /// The closed lines around a body in the plane of the first two axes (m).
@@ -18,7 +18,7 @@ pub(super) fn rims(view: &View, body: &Scene) -> Vec<Vec<Pt>> {
         let (left, right) = (body.from[0], body.to[0]);
         return vec![vec![(left, low), (right, low), (right, high), (left, high)]];
     };
-    // A line that has come back to its start is a rim, and what follows another.
+    // A line that returns to its start is a rim; the next point starts another one.
     let tolerance = ROUNDING * (body.to[0] - body.from[0]);
     let mut rims: Vec<Vec<Pt>> = vec![Vec::new()];
     for point in outline.trace() {
@@ -73,7 +73,7 @@ pub(super) fn draw(view: &View, body: &Scene, number_of_body: usize, colour: &st
     group
 }
 
-/// The sample of a colour before the words of its body.
+/// Colour sample before the text of a body.
 pub(super) fn swatch((x, y): Pt, colour: &str) -> SvgElement {
     let square = SvgElement::new("rect").at("x", x).at("y", y - 9.0).at("width", 10.0);
     let square = square.at("height", 10.0).set("fill", colour).set("fill-opacity", OPACITY);

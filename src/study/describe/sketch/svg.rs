@@ -13,16 +13,20 @@ use crate::suite::scene::face::FACES;
 /// Cells narrower than this (px) would be a grey field.
 const FINEST: f64 = 3.0;
 
-/// Height of a line of words below the scene, and the most of them that a row gets.
+/// Height of a line of text below the scene.
 const LINE: f64 = 16.0;
+
+/// Maximum number of lines of text per row.
 const MOST_LINES: usize = 3;
 
-/// Left end of names, and of what is said of them.
+/// Left end of names.
 const NAMES: f64 = 12.0;
+
+/// Left end of values.
 const VALUES: f64 = 142.0;
 
 /// The scene as an SVG document: cells of the coarsest level, bodies, faces with their conditions
-/// and loads, and the rest in words; `None` for a suite without a scene.
+/// and loads, and the rest as text; `None` for a suite without a scene.
 pub fn sketch_svg(suite: &Suite) -> Option<String> {
     let view = View::of(suite)?;
     let colours = shape::colours(&view.scene);
@@ -82,7 +86,7 @@ impl Row {
     }
 }
 
-/// The rows below the scene: how it is looked at, and the statement of the problem.
+/// The rows below the scene: the direction of view, and the statement of the problem.
 fn words(view: &View) -> Vec<Row> {
     let cells = |axis: usize| libm::round(view.size()[axis] / view.h);
     let counts = match view.scene.dimension() {
@@ -118,7 +122,7 @@ fn grid(view: &View) -> SvgElement {
     let mut group = SvgElement::new("g").set("stroke", GRID).at("stroke-width", 0.8);
     for (axis, length) in view.size().into_iter().enumerate() {
         let count = libm::round(length / view.h) as usize;
-        // Where cells are too fine to be seen, the rim of the grid alone.
+        // If cells are too small to be visible, only the boundary of the grid is drawn.
         let fine = view.h * view.scale()[axis] < FINEST;
         for k in (0..=count).step_by(if fine { count.max(1) } else { 1 }) {
             let x = view.from[axis] + k as f64 * view.h;
@@ -132,13 +136,13 @@ fn grid(view: &View) -> SvgElement {
     group
 }
 
-/// Coordinates of the corners of the grid, below and beside it.
+/// Coordinates of the corners of the grid, below the grid and to its left.
 fn corners(view: &View) -> SvgElement {
     let mut group = SvgElement::new("g");
     let low = view.place((view.from[0], view.from[1]));
     let high = view.place((view.to[0], view.to[1]));
     let mut add = |at: Pt, anchor: &str, value: f64| {
-        group.add(&SvgElement::text(at, anchor, &format!("{}", stated(value))));
+        group.add(&SvgElement::text(at, anchor, &stated(value)));
     };
     let below = low.1 + 30.0;
     add((low.0, below), "middle", view.from[0]);

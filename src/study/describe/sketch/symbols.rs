@@ -12,11 +12,11 @@ use crate::suite::scene::load::{ListedLoad, LoadTarget};
 const STEP: f64 = 9.0;
 const ARROW_STEP: f64 = 26.0;
 
-/// How far symbols reach out from a face.
+/// Distance by which symbols extend from a face.
 const REACH: f64 = 8.0;
 const ARROW: f64 = 20.0;
 
-/// Share of a traction along the normal below which it is one along the face.
+/// Normal share of a traction below which it is drawn along the face.
 const ALONG: f64 = 0.3;
 
 /// A face on the canvas: its ends, and the direction out of the body.
@@ -53,8 +53,8 @@ impl Edge {
         (0..count).map(move |k| (k as f64 + 0.5) / count as f64)
     }
 
-    /// Both ends of an arrow in `direction`: of one that presses the tip is at the face, of one
-    /// that pulls the tail, and one along the face lies beside it.
+    /// Tail and tip of an arrow in `direction`. Under pressure the tip is at the face, under
+    /// tension the tail; an arrow along the face is drawn at a distance from it.
     fn loaded(&self, share: f64, direction: Option<Pt>) -> (Pt, Pt) {
         let (ux, uy) = direction.unwrap_or(self.out);
         let (x, y) = (ARROW * ux, ARROW * uy);
@@ -96,7 +96,7 @@ fn traction(view: &View, load: &ListedLoad, face: &SceneFace, share: f64, t: f64
     (component(0), component(1))
 }
 
-/// Ends of a face (m) along the other axis: of a body with an outline, the part of the rim that
+/// Ends of a face (m) along the other axis; for a body with an outline, the part of the rim that
 /// lies on the face.
 fn ends(view: &View, face: &SceneFace, x: f64) -> [f64; 2] {
     let (scene, other) = (&view.scene, 1 - face.axis);
@@ -137,12 +137,12 @@ pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
             group.add(&edge.line(REACH, 1.5, INK));
         }
         "friction" => {
-            // A wall beside the body, which can leave it.
+            // A wall next to the body, from which the body can separate.
             group.add(&edge.line(3.0, 1.5, INK));
             edge.hatching(3.0, &mut group);
         }
         "periodic" => group.add(&edge.line(0.0, 2.0, INK).set("stroke-dasharray", "6 4")),
-        // It moves in any direction, which words say.
+        // The direction of motion is stated as text.
         "velocity" => group.add(&edge.line(0.0, 4.0, look(2).colour)),
         _ => {}
     }
@@ -177,7 +177,7 @@ const LONGEST: f64 = 24.0;
 /// Arrows along each axis of a body.
 const PER_AXIS: usize = 5;
 
-/// A velocity below this share of the largest is drawn as none.
+/// Minimum velocity that is drawn, as a share of the largest.
 const SMALLEST: f64 = 0.05;
 
 /// An arrow from `tail` to `tip`.
@@ -197,22 +197,23 @@ pub(super) fn arrow(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
     group
 }
 
-/// The vector on the canvas of one in the plane of the scene, the longest of which is `largest`.
+/// Converts a vector in the plane of the scene to the canvas; `largest` is the length of the
+/// longest vector.
 fn shown(vector: Pt, largest: f64) -> Pt {
     (LONGEST * vector.0 / largest, -LONGEST * vector.1 / largest)
 }
 
-/// Times (s); the first is used at which a load that grows from zero is present.
+/// Times (s) at which a load is evaluated; the first time with a non-zero load is used.
 const TIMES: [f64; 4] = [0.0, 1e-6, 1e-3, 0.1];
 
-/// The direction on the canvas of what first differs from zero.
+/// Direction on the canvas of the first non-zero vector of `at`.
 pub(super) fn direction(at: impl Fn(f64) -> Pt) -> Option<Pt> {
     let (x, y) = TIMES.into_iter().map(at).find(|v| libm::hypot(v.0, v.1) > 0.0)?;
     let size = libm::hypot(x, y);
     size.is_finite().then(|| (x / size, -y / size))
 }
 
-/// The stated velocities of a body at the start, where they are not zero.
+/// The stated initial velocities of a body, if they are not zero.
 pub(super) fn initial_velocity(view: &View, body: &Scene) -> SvgElement {
     let (low, high) = view.rise(body);
     let rows = if body.dimension() == 1 { 1 } else { PER_AXIS };

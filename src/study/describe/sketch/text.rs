@@ -4,11 +4,13 @@ use super::view::View;
 use crate::suite::model::{Scene, SceneFace, Suite};
 use crate::suite::scene::load::LoadTarget;
 
-/// Most characters along the first axis, and along the second.
+/// Maximum number of characters along the first axis.
 const COLUMNS: usize = 60;
+
+/// Maximum number of characters along the second axis.
 const ROWS: usize = 14;
 
-/// A line of text is about twice as high as a character is wide.
+/// Width of a character over the height of a line.
 const ASPECT: f64 = 0.5;
 
 /// Face with its condition or load: `left: fixed`.
@@ -19,8 +21,8 @@ fn label(scene: &Scene, number: usize, face: &SceneFace) -> String {
     format!("{}: {state}", face.name)
 }
 
-/// The scene as text, a character for a part of the grid: `.` where it is empty, `#` (or the number
-/// of the body, of several) where there is material. Empty for a suite without a scene.
+/// The scene as text, one character per part of the grid: `.` if it is empty, `#` (or the number of
+/// the body, if there are several) if it contains material. Empty for a suite without a scene.
 pub fn sketch_text(suite: &Suite) -> Vec<String> {
     let Some(view) = View::of(suite) else { return Vec::new() };
     let size = view.size();

@@ -1,4 +1,4 @@
-//! The part of the plane that a sketch shows, and where a place lies on the canvas.
+//! The part of the plane in a sketch, and its map to the canvas.
 
 use crate::report::figure::plot::style::WIDTH;
 use crate::report::figure::plot::svg::Pt;
@@ -9,8 +9,10 @@ use crate::suite::scene::grid_size::grid_axis;
 /// Distance of the grid from the edges of the canvas.
 pub(super) const MARGIN: f64 = 52.0;
 
-/// Most and least height of the grid on the canvas; a bar has the least.
+/// Maximum height of the grid on the canvas.
 const HIGHEST: f64 = 260.0;
+
+/// Minimum height of the grid on the canvas, used for a bar.
 const LOWEST: f64 = 34.0;
 
 /// The grid of the coarsest level in the plane of the first two axes.
@@ -23,7 +25,7 @@ pub(super) struct View {
 }
 
 impl View {
-    /// The view of a suite's scene; a stability study has that of its first row.
+    /// The view of the scene of a suite; for a stability study, of its first row.
     pub(super) fn of(suite: &Suite) -> Option<Self> {
         if let Some(plan) = suite.plan::<ConvergencePlan>() {
             return Some(Self::over(plan.scene.clone(), plan.refine.levels.first()?.h));
@@ -49,7 +51,8 @@ impl View {
         [self.to[0] - self.from[0], self.to[1] - self.from[1]]
     }
 
-    /// Pixels per metre along both axes. They differ for what would be too low to be seen.
+    /// Pixels per metre along both axes. They differ for bodies that would be too low to be
+    /// visible.
     pub(super) fn scale(&self) -> [f64; 2] {
         let size = self.size();
         let equal = f64::min((WIDTH - 2.0 * MARGIN) / size[0], HIGHEST / size[1]);

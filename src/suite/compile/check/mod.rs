@@ -1,5 +1,5 @@
-//! Checks of several keys of a suite together: parts of a suite that its solvers, its loads or its
-//! truth do not support. Sizes, time steps and judged sums have files of their own.
+//! Checks of several keys of a suite together: features that its solvers, its loads or its exact
+//! solution do not support. Sizes, time steps and judged sums have separate files.
 
 pub(crate) mod size;
 pub(crate) mod steps;
@@ -13,9 +13,9 @@ use crate::suite::model::method::Method;
 use crate::suite::model::{ConvergencePlan, Scene};
 use crate::suite::scene::load::{LoadEntry, StudyFacts};
 use crate::suite::yaml::{Diagnostic, Path};
-use crate::verify::Limits;
+use crate::verify::{Conserved, Limits};
 
-/// Refuses conditions that the bar does not know, if the suite asks for one.
+/// Refuses conditions that the FEM bar does not support, if the suite uses one.
 pub(crate) fn refuse_conditions_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -89,7 +89,8 @@ pub(crate) fn refuse_law_unknown_to_fem(
     Ok(())
 }
 
-/// Refuses what the loads of the scene do not go with, and the FEM where it lacks one.
+/// Refuses combinations with the loads of the scene that are not supported, and the FEM if it does
+/// not support a load.
 pub(crate) fn refuse_foreign(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -107,7 +108,8 @@ pub(crate) fn refuse_foreign(
     Ok(())
 }
 
-/// Refuses the reference FEM, as method or as reference, for a scene with an effect that it lacks.
+/// Refuses the reference FEM, as method or as reference, for a scene with an effect that it does
+/// not support.
 fn refuse_fem_without(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -123,7 +125,7 @@ fn refuse_fem_without(
     }
 }
 
-/// Refuses to judge a quantity that the reference FEM does not give.
+/// Refuses to judge a quantity that the reference FEM does not compute.
 pub(crate) fn refuse_quantity_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -148,8 +150,8 @@ pub(crate) fn refuse_quantity_unknown_to_fem(
     }
 }
 
-/// Refuses to bound the drift of sums that the reference FEM does not give; `path` is that of the
-/// expectation.
+/// Refuses bounds on the drift of sums that the reference FEM does not compute; `path` is that of
+/// the expectation.
 pub(crate) fn check_drift(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -158,6 +160,13 @@ pub(crate) fn check_drift(
 ) -> Result<(), Diagnostic> {
     let key = if limits.energy_rate.is_some() { "energy_rate" } else { "drift" };
     let asks = !limits.drift.is_empty() || limits.energy_rate.is_some();
+    let asks_of_energy =
+        limits.energy_rate.is_some() || limits.drifts().contains(&Conserved::Energy);
+    if asks_of_energy && method.averages_volume() {
+        let message = "the force of `volume: averaged` does not derive from a stored energy";
+        let diagnostic = evaluator.diagnostic_at_key(&path.then(key), message);
+        return Err(diagnostic.with_help("bound the drift of `momentum` or `mass`"));
+    }
     if !asks || matches!(method, Method::Mpm { .. } | Method::External { .. }) {
         return Ok(());
     }

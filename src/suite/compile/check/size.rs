@@ -1,4 +1,4 @@
-//! Whether every level fits into a machine, and has nodes where a face is held.
+//! Checks that every level fits into memory, and has nodes on fixed faces.
 
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
@@ -8,19 +8,20 @@ use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::scene::lattice::{any_particle, is_vacant};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Most particles, and most nodes, of one level.
+/// Maximum number of particles, and of nodes, per level.
 const MOST: f64 = 5e7;
 
-/// Distance of a held face from the grid's face that is no more than rounding, in cells.
+/// Maximum distance (cells) of a fixed face from the face of the grid that counts as rounding
+/// error.
 const ROUNDING: f64 = 1e-6;
 
-/// Where a file states what makes a level: its size, and its time step.
+/// Paths of the keys that define a level: its size and its time step.
 pub(crate) struct LevelPaths {
     pub(crate) size: Path,
     pub(crate) dt: Path,
 }
 
-/// Refuses a level that is too large, or on which a held face has no nodes.
+/// Refuses a level that is too large, or on which a fixed face has no nodes.
 pub(crate) fn refuse_unfit_levels(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -54,7 +55,8 @@ fn fits(
     sets(evaluator, path, scene, level)
 }
 
-/// Refuses a fine grid that is no level, or whose particles at all instants are too many to keep.
+/// Refuses a fine grid that is not a valid level, or whose particles at all instants need too much
+/// memory.
 pub(crate) fn fine_grid(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -72,7 +74,7 @@ pub(crate) fn fine_grid(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses a body with a free rim that is smaller than what one of its particles stands for.
+/// Refuses a body with a free rim that is smaller than the volume of one of its particles.
 fn vacant(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -110,8 +112,8 @@ fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
     (scene.to[axis] - scene.from[axis]) * per_axis / level.h
 }
 
-/// The nodes that are held lie on the last face of the grid, which must be that of the body; a
-/// periodic grid must end where the suite says.
+/// The fixed nodes are on the last face of the grid, which must be the face of the body; a periodic
+/// grid must end at the period of the suite.
 pub(crate) fn held_faces(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -150,7 +152,7 @@ fn sets(
     let cells = level.cells;
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
     for set in &scene.sets {
-        // Centres lie at from + length (i + 1/2)/count, see `Particles::fill`.
+        // Centres are at from + length (i + 1/2)/count, see `Particles::fill`.
         let some = |axis: usize| {
             let (from, length) = (scene.from[axis], scene.to[axis] - scene.from[axis]);
             let count = libm::round(along(scene, axis, level)).max(1.0);
@@ -175,7 +177,7 @@ fn sets(
     Ok(())
 }
 
-/// A reference keeps its state at every instant.
+/// A reference stores its state at every instant.
 fn reference(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
     let Some(fine) = &plan.reference else { return Ok(()) };
     let stored = fine.cells as f64 * plan.instants as f64;

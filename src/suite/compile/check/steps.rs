@@ -1,4 +1,4 @@
-//! Time steps that runs can take.
+//! Checks that time steps are usable.
 
 use super::size::LevelPaths;
 use crate::suite::evaluator::{Evaluator, shown};
@@ -17,8 +17,9 @@ struct StatedStep {
     clock: Clock,
 }
 
-/// Whether every level, and the reference, has a usable time step, and a finer one where time is
-/// refined. Instants that are shared with a computed truth must not change it.
+/// Checks that every level, and the reference, has a valid time step, which decreases from level to
+/// level if time is refined. Instants that are shared with a computed reference must not change the
+/// step.
 pub(crate) fn refuse_unusable(
     evaluator: &Evaluator<'_>,
     plan: &ConvergencePlan,
@@ -71,7 +72,7 @@ fn usable(
     })
 }
 
-/// Two wanted steps can become the same in a short run.
+/// Two requested steps can become equal in a short run.
 fn finer(
     evaluator: &Evaluator<'_>,
     path: &Path,

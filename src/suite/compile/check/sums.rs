@@ -1,7 +1,7 @@
-//! Whether a sum over the body that a suite judges can be told, by every subject and by the truth.
+//! Checks that a judged sum over the body is defined for every subject and for the exact solution.
 
 use crate::exact::Problem;
-use crate::mpm::MassName;
+use crate::mpm::{MassName, VolumeName};
 use crate::subject::PlaneState;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// The judged sum with its exact value, if `judge` names a sum.
 ///
 /// # Errors
-/// The reason why a subject or the truth cannot tell it.
+/// The reason why a subject or the exact solution does not define the sum.
 pub(crate) fn judged(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -50,6 +50,7 @@ pub(crate) fn judged(
         SumNeed::Nothing => Vec::new(),
         SumNeed::StoredEnergy => {
             stored_energy(evaluator, &path, problem, plan)?;
+            averaged_volume(evaluator, spec)?;
             Vec::new()
         }
         SumNeed::Rotation => {
@@ -70,7 +71,7 @@ fn no_face(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Diagnostic {
     diagnostic.with_help("remove it, or judge the `reaction`")
 }
 
-/// Refuses an energy that the law of the solver or that of the truth does not store.
+/// Refuses an energy that the law of the solver or of the exact solution does not define.
 fn stored_energy(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -94,6 +95,20 @@ fn stored_energy(
     Ok(())
 }
 
+/// Refuses an energy from which the force of a method does not derive.
+fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
+    let is_averaged = |method: &MethodSpec| match method {
+        MethodSpec::Mpm { volume: Some(volume), .. } => {
+            volume.as_slice().contains(&VolumeName::Averaged)
+        }
+        _ => false,
+    };
+    let Some(i) = spec.methods.iter().position(is_averaged) else { return Ok(()) };
+    let message = "the force of `volume: averaged` does not derive from a stored energy";
+    let path = Path::top("methods").then(i).then("mpm").then("volume");
+    Err(evaluator.diagnostic(&path, message).with_help("take `particle` to judge an energy"))
+}
+
 /// Refuses an angular momentum on a line, and of a body that has no one place.
 fn rotation(
     evaluator: &Evaluator<'_>,
@@ -110,7 +125,7 @@ fn rotation(
     Ok(())
 }
 
-/// Numbers of the walls whose reaction is judged.
+/// Indices of the walls whose reaction is judged.
 fn walls(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -162,7 +177,8 @@ fn no_reaction(evaluator: &Evaluator<'_>, path: &Path, face: &SceneFace) -> Diag
     evaluator.diagnostic(path, &message)
 }
 
-/// Refuses a mass matrix with which the nodes of a wall share the inertia of others.
+/// Refuses a consistent mass matrix, which adds the inertia of other nodes to the reaction of a
+/// wall.
 fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let is_consistent = |method: &MethodSpec| match method {
         MethodSpec::Mpm { mass: Some(mass), .. } => mass.as_slice().contains(&MassName::Consistent),
@@ -174,7 +190,8 @@ fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
     Err(evaluator.diagnostic(&path, message).with_help("take `lumped` to judge a reaction"))
 }
 
-/// Refuses to bound the energy of a body whose law has none; `path` is that of the bound.
+/// Refuses a bound on the energy of a body whose law has no energy; `path` is the path of the
+/// bound.
 pub(crate) fn refuse_law_without_energy(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,7 +1,7 @@
 //! The entries of `methods` become methods: the products of their lists, with names.
 
 use crate::fem::Sampling;
-use crate::mpm::{FrameName, MassName};
+use crate::mpm::{FrameName, MassName, VolumeName};
 use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, Start, is_solver_name};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{EquationName, MethodSpec};
@@ -16,7 +16,7 @@ pub(crate) struct MethodDraft {
     pub(crate) method: Method,
     /// Name of an external solver.
     solver: Option<String>,
-    /// Which of its settings the name says.
+    /// Which of its settings are part of the name.
     said: Vec<bool>,
 }
 
@@ -38,12 +38,12 @@ impl MethodDraft {
     }
 }
 
-/// First word of the names of a method, and its settings in the order in which they follow.
+/// First word of the names of a method, and its settings in the order of names.
 fn settings(method: &Method) -> (&'static str, Vec<String>) {
     match *method {
-        Method::Mpm { basis, transfer, scheme, start, mass, frame } => {
+        Method::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
             let transfer = transfer.name();
-            let rest = [scheme.name(), start.name(), mass.name(), frame.name()];
+            let rest = [scheme.name(), start.name(), mass.name(), frame.name(), volume.name()];
             let mut settings = vec![basis.name().to_owned(), transfer];
             settings.extend(rest.map(ToOwned::to_owned));
             ("mpm", settings)
@@ -58,8 +58,8 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
     }
 }
 
-/// The product of entry number `entry` of `methods`. A setting enters the name where the entry
-/// lists several, or where one always has to be chosen.
+/// The product of entry number `entry` of `methods`. A setting is part of the name if the entry
+/// lists several values, or if it must always be chosen.
 pub(crate) fn methods(
     evaluator: &Evaluator<'_>,
     entry: usize,
@@ -69,9 +69,10 @@ pub(crate) fn methods(
     let mut drafts = Vec::new();
     let mut push = |method, said| drafts.push(MethodDraft { entry, method, solver: None, said });
     match spec {
-        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame } => {
+        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
+            let (of_frame, of_volume) = (many(frame.as_ref()), many(volume.as_ref()));
             let said =
-                [true, true, true, many(start.as_ref()), many(mass.as_ref()), many(frame.as_ref())];
+                [true, true, true, many(start.as_ref()), many(mass.as_ref()), of_frame, of_volume];
             let settings = product(
                 &product(&product(basis.as_slice(), transfer.as_slice()), scheme.as_slice()),
                 &product(
@@ -79,11 +80,14 @@ pub(crate) fn methods(
                         &choices(start.as_ref(), Start::AtZero),
                         &choices(mass.as_ref(), MassName::Lumped),
                     ),
-                    &choices(frame.as_ref(), FrameName::Updated),
+                    &product(
+                        &choices(frame.as_ref(), FrameName::Updated),
+                        &choices(volume.as_ref(), VolumeName::Particle),
+                    ),
                 ),
             );
-            for (((basis, transfer), scheme), ((start, mass), frame)) in settings {
-                let method = Method::Mpm { basis, transfer, scheme, start, mass, frame };
+            for (((basis, transfer), scheme), ((start, mass), (frame, volume))) in settings {
+                let method = Method::Mpm { basis, transfer, scheme, start, mass, frame, volume };
                 push(method, said.to_vec());
             }
         }
@@ -127,13 +131,14 @@ pub(crate) fn methods(
 /// Number of methods that an entry unfolds into.
 pub(crate) fn count(spec: &MethodSpec) -> usize {
     let lengths = match spec {
-        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame } => vec![
+        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume } => vec![
             basis.as_slice().len(),
             transfer.as_slice().len(),
             scheme.as_slice().len(),
             length(start.as_ref()),
             length(mass.as_ref()),
             length(frame.as_ref()),
+            length(volume.as_ref()),
         ],
         MethodSpec::Heat { basis } => vec![basis.as_slice().len()],
         MethodSpec::External { .. } => Vec::new(),
@@ -171,13 +176,14 @@ pub(crate) fn named(
     Ok(named)
 }
 
-/// Lets names say the settings by which methods of one name differ. Names that are told apart
-/// already stay as they are; equal ones remain where the methods are equal.
+/// Adds to names the settings by which methods of equal name differ. Unique names do not change;
+/// equal methods keep equal names.
 fn tell_apart(drafts: &mut [MethodDraft]) {
     while say_differences(drafts) {}
 }
 
-/// Whether a name has become longer, and may have become that of another method.
+/// Adds one setting to equal names. Returns whether a name has changed; it may now be that of
+/// another method.
 fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {
@@ -228,7 +234,7 @@ fn solver_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<Str
     Err(diagnostic.with_label(&label))
 }
 
-/// The order that theory gives a solver: two, unless it is stated.
+/// The theoretical order of a solver: two by default.
 fn stated_order(
     evaluator: &Evaluator<'_>,
     path: &Path,

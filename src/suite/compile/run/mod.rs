@@ -1,12 +1,11 @@
-//! The run: levels, time steps and methods, and the cases that they make: the product of everything
-//! that a suite gives as a list.
+//! The run: levels, time steps and methods, and the cases: the product of all lists of a suite.
 
 pub(crate) mod methods;
 pub(crate) mod places;
 pub(crate) mod reference;
 pub(crate) mod refine;
 
-use crate::mpm::{FrameName, MassName, combine, combine_across, combine_bodies};
+use crate::mpm::{FrameName, MassName, combine, combine_across, combine_bodies, combine_volume};
 use crate::suite::compile::expect::expectations;
 use crate::suite::compile::truth::{conservation_only, law_of_bar};
 use crate::suite::evaluator::{Evaluator, shown};
@@ -17,10 +16,10 @@ use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::{Axis, Expectation};
 use methods::{NamedMethod, count, methods, named};
 
-/// Most cases that a suite may unfold into.
+/// Maximum number of cases of a suite, after lists are multiplied.
 const MOST_CASES: usize = 1000;
 
-/// The ends of the runs: how names write them, and value (s).
+/// The ends of the runs: text for names, and value (s).
 pub(crate) fn until(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
@@ -99,7 +98,7 @@ struct Draft {
     against: Against,
 }
 
-/// The truths of the study, each with what it adds to a name.
+/// The references of the study, each with its suffix for names.
 fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     let truths = [
         plan.has_formulas().then_some((Against::Exact, "-vs-exact")),
@@ -110,8 +109,8 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     truths.into_iter().flatten().chain(nothing).collect()
 }
 
-/// One method, for every end of the run and every truth. A part enters the name only where there
-/// is a choice.
+/// One method, for every end of the run and every reference. A part is included in the name only if
+/// there are alternatives.
 fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)]) -> Vec<Draft> {
     let mut drafts = Vec::new();
     for (text, until_value) in until {
@@ -137,12 +136,19 @@ fn combined(
     method: Method,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
-    let Method::Mpm { basis, transfer, mass, frame, start, .. } = method else { return Ok(()) };
+    let Method::Mpm { basis, transfer, mass, frame, start, volume, .. } = method else {
+        return Ok(());
+    };
     let mut known = combine(basis, transfer, mass, frame)
         .and_then(|()| combine_across(plan.scene.plane, basis, transfer));
     if plan.scene.bodies.len() > 1 {
         let contact = plan.scene.contact.is_some();
         known = known.and_then(|()| combine_bodies(transfer, mass, frame, start, contact));
+    }
+    let (dimension, plane) = (plan.scene.dimension(), plan.scene.plane);
+    for body in plan.scene.each() {
+        let material = &body.material;
+        known = known.and_then(|()| combine_volume(volume, frame, material, dimension, plane));
     }
     known.map_err(|reason| {
         let help = "give what goes together an entry of `methods` of its own";
@@ -150,7 +156,7 @@ fn combined(
     })
 }
 
-/// Refuses a product of lists that is too long, before it is unfolded.
+/// Refuses a product of lists that is too long, before it is computed.
 fn few(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -167,7 +173,7 @@ fn few(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses combinations that mean nothing before anything runs.
+/// Refuses invalid combinations before any run.
 fn possible(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -215,12 +221,12 @@ fn possible(
     }
 }
 
-/// Why no consistent mass matrix can be solved with the walls of the scene, if none can.
+/// Why a consistent mass matrix cannot be solved with the walls of the scene; `None` if it can.
 fn against_consistent_mass(plan: &ConvergencePlan) -> Option<&'static str> {
     plan.scene.faces.iter().find_map(|face| face.hold.against_consistent_mass())
 }
 
-/// Whether a period of the grid is not that of the body's reference place.
+/// Whether a period of the grid differs from that of the reference body.
 fn stretched(plan: &ConvergencePlan) -> bool {
     let scene = &plan.scene;
     let apart = |face: &SceneFace| {
@@ -230,8 +236,8 @@ fn stretched(plan: &ConvergencePlan) -> bool {
     scene.faces.iter().any(|face| face.hold.is_periodic() && apart(face))
 }
 
-/// The law of an FEM case that names none: that of the scene's material. Where there is none, such
-/// a case has been refused (`fem_support`).
+/// The law of an FEM case that names none: the law of the material. A case without such a law has
+/// already been refused (`fem_support`).
 fn own_law(plan: &ConvergencePlan) -> EquationName {
     law_of_bar(&plan.scene.material).unwrap_or_default()
 }

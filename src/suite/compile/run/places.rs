@@ -7,17 +7,17 @@ use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Share of the spacing by which a particle may be moved: the middle between two of them.
+/// Maximum displacement of a particle, as a share of the spacing: the middle between two particles.
 const MOST: f64 = 0.5;
 
-/// The same of random moves where a face carries a load: up to there the particles of its layer are
-/// told from those of the next one.
+/// Maximum random displacement if a face carries a load, as a share of the spacing: below it, the
+/// layer of particles at the face is distinct from the next one.
 const MOST_AT_LOADS: f64 = 0.25;
 
-/// The seed of a suite that states none.
+/// The default seed.
 const SEED: u64 = 1;
 
-/// Places of particles as the suite states them.
+/// Offsets of particles from their lattice, as stated by the suite.
 pub(crate) fn scatter(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -50,10 +50,11 @@ pub(crate) fn scatter(
         let label = format!("expected at most {MOST}, so that they stay in the body and apart");
         return Err(evaluator.diagnostic(&path, &message).with_label(&label));
     }
-    let at_face = |load: &ListedLoad| matches!(load.target(), LoadTarget::Face(_));
+    let at_face =
+        |load: &ListedLoad| matches!(load.target(), LoadTarget::Face(_) | LoadTarget::Rim(_));
     if perturb > MOST_AT_LOADS && scene.loads.iter().any(at_face) {
         let message = format!("particles are moved by up to {} of their spacing", shown(perturb));
-        let label = format!("expected at most {MOST_AT_LOADS} at a face with a load");
+        let label = format!("expected at most {MOST_AT_LOADS} at a face or rim with a load");
         return Err(evaluator.diagnostic(&path.then("perturb"), &message).with_label(&label));
     }
     let scatter = LatticeOffsets { shift, perturb, seed };

@@ -1,5 +1,5 @@
-//! Computations that serve as truth, from `reference`: by finite elements, or by the same method
-//! with a much shorter spacing.
+//! Computed references from `reference`: by finite elements, or by the same method with a much
+//! shorter spacing.
 
 use super::refine::{STEP_OF_EACH_H, step_formula};
 use crate::suite::compile::check::size;
@@ -11,10 +11,10 @@ use crate::suite::scene::grid_size::cell_size;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{Axis, Clock};
 
-/// The reference FEM, if that is what `spec` asks for.
+/// The reference FEM, if `spec` states it.
 ///
 /// # Errors
-/// A diagnostic of what is missing, or of a scene that is not one-dimensional.
+/// A diagnostic of a missing key, or of a scene that is not one-dimensional.
 pub(crate) fn reference(
     evaluator: &Evaluator<'_>,
     spec: &ReferenceSpec,
@@ -45,11 +45,12 @@ pub(crate) fn reference(
     }))
 }
 
-/// Ratio of the finest step to that of the same method that serves as truth. Its start is of second
-/// order, so that an error of second order on the finest level is known to 1/64.
+/// Minimum ratio of the finest time step to that of the reference run by the same method. The start
+/// of this run is of second order, so that an error of second order on the finest level is known to
+/// 1/64.
 const SHORTER: f64 = 8.0;
 
-/// The same method with a shorter spacing, if the suite states one.
+/// The reference run by the same method with a shorter spacing, if the suite states one.
 pub(crate) fn same_method(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -119,7 +120,8 @@ fn shorter(
     Ok(dt)
 }
 
-/// Refuses a grid whose own error is not small beside that of the finest level.
+/// Refuses a fine grid with fewer than [`FINE_GRID`] times the cells of the finest level: its own
+/// error would not be negligible.
 fn finer(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -135,7 +137,7 @@ fn finer(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// `level` with the size and the step of its own cells.
+/// `level` with the size and the time step of its own cells.
 fn with_step(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -154,7 +156,8 @@ fn with_step(
     Ok(LevelPlan { h, dt, ..level })
 }
 
-/// Refuses bodies whose particles are no lattice, in which alone their motion is interpolated.
+/// Refuses bodies whose particles do not form a lattice: the motion is interpolated on lattices
+/// only.
 fn one_lattice(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,5 +1,5 @@
-//! The refinement plan of a suite: the key that holds a list is refined. Time steps are stated, or
-//! follow from a rule: a share of the stable time step.
+//! The refinement plan of a suite: the key with a list is refined. Time steps are stated, or
+//! automatic: a share of the stable time step.
 
 use crate::exact::formula::Formula;
 use crate::suite::compile::check::size::LevelPaths;
@@ -12,7 +12,7 @@ use crate::suite::scene::grid_size::{cell_size, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::Axis;
 
-/// One entry of a list, and where it stands.
+/// One entry of a list, with its path.
 struct Located<T> {
     value: T,
     at: Path,
@@ -60,7 +60,7 @@ pub(crate) fn plan(
     Ok((plan, (0..count).filter_map(place).collect()))
 }
 
-/// Refuses an expectation of a full run where there is none.
+/// Refuses an expectation of a full run if there is no full run.
 fn no_idle_expectation(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -112,8 +112,7 @@ fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic
 
 pub(crate) const STEP_OF_EACH_H: &str = "or give the time step in `run`, as a formula of h";
 
-/// The entries of one key of `refine`, followed by those of `full` if it is the key that is
-/// refined.
+/// The entries of one key of `refine`, followed by those of `full` if the key is refined.
 fn listed<'w>(spec: &'w ConvergenceSpec, key: Axis, refined: Axis) -> Vec<Located<&'w NumberText>> {
     let refine = &spec.refine;
     let (name, list) = match key {
@@ -201,10 +200,10 @@ fn steps(
     texts.into_iter().map(bind).collect()
 }
 
-/// The share that `auto` takes.
+/// The share for `auto`.
 const AUTO: f64 = 0.5;
 
-/// The share of the stable time step that `spec` at `path` asks for, if it is a rule.
+/// The share of the stable time step that `spec` at `path` states, if the step is automatic.
 pub(crate) fn stable_share(
     evaluator: &Evaluator<'_>,
     path: &Path,

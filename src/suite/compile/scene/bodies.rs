@@ -1,19 +1,19 @@
 //! Several bodies in a scene.
 //!
 //! A scene has one `body` with its `material`, or a list of `bodies`. The grid, its walls and the
-//! loads are those of the scene: they act on every body.
+//! loads belong to the scene: they act on every body.
 
 use crate::mpm::MaterialSpec;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec, StressSpec};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Most bodies of a scene.
+/// Maximum number of bodies of a scene.
 const MOST: usize = 100;
 
-/// The keys of one body, and where they stand.
+/// The keys of one body, and their path.
 pub(crate) struct Listed<'w> {
-    /// The map that holds them.
+    /// Path of the map with these keys.
     pub(crate) at: Path,
     pub(crate) body: &'w BodySpec,
     pub(crate) material: &'w MaterialSpec<NumberText>,

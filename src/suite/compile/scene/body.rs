@@ -1,5 +1,4 @@
-//! One body, and what holds it and acts on it: its faces, the state across its plane, revolution
-//! and rest.
+//! One body with its faces, the state across its plane, revolution and rest.
 
 use super::bodies::Listed;
 use super::outline::BodyShape;
@@ -17,7 +16,7 @@ use crate::suite::scene::load::LoadSpec;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// One body, and what acts on it.
+/// One body with its conditions and loads.
 pub(crate) fn body(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -148,8 +147,8 @@ fn both_ends(
     Ok(())
 }
 
-/// Sets every face at rest that is not periodic, and refuses keys that hold or move the body, and
-/// other bodies. `path` is that of the map that holds the body.
+/// Sets every face at rest that is not periodic, and refuses keys that fix or move the body, and
+/// other bodies. `path` is that of the map with the body.
 fn settle(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -215,8 +214,8 @@ fn plane(
     Ok(plane)
 }
 
-/// Refuses a material whose law is not known in the state across the plane; `path` is that of the
-/// material.
+/// Refuses a material whose law is not implemented for the state across the plane; `path` is that
+/// of the material.
 fn knows(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -232,7 +231,7 @@ fn knows(
     Err(diagnostic.with_help("take `linear_elastic`, `neo_hookean` or `hencky`"))
 }
 
-/// Refuses a body that cannot be turned about the axis, where the first coordinate is zero.
+/// Refuses a body that cannot be revolved about the axis, where the first coordinate is zero.
 fn revolves(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), Diagnostic> {
     if scene.plane != PlaneState::Axisymmetric {
         return Ok(());

@@ -32,7 +32,7 @@ pub(crate) fn material(
     Ok(material)
 }
 
-/// A diagnostic of a parameter that varies from place to place, with what to state instead.
+/// A diagnostic of a parameter that varies in space, with advice on what to state instead.
 fn uniform(diagnostic: Diagnostic) -> Diagnostic {
     let varies = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
     if !COORDINATES.iter().any(varies) {
@@ -92,7 +92,7 @@ const COMPONENTS: [(&str, usize, usize); 6] =
 /// The initial displacement (m); empty: not stated.
 ///
 /// # Errors
-/// A complaint about a `material` that cannot start deformed, or about a formula.
+/// A diagnostic of a `material` that cannot start deformed, or of a formula.
 pub(crate) fn displacement(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -109,7 +109,7 @@ pub(crate) fn displacement(
 /// The initial velocity (m/s); empty: not stated.
 ///
 /// # Errors
-/// A complaint about a formula.
+/// A diagnostic of a formula.
 pub(crate) fn velocity(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -124,8 +124,8 @@ pub(crate) fn velocity(
 /// The stress of the reference configuration.
 ///
 /// # Errors
-/// A complaint about a `material` that cannot have one, about a component that the scene has no
-/// axes for, or about a formula.
+/// A diagnostic of a `material` without initial stress, of a component on a missing axis, or of a
+/// formula.
 pub(crate) fn stress(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -161,7 +161,8 @@ fn known(dimension: usize) -> String {
     format!("components: {}", names.join(", "))
 }
 
-/// Refuses what the law of `material` does not admit; `lacks` follows its name in the message.
+/// Refuses features that the law of `material` does not support; `lacks` follows its name in the
+/// message.
 fn admit(
     evaluator: &Evaluator<'_>,
     path: &Path,

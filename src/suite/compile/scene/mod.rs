@@ -31,9 +31,9 @@ pub(crate) fn scene(evaluator: &Evaluator<'_>, spec: &SceneSpec) -> Result<Scene
     Ok(scene)
 }
 
-/// The grid must reach over the body, and a face that is held must lie on the grid's own face: its
-/// nodes are what is held, and a periodic axis ends there. Where the body may start deformed, the
-/// period is that of its motion, which is checked against the grid's.
+/// The grid must contain the body, and a fixed face must be on the face of the grid, because the
+/// condition applies to its nodes, and a periodic axis ends there. If the body may start deformed,
+/// the period is that of its motion, which is checked against that of the grid.
 fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), Diagnostic> {
     let Some((from, to)) = &scene.grid else { return Ok(()) };
     let deforms = scene.material.properties().depends_on_deformation_alone().is_ok();
@@ -101,7 +101,7 @@ fn together(
     Ok(scene)
 }
 
-/// Walls hold the faces of a body that lie on those of the box around all bodies.
+/// Walls act on faces of a body that are on the faces of the box around all bodies.
 fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
     for face in &mut body.faces {
         let axis = face.axis;

@@ -1,4 +1,4 @@
-//! Sets of particles, and what acts on them.
+//! Sets of particles, and loads on them.
 
 use super::outline;
 use crate::exact::{Outline, Region};
@@ -8,10 +8,10 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::{Scene, face::FACES};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Share of a box that is no more than rounding.
+/// Share of a box that counts as rounding error.
 const SLIVER: f64 = 1e-12;
 
-/// The sets of particles, on which nothing acts yet.
+/// The sets of particles, without loads.
 pub(crate) fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -35,7 +35,7 @@ pub(crate) fn declared(
     spec.sets.as_slice().iter().map(declare).collect()
 }
 
-/// A set that is called like a face could be taken for it.
+/// A set with the name of a face would be ambiguous.
 fn refuse_face_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<(), Diagnostic> {
     if !FACES.contains(&name) {
         return Ok(());
@@ -44,7 +44,7 @@ fn refuse_face_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Resul
     Err(evaluator.diagnostic_at_key(path, &message).with_help("give the set another name"))
 }
 
-/// A set must have a part of the body of some extent.
+/// A set must contain a part of the body.
 fn refuse_outside(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -66,7 +66,7 @@ fn refuse_outside(
     Ok(())
 }
 
-/// The same in the box around a body that is none.
+/// Refuses a set without a part of a body that is not a box.
 fn refuse_beside(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -84,7 +84,7 @@ fn refuse_beside(
     Err(evaluator.diagnostic(&path.then("from"), &message).with_label(&label))
 }
 
-/// A set that nothing acts on is a slip of the pen.
+/// Refuses a set without a load, which is probably a mistake.
 pub(crate) fn refuse_idle(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -44,7 +44,7 @@ pub(crate) fn rows(
             return Err(diagnostic.with_label("expected one for all, or one for each"));
         }
     }
-    // The values of the suite itself come first: they mark parameters as used.
+    // The values of the suite itself come first, which marks parameters as used.
     row(evaluator, &path, spec, &figures, 0)?;
     rows.iter()
         .enumerate()
@@ -76,7 +76,7 @@ fn row(
     })
 }
 
-/// Refuses to expect a limit that is not sought, or the outcome of a run that is not made.
+/// Refuses to expect a limit that is not sought, or the result of a run that does not exist.
 fn refuse_idle(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -8,19 +8,19 @@
 pub(crate) mod expect;
 pub(crate) mod setup;
 
-use crate::mpm::{MaterialPlan, combine, combine_across};
-use crate::subject::PlaneState;
+use crate::mpm::{MaterialPlan, combine, combine_across, combine_volume};
 use crate::suite::compile::expect::assign;
 use crate::suite::compile::run::methods::{count, methods, named};
 use crate::suite::compile::truth::law_of_bar;
 use crate::suite::evaluator::{Evaluator, shown, suggestion};
 use crate::suite::grammar::{MethodSpec, StabilitySpec};
+use crate::suite::model::Scene;
 use crate::suite::model::method::Method;
 use crate::suite::model::stability::{SetupTemplate, StabilityCase, StabilityPlan};
 use crate::suite::yaml::{Diagnostic, Path, Source};
 use setup::setup;
 
-/// Most rows and most cases of a study.
+/// Maximum number of rows, and of cases, of a study.
 const MOST: usize = 500;
 
 /// Checks a stability study.
@@ -31,7 +31,7 @@ pub(crate) fn plan(
 ) -> Result<StabilityPlan, Diagnostic> {
     few(evaluator, spec)?;
     let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
-    // The values of the suite itself come first: they mark parameters as used.
+    // The values of the suite itself come first, which marks parameters as used.
     let base = setup(evaluator, spec)?;
     let (swept, values) = sweep(evaluator, spec)?;
     let sought = sought(evaluator, spec, &swept)?;
@@ -46,7 +46,7 @@ pub(crate) fn plan(
             material = template.setup(&with)?.scene.material;
         }
     }
-    let drafts = drafts(evaluator, spec, &material, base.scene.plane)?;
+    let drafts = drafts(evaluator, spec, &material, &base.scene)?;
     let cases = cases(evaluator, &template, spec, drafts, &swept, &values, sought.is_some())?;
     let mut figures = spec.show.clone();
     for entry in &spec.expect {
@@ -86,7 +86,7 @@ fn sweep(
     Ok((name.clone(), values))
 }
 
-/// Only what the suite declares can be swept or sought.
+/// Refuses to sweep or seek a name that the suite does not declare.
 fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -143,9 +143,9 @@ fn drafts(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
     material: &MaterialPlan,
-    plane: PlaneState,
+    scene: &Scene,
 ) -> Result<Vec<(String, Method)>, Diagnostic> {
-    let own = law_of_bar(material).unwrap_or_default();
+    let (own, plane) = (law_of_bar(material).unwrap_or_default(), scene.plane);
     let mut drafts = Vec::new();
     for (i, spec) in spec.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
@@ -153,9 +153,16 @@ fn drafts(
             return Err(evaluator.diagnostic(&path, "stability is studied of MPM only"));
         }
         for draft in methods(evaluator, i, spec, own)? {
-            if let Method::Mpm { basis, transfer, mass, frame, .. } = draft.method {
+            if let Method::Mpm { basis, transfer, mass, frame, volume, .. } = draft.method {
                 let across = |()| combine_across(plane, basis, transfer);
-                combine(basis, transfer, mass, frame).and_then(across).map_err(|reason| {
+                let averaged = |()| {
+                    scene.each().iter().try_for_each(|body| {
+                        let dimension = scene.dimension();
+                        combine_volume(volume, frame, &body.material, dimension, plane)
+                    })
+                };
+                let known = combine(basis, transfer, mass, frame).and_then(across);
+                known.and_then(averaged).map_err(|reason| {
                     let help = "give what goes together an entry of `methods` of its own";
                     evaluator.diagnostic(&path, &reason.to_string()).with_help(help)
                 })?;

@@ -1,7 +1,6 @@
 //! Set-up of a run, from values of the parameters.
 //!
-//! Any parameter can be swept, because nothing is computed before its value is known: the
-//! specification is evaluated once more for every value.
+//! Any parameter can be swept: the whole specification is evaluated again for every value.
 
 use crate::suite::compile::check::size;
 use crate::suite::compile::run::refine::{stable_share, step_formula};
@@ -15,21 +14,22 @@ use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use crate::verify::{RunFigure, Scales};
 
-/// Size of the perturbations that a frozen run starts with: in it, nothing else moves.
+/// Amplitude of the initial perturbations of a run with frozen configuration.
 const PERTURBATION: f64 = 1e-9;
 
 /// ParameterValues of parameters, by name.
 pub(crate) type ParameterValues<'a> = [(&'a str, f64)];
 
-/// One run, ready to be made.
+/// Set-up of one run.
 #[derive(Debug, Clone)]
 pub(crate) struct RunSetup {
     pub(crate) scene: Scene,
     pub(crate) lattice: LatticeEdits,
     pub(crate) level: LevelPlan,
-    /// Lengths of the steps (s), which take turns.
+    /// Lengths of the steps (s), used cyclically.
     pub(crate) dt: Vec<f64>,
-    /// The share of the stable time step that `dt` is made once particles are there, by a rule.
+    /// Share of the stable time step for an automatic `dt`, which is computed when there are
+    /// particles.
     pub(crate) rule: Option<f64>,
     pub(crate) steps: u64,
     /// Steps of a full run.
@@ -41,7 +41,7 @@ pub(crate) struct RunSetup {
 }
 
 impl SetupTemplate {
-    /// The names of the suite with `values` in the place of what it says.
+    /// The names of the suite with `values` instead of the declared values.
     pub(crate) fn evaluator(
         &self,
         values: &ParameterValues<'_>,
@@ -126,7 +126,7 @@ pub(crate) fn setup(
     Ok(setup)
 }
 
-/// Steps of one length before it is the turn of the other; one where all are of one length.
+/// Number of consecutive steps of each length; one if all steps have equal length.
 fn turns(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<usize, Diagnostic> {
     const MOST: u64 = 1000;
     let Some(text) = &spec.run.every else { return Ok(1) };
@@ -183,7 +183,7 @@ fn perturbation(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<f64, 
         .map_or(Ok(default), |text| evaluator.positive(&path, text, "the size of the perturbation"))
 }
 
-/// A frozen body is one that rests: nothing acts on it.
+/// A frozen body is at rest: no load acts on it.
 fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let loaded = scene.loads.iter().any(|load| load.disturbs_rest());
     let driven = scene.faces.iter().any(|face| face.hold.is_driven());
@@ -204,8 +204,8 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     Err(diagnostic.with_help("remove what the scene states of it; `perturb` starts the run"))
 }
 
-/// Energy, over that at the start, up to which a run is stable: above what the exchange between
-/// velocities and stresses makes of a random start just below the limit of a leapfrog.
+/// Maximum energy of a stable run, over the initial energy: above the value that the exchange
+/// between velocities and stresses reaches from a random start just below the limit of a leapfrog.
 const STABLE_BELOW: f64 = 1e3;
 
 /// Energy beyond which a run is unstable.

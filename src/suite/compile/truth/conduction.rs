@@ -1,5 +1,5 @@
-//! Heat problems that a stated temperature is to solve, in bodies that move or are at rest, and the
-//! methods that know of heat.
+//! Heat problems of a stated temperature, in moving bodies or bodies at rest, and the methods that
+//! support heat.
 
 use super::tolerance::{if_rounded, tolerance};
 use crate::exact::Motion;
@@ -66,7 +66,7 @@ fn refuse_methods_of_other_bodies(
     Err(evaluator.diagnostic(&Path::top("methods").then(i), &message).with_help(help))
 }
 
-/// Refuses what is judged, observed, expected or stated of a motion.
+/// Refuses judged, observed, expected or stated quantities of a motion.
 fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     if spec.judge.of.is_of_motion() {
         let message = "nothing moves, and what is judged belongs to a motion";
@@ -100,8 +100,8 @@ fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagn
     }
 }
 
-/// The heat problem of `scene` with the temperature that a suite states at `path`, not yet checked;
-/// none where neither is there.
+/// The heat problem of `scene` with the temperature at `path`, not yet checked; `None` without
+/// both.
 pub(crate) fn problem(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -150,7 +150,7 @@ pub(crate) fn problem(
     }))
 }
 
-/// Refuses methods that know nothing of heat.
+/// Refuses methods without heat conduction.
 fn refuse_methods_without_heat(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -190,9 +190,9 @@ fn refuse_methods_without_heat(
     Ok(())
 }
 
-/// Inputs of a heat problem besides the scene.
+/// Inputs of a heat problem in addition to the scene.
 pub(crate) struct ConductionInputs {
-    /// How the body deforms.
+    /// Deformation of the body.
     pub(crate) motion: Option<Motion>,
     /// Whether the source follows from the temperature.
     pub(crate) manufactured: bool,

@@ -1,4 +1,5 @@
-//! Suites without a truth: no error is taken, and expectations bound only what a run keeps.
+//! Suites without exact solution or reference: there are no errors, and expectations only bound
+//! conserved quantities.
 
 use crate::exact::Truth;
 use crate::suite::evaluator::Evaluator;
@@ -6,7 +7,7 @@ use crate::suite::grammar::{ConvergenceSpec, ExpectSpec};
 use crate::suite::model::{ConvergencePlan, SameMethod};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// The truth of a suite that states none: only conserved sums are judged.
+/// Placeholder for a suite without exact solution: only conserved sums are judged.
 pub(crate) struct Unknown;
 
 impl Truth for Unknown {
@@ -19,18 +20,18 @@ impl Truth for Unknown {
     }
 }
 
-/// Whether a suite compares with nothing.
+/// Whether a suite has no exact solution and no reference.
 pub(crate) fn is_truthless(plan: &ConvergencePlan) -> bool {
     !plan.has_formulas() && plan.reference.is_none() && !is_truth(plan.same_method)
 }
 
-/// Whether the same method may stand for a truth alone. Shorter steps know the error of the time
-/// step only, and stand beside an exact solution.
+/// Whether the same method can be the only reference of a suite. With shorter steps it only
+/// measures the error of the time step, and needs an exact solution in addition.
 pub(crate) fn is_truth(same_method: Option<SameMethod>) -> bool {
     matches!(same_method, Some(SameMethod::FineGrid(_)))
 }
 
-/// Refuses a suite without a truth that asks for something which takes one.
+/// Refuses a suite without exact solution or reference that uses a key which needs one.
 pub(crate) fn refuse_need_of_truth(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

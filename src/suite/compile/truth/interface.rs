@@ -1,4 +1,4 @@
-//! The exact solution of several bodies: that of each, and the conditions on faces where they meet.
+//! The exact solution of several bodies: that of each, and the conditions on common faces.
 //!
 //! Boxes meet face to face: the high face of one and the low face of the next along an axis, of the
 //! same extent, touching or with a gap between them. No condition is known for other faces and for
@@ -15,10 +15,10 @@ use std::sync::Arc;
 const CONTACT: &str = "bodies without `contact` share one velocity field and stick together: if \
                        they may part or slide, add `contact: {friction: 0}` to `scene`";
 
-/// Refuses truths that are those of one body.
+/// Refuses exact solutions for a single body.
 ///
 /// # Errors
-/// A diagnostic of the first such truth.
+/// A diagnostic of the first such solution.
 pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let of_one = [
         ("manufactured", spec.manufactured.is_some()),
@@ -31,7 +31,7 @@ pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Resul
     Err(diagnostic.with_help("state a solution under `exact`, or bound what the run keeps"))
 }
 
-/// Checks the `problems` of all bodies of a scene, each by `check`, and the faces where they meet.
+/// Checks the `problems` of all bodies of a scene with `check`, and the faces between them.
 ///
 /// # Errors
 /// A diagnostic of `check`, or of a violation by `diagnostic`; and one about bodies for which no
@@ -79,7 +79,7 @@ pub(crate) fn refuse_violated_conditions(
     Ok(())
 }
 
-/// The bodies that follow each other along an axis with nothing between them: both, and the axis.
+/// Bodies that touch each other along an axis: both indices, and the axis.
 fn pairs(problems: &[Problem]) -> Vec<(usize, usize, usize)> {
     let mut pairs = Vec::new();
     let d = problems.first().map_or(0, Problem::dimension);

@@ -1,7 +1,6 @@
-//! The truth of a suite: the exact solution, or the state in which the body comes to rest, and the
-//! check that it solves its problem.
+//! The exact solution or equilibrium of a suite, and the check that it solves its problem.
 //!
-//! A body is compared with its equilibrium once it is there: at the end of the run.
+//! A body is compared with its equilibrium at the end of the run.
 
 pub(crate) mod conduction;
 pub(crate) mod conservation_only;
@@ -19,15 +18,15 @@ use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use conduction::ConductionInputs;
 use tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
 
-/// Maximum length of a formula of a solution, which is evaluated some 30000 times with all its
-/// derivatives before anything runs.
+/// Maximum number of operations of a formula of a solution. Before any run it is evaluated about
+/// 30000 times with all its derivatives.
 const MOST_OPERATIONS: u64 = 5000;
 
-/// The problem that the formulas of a suite are to solve, if it has formulas. Whether they do is
-/// not yet checked.
+/// The problem of the formulas of a suite, if it has formulas. The check of the solution follows
+/// later.
 ///
 /// # Errors
-/// A diagnostic of keys that do not go together, or of a formula.
+/// A diagnostic of contradicting keys, or of a formula.
 pub(crate) fn exact(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -66,7 +65,7 @@ pub(crate) fn exact(
 /// start.
 ///
 /// # Errors
-/// A diagnostic at the formula that names the violated condition, where and by how much.
+/// A diagnostic at the formula, with the violated condition, the place and the difference.
 pub(crate) fn refuse_violated(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -188,7 +187,7 @@ fn manufactured(
     Ok(Some(Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) }))
 }
 
-/// The scene as a continuum problem, with the motion that is to solve it.
+/// The scene as a continuum problem, with the motion to be checked.
 fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Problem {
     Problem {
         from: scene.from.clone(),
@@ -247,7 +246,7 @@ fn motion(
     Ok(Motion::new(components))
 }
 
-/// A face with its condition, which is that of the load on it, if there is one: it is free then.
+/// A face with its condition. For a free face with a load it is the condition of the load.
 fn face(scene: &Scene, number: usize) -> Face {
     let SceneFace { name, axis, high, hold } = &scene.faces[number];
     let loaded =
@@ -256,10 +255,11 @@ fn face(scene: &Scene, number: usize) -> Face {
     Face { name, axis: *axis, high: *high, period: scene.period(*axis), condition }
 }
 
-/// Solutions are checked in boxes and bodies with a free rim.
+/// Refuses a solution in a quadrilateral: solutions are checked in boxes and bodies with a free rim
+/// only.
 ///
 /// # Errors
-/// A complaint about a truth that is stated.
+/// A diagnostic at the stated solution.
 fn refuse_truth_of_mapped(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -279,13 +279,13 @@ fn refuse_truth_of_mapped(
     }
 }
 
-/// The equation of motion of a body of this material, for which motions the truth has it: J2 where
-/// loading never reverses, a fluid at rest. Material and law are one by the material's name.
+/// The equation of motion of a body of this material, found by the name of the material. Some laws
+/// restrict the motion: J2 needs loading that never reverses, a fluid must be at rest.
 pub(crate) fn equation_of(material: &MaterialPlan) -> Option<Equation> {
     Equation::of_material(material.name(), |key| material.parameter(key))
 }
 
-/// The equation that forces are manufactured with, or why there is none.
+/// The equation for manufactured forces, or the reason why there is none.
 fn manufactured_law(material: &MaterialPlan) -> Result<Equation, &'static str> {
     material.properties().depends_on_deformation_alone()?;
     equation_of(material).ok_or("the law has no equation")
@@ -297,7 +297,7 @@ pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
     BarLaw::find(name).and(EquationName::find(name))
 }
 
-/// Refuses a suite whose `equilibrium` makes no sense beside what else it says.
+/// Refuses an `equilibrium` that contradicts other keys of the suite.
 fn refuse_equilibrium_with(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -314,7 +314,7 @@ fn refuse_equilibrium_with(
         let message = format!("`{other}` is a motion, and the suite states an equilibrium besides");
         return Err(evaluator.diagnostic_at_key(&Path::top(other), &message));
     }
-    // Bound without t, for the complaint that there is no t.
+    // Bound without t, so that a formula with t is an error.
     let d = scene.dimension();
     if let Some(texts) = &state.displacement {
         evaluator.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;
@@ -344,7 +344,8 @@ fn refuse_equilibrium_with(
     }
 }
 
-/// Where a wall or a set has got to is not known from its velocity at the end.
+/// Refuses driven walls and sets: their final positions do not follow from their velocity at the
+/// end.
 fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let scene_path = Path::top("scene");
     if let Some(face) = scene.faces.iter().find(|face| face.hold.is_driven()) {

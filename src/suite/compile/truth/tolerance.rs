@@ -1,11 +1,11 @@
-//! How well a stated solution must meet its problem, and how well one that is linearised.
+//! Tolerances of stated solutions, and of linearised ones.
 
 use crate::exact::{Linearised, Problem, Violation};
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::LinearisedSpec;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Largest relative residual of a closed form: what rounding leaves of second derivatives.
+/// Largest relative residual of a closed form: rounding error of second derivatives.
 pub(crate) const TOLERANCE: f64 = 1e-8;
 
 /// Largest one that a suite may state.
@@ -27,7 +27,7 @@ pub(crate) fn tolerance(
     Err(evaluator.diagnostic(&path, &message).with_label("expected at most 1e-2"))
 }
 
-/// The share of its law that the solution at `path` may leave, if it is linearised.
+/// The residual that a linearised solution at `path` may leave in its law.
 pub(crate) fn linearised(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -40,8 +40,8 @@ pub(crate) fn linearised(
     Ok(Some(Linearised { tolerance, because }))
 }
 
-/// The diagnostic of a `problem` with a violation: with the residual of the law, where a tolerance
-/// is stated for it, or could be.
+/// The diagnostic of a violation in `problem`, including the residual of the law if a tolerance is
+/// stated for it, or could be.
 pub(crate) fn violated(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -72,7 +72,7 @@ pub(crate) fn violated(
 /// Largest relative residual that may be a matter of rounding or of a series that was cut off.
 const ROUNDING: f64 = 1e-5;
 
-/// How to accept a violation that is small, for a solution with a `tolerance`.
+/// Advice on how to accept a small violation, for a solution with a `tolerance`.
 pub(crate) fn if_rounded(violation: &Violation, tolerance: f64) -> String {
     match violation.accepted_by(tolerance) {
         Some(accepted) if accepted <= ROUNDING => format!(

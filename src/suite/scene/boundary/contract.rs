@@ -9,15 +9,15 @@ use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Keys of the condition on a face, as suites write them.
+/// Keys of a condition on a face, in suites.
 pub(crate) trait BoundaryKeys {
     /// The condition, checked, with every number computed.
     ///
     /// # Errors
-    /// The first mistake in its keys.
+    /// The first error in its keys.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic>;
 
-    /// Whether the face is one and the same with the opposite one.
+    /// Whether the face coincides with the opposite one.
     fn is_periodic(&self) -> bool {
         false
     }
@@ -34,10 +34,11 @@ impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
     }
 }
 
-/// Where a condition on a face is compiled: its place in the file, and the dimension of the scene.
+/// Context of the compilation of a condition on a face: its path in the file, and the dimension of
+/// the scene.
 pub(crate) struct FaceEntry<'a> {
     pub(crate) evaluator: &'a Evaluator<'a>,
-    /// Of its value.
+    /// Path of its value.
     pub(crate) path: Path,
     /// Number of space dimensions.
     pub(crate) dimension: usize,
@@ -56,7 +57,7 @@ impl FaceEntry<'_> {
     }
 }
 
-/// A face of a grid in D dimensions that gets its condition.
+/// A face of a grid in D dimensions, for which a condition is built.
 pub(crate) struct FaceSite<'a, const D: usize> {
     pub(crate) grid: &'a Grid<D>,
     pub(crate) basis: BasisName,
@@ -66,7 +67,7 @@ pub(crate) struct FaceSite<'a, const D: usize> {
 
 /// A condition of a scene as one of the solver.
 pub(crate) trait BuildBoundary<const D: usize> {
-    /// The condition on the nodes of the face at `site`; none where they are not held.
+    /// The condition on the nodes of the face at `site`; `None` if they are free.
     fn build(&self, _site: &FaceSite<'_, D>) -> Option<Box<dyn Boundary<D>>> {
         None
     }
@@ -79,7 +80,7 @@ in_every_dimension! {
 
 /// Condition on the motion of one face of the body, with every number computed.
 pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
-    /// Its name, as suites write it.
+    /// Name in suites.
     fn name(&self) -> &'static str;
 
     /// Numbers for solvers of other programs; empty for a condition that its name describes.
@@ -95,53 +96,53 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         self.name().to_owned()
     }
 
-    /// Where faces share a node the stronger condition wins: a wall that drives a body does not
-    /// tear it from one that holds it.
+    /// If faces share a node, the stronger condition applies: a wall that drives a body does not
+    /// override one that fixes it.
     fn strength(&self) -> u8 {
         0
     }
 
-    /// Whether nothing holds the face: it may carry a traction.
+    /// Whether the face is free and may have a traction.
     fn is_free(&self) -> bool {
         false
     }
 
-    /// Whether the face is one and the same with the opposite one.
+    /// Whether the face coincides with the opposite one.
     fn is_periodic(&self) -> bool {
         false
     }
 
-    /// Whether nodes on the face are held.
+    /// Whether the motion of nodes on the face is prescribed.
     fn is_held(&self) -> bool {
         !(self.is_free() || self.is_periodic())
     }
 
-    /// Whether the face has a velocity of its own.
+    /// Whether the face has a prescribed velocity.
     fn is_driven(&self) -> bool {
         false
     }
 
-    /// Whether the face can but stay where the grid ends.
+    /// Whether the face cannot move away from the end of the grid.
     fn stays(&self) -> bool {
         false
     }
 
-    /// Whether it holds the motion along the face as well as that along its normal.
+    /// Whether the motion along the face is prescribed as well as that along its normal.
     fn holds_all_components(&self) -> bool {
         false
     }
 
-    /// Whether the reference FEM does not know it.
+    /// Whether the reference FEM does not support it.
     fn is_lacked_by_fem(&self) -> bool {
         false
     }
 
-    /// Why it cannot hold a scene of several bodies, if it cannot.
+    /// Why it cannot be used with several bodies; `None` if it can.
     fn against_several_bodies(&self) -> Option<&'static str> {
         None
     }
 
-    /// Why no consistent mass matrix can be solved with it, if none can.
+    /// Why a consistent mass matrix cannot be solved with it; `None` if it can.
     fn against_consistent_mass(&self) -> Option<&'static str> {
         None
     }

@@ -1,6 +1,6 @@
-//! Boundary conditions on the faces of a body: the family. A member is one file and one line below
-//! (and the `mod` that Rust wants), and its condition on nodes is a file of the solver's family.
-//! No suite writes two of them: a face that it does not mention is a [`FreeFace`], or a
+//! Family of the boundary conditions on the faces of a body. A member is one file and one line
+//! below (and a `mod` line), and its condition on nodes is a file in the family of the solver. Two
+//! conditions are not stated in suites: a face without condition is a [`FreeFace`], or a
 //! [`FaceAtRest`] of a body that does not move.
 
 mod contract;
@@ -23,8 +23,8 @@ pub(crate) use unstated::{FaceAtRest, FreeFace};
 /// `/// A wall that presses and does not pull, with a coefficient of friction.`
 /// `Friction = "friction" of friction::FrictionSpec;`
 ///
-/// give a condition the name that suites write: one that its name says all of, and one with a value
-/// under its name. Both types implement the contract of the family's keys.
+/// give a condition its name in suites: the first form for a condition without value, the second
+/// for one with a value. Both types implement the contract of the keys.
 macro_rules! conditions {
     ($(#[$family:meta])* $spec:ident: $contract:ident;
      $($(#[$meta:meta])* $member:ident = $text:literal
@@ -64,8 +64,8 @@ conditions! {
     Roller = "roller" is roller::RollerFace;
     /// A wall that presses and does not pull, with a coefficient of friction.
     Friction = "friction" of friction::FrictionSpec;
-    /// The same state as on the opposite face.
+    /// State equal to that of the opposite face.
     Periodic = "periodic" is periodic::PeriodicFace;
-    /// A given velocity (m/s), formulas of the coordinates and t.
+    /// Prescribed velocity (m/s), formulas of the coordinates and t.
     Velocity = "velocity" of velocity::VelocitySpec;
 }

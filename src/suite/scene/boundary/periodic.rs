@@ -1,4 +1,4 @@
-//! A face that is one and the same with the opposite one. The grid has no end there.
+//! A face that coincides with the opposite face. The grid is periodic along this axis.
 
 use super::contract::{BoundaryCondition, BuildBoundary};
 use crate::exact::{Condition, FacePoint, Violation};

@@ -1,5 +1,5 @@
-//! Faces that a suite does not name: free, or at rest if the body is at rest as a whole. No solver
-//! holds them.
+//! Faces that a suite does not name: free, or at rest if the whole body is at rest. No solver
+//! prescribes their motion.
 
 use super::contract::{BoundaryCondition, BuildBoundary};
 use super::fixed::FixedFace;

@@ -1,4 +1,4 @@
-//! A face with a given velocity.
+//! A face with a prescribed velocity.
 
 use super::contract::{BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry, FaceSite};
 use crate::exact::formula::Formula;

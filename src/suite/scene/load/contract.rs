@@ -1,4 +1,4 @@
-//! Loads of a scene: the contract of the family, whose members stand next to it.
+//! Contract of the family of loads, whose members are next to this file.
 
 use crate::dimension::in_every_dimension;
 use crate::exact::heat::Conduction;
@@ -21,15 +21,15 @@ macro_rules! names {
         $(, needs [$($need:ident),+])?;
     )+) => {
         named! {
-            /// Names of the loads and effects, as suites write them. Those on the same part of a
-            /// scene are applied in their order.
+            /// Names of the loads and effects in suites. Those on the same part of a scene are
+            /// applied in this order.
             pub enum EffectName {
                 $($(#[$meta])* $member = $text,)+
             }
         }
 
         impl EffectName {
-            /// The effects without which this one means nothing.
+            /// The effects that this one requires.
             pub fn needs(self) -> &'static [Self] {
                 match self {
                     $(Self::$member => &[$($(Self::$need),+)?],)+
@@ -64,21 +64,23 @@ pub(crate) enum LoadTarget {
     Body,
     /// A face, by its number.
     Face(usize),
+    /// A rim of a round body, by its number in [`Outline::rims`](crate::exact::Outline::rims).
+    Rim(usize),
     /// A set of particles, by its number.
     Set(usize),
 }
 
 impl LoadTarget {
-    /// The number of the face, if the load acts on one.
+    /// The number of the face, if the load acts on a face.
     pub(crate) fn face(self) -> Option<usize> {
         match self {
             Self::Face(number) => Some(number),
-            Self::Body | Self::Set(_) => None,
+            Self::Body | Self::Rim(_) | Self::Set(_) => None,
         }
     }
 }
 
-/// A body in D dimensions that gets its effects.
+/// A body in D dimensions, for which effects are built.
 pub(crate) struct BodySite<'a, const D: usize> {
     pub(crate) grid: &'a Grid<D>,
     pub(crate) basis: BasisName,
@@ -121,12 +123,12 @@ in_every_dimension! {
 
 /// A load or effect that a scene lists, with every number computed.
 pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
-    /// Where it acts.
+    /// Part of the scene on which it acts.
     fn target(&self) -> LoadTarget {
         LoadTarget::Body
     }
 
-    /// Numbers for solvers of other programs; empty for a load that they cannot be handed.
+    /// Numbers for external solvers; empty for a load that cannot be passed to them.
     fn numbers(&self) -> LoadNumbers {
         LoadNumbers::default()
     }
@@ -134,7 +136,7 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
     /// Rows of name and value for reports.
     fn rows(&self) -> Vec<(String, String)>;
 
-    /// The boundary condition of the truth on the face that the load acts on.
+    /// The boundary condition of the exact solution on the face of the load.
     fn condition(self: Arc<Self>) -> Option<Arc<dyn Condition>> {
         None
     }
@@ -151,7 +153,7 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
         Vec::new()
     }
 
-    /// The conduction, if the load is one.
+    /// The conduction; `None` for other loads.
     fn heat(&self) -> Option<&SceneHeat> {
         None
     }

@@ -1,8 +1,8 @@
 //! The keys of a load, and the part of a suite that they are compiled with.
 
 use super::contract::{BuildError, EffectName, LoadTarget, SceneLoad};
-use crate::exact::Region;
 use crate::exact::formula::{Expr, Formula};
+use crate::exact::{Circle, Region};
 use crate::mpm::{Particles, Placement, Side};
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{DISPLACEMENTS, Evaluator, coordinates_and_time, suggestion};
@@ -19,7 +19,7 @@ pub(crate) struct StudyFacts {
     pub(crate) until: f64,
 }
 
-/// One entry of `loads`: what suites write for a load.
+/// Keys of a load: one entry of `loads`.
 pub(crate) trait LoadKeys {
     /// Example of the keys of a load with strength `s` (zero: no effect) and the vector value
     /// `vector`, on the face `right` or the set `some`. The laws of the family test it.
@@ -30,7 +30,7 @@ pub(crate) trait LoadKeys {
     /// The load, checked, with every number computed.
     ///
     /// # Errors
-    /// The first mistake in its keys.
+    /// The first error in its keys.
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic>;
 
     /// Refuses a convergence study that the load does not go with.
@@ -41,12 +41,12 @@ pub(crate) trait LoadKeys {
         Ok(())
     }
 
-    /// The name of the part of it that the reference FEM lacks.
+    /// The name of the part that the reference FEM does not support.
     fn lacked_by_fem(&self) -> Option<&'static str> {
         None
     }
 
-    /// Why the load does not go with a body in this state across its plane, if it does not.
+    /// Why the load is invalid in a body with this state across its plane; `None` if it is valid.
     fn against_plane(&self, _: PlaneState) -> Option<&'static str> {
         None
     }
@@ -56,22 +56,28 @@ pub(crate) trait LoadKeys {
         None
     }
 
-    /// Whether the load is that of one body, and makes no sense beside several.
+    /// Whether a rim of a disk or an annulus can take the place of the face.
+    fn acts_on_rims(&self) -> bool {
+        false
+    }
+
+    /// Whether the load needs a scene with a single body.
     fn is_of_one_body(&self) -> bool {
         self.face().is_some()
     }
 
-    /// Whether the load makes sense in a body that does not move at all.
+    /// Whether the load is valid in a body that does not move.
     fn acts_at_rest(&self) -> bool {
         false
     }
 }
 
-/// Where a load is compiled: its place in the file, and the scene with the loads before it.
+/// Context of the compilation of a load: its path in the file, and the scene with the previous
+/// loads.
 pub(crate) struct LoadEntry<'a> {
     pub(crate) evaluator: &'a Evaluator<'a>,
     pub(crate) effect: EffectName,
-    /// Of its value.
+    /// Path of its value.
     pub(crate) path: Path,
     pub(crate) scene: &'a Scene,
 }
@@ -131,7 +137,7 @@ impl LoadEntry<'_> {
         self.evaluator.formula(path, text, &coordinates_and_time(self.dimension()))
     }
 
-    /// The face called `name`, which is free and takes the load.
+    /// The free face named `name`, for a load.
     pub(crate) fn free_face(&self, name: &str) -> Result<LoadedFace, Diagnostic> {
         let Self { evaluator, scene, .. } = self;
         let path = self.path.then("on");
@@ -147,7 +153,26 @@ impl LoadEntry<'_> {
         Err(evaluator.diagnostic(&path, &format!("the face `{name}` {has}")))
     }
 
-    /// The set called `name`, on which nothing acts yet.
+    /// The rim called `name` of a body without faces, which is free and takes the load.
+    pub(crate) fn free_rim(&self, name: &str) -> Result<Circle, Diagnostic> {
+        let Self { evaluator, scene, .. } = self;
+        let path = self.path.then("on");
+        let rims = scene.outline.as_ref().map_or_else(Vec::new, |outline| outline.circles());
+        let known: Vec<&str> = rims.iter().map(|circle| circle.name).collect();
+        let Some(circle) = rims.iter().find(|circle| circle.name == name) else {
+            let diagnostic = evaluator.diagnostic(&path, &format!("the body has no rim `{name}`"));
+            return Err(diagnostic.with_help(&suggestion("rims", name, &known)));
+        };
+        match scene.loads_on(LoadTarget::Rim(circle.number)).next() {
+            None => Ok(circle.clone()),
+            Some(other) => {
+                let message = format!("the rim `{name}` has a {} already", other.effect.name());
+                Err(evaluator.diagnostic(&path, &message))
+            }
+        }
+    }
+
+    /// The set named `name`, which has no load yet.
     pub(crate) fn free_set(&self, name: &str) -> Result<LoadedSet, Diagnostic> {
         let path = self.path.then("on");
         let number = set_number(self.evaluator, &path, name, &self.scene.sets)?;
@@ -194,7 +219,7 @@ pub(crate) struct LoadedSet {
 }
 
 impl LoadedSet {
-    /// The set and what acts on it, as a row for reports.
+    /// The set and its load, as a row for reports.
     pub(crate) fn row(&self, load: &str) -> (String, String) {
         let Region { name, from, to } = &self.region;
         let corner = |c: &[f64]| c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
@@ -204,7 +229,7 @@ impl LoadedSet {
     /// The particles of the set.
     ///
     /// # Errors
-    /// [`BuildError::EmptySet`] if there are none.
+    /// [`BuildError::EmptySet`] if there are no particles in the set.
     pub(crate) fn members<const D: usize>(
         &self,
         particles: &Particles<D>,

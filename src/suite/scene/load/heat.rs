@@ -83,7 +83,7 @@ impl LoadKeys for HeatSpec {
     }
 }
 
-/// The source. A suite may declare a `T` of its own as long as the source does not name it.
+/// The source. A suite may declare a name `T`, unless the source uses `T`.
 fn source(entry: &LoadEntry<'_>, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
     let evaluator = entry.evaluator;
     let mut variables = coordinates_and_time(entry.dimension());
@@ -122,7 +122,7 @@ impl SceneLoad for SceneHeat {
 }
 
 impl<const D: usize> BuildEffect<D> for SceneHeat {
-    /// The particles get their temperature here.
+    /// Also sets the temperature of the particles.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let start = initial::<D>(site.heat, self.initial.as_ref());
         let heat = Heat::new(self.conductivity, self.capacity, site.particles, |x0| {
@@ -140,7 +140,7 @@ impl<const D: usize> BuildEffect<D> for SceneHeat {
     }
 }
 
-/// The temperature at the start: what the scene states, or else that of the truth.
+/// The initial temperature: that of the scene, or else of the exact solution.
 fn initial<const D: usize>(
     problem: Option<&Conduction>,
     stated: Option<&Formula>,
@@ -154,7 +154,7 @@ fn initial<const D: usize>(
     }
 }
 
-/// The source as the scene states it.
+/// The source as stated in the scene.
 fn stated<const D: usize>(formula: &Formula) -> HeatSource<D> {
     let formula = formula.clone();
     Box::new(move |t, particles, into| {
@@ -197,8 +197,8 @@ fn faces(
     Ok(faces)
 }
 
-/// Temperatures are held, and heat enters, at the nodes of the grid's face: the body must end
-/// there, and stay.
+/// Temperatures and heat fluxes are prescribed at the nodes on the face of the grid: the body must
+/// end there, and not move away.
 fn on_grid(
     entry: &LoadEntry<'_>,
     path: &Path,

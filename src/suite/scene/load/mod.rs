@@ -1,5 +1,5 @@
-//! Loads and effects of a scene: the family. A member is one file and one line of `members`, and an
-//! effect with physics of its own is a file of the solver's family besides.
+//! Family of the loads and effects of a scene. A member is one file and one line of `members`. An
+//! effect that no other one covers also has a file in the family of the solver.
 
 mod contract;
 mod entry;
@@ -45,7 +45,7 @@ macro_rules! loads {
         }
 
         impl LoadSpec {
-            /// The effect that the entry asks for.
+            /// The effect of the entry.
             pub(crate) fn effect(&self) -> EffectName {
                 match self {
                     $(Self::$member(_) => EffectName::$member,)+
@@ -71,7 +71,7 @@ impl LoadSpec {
     }
 }
 
-/// Refuses effects without those that they need.
+/// Refuses effects without those that they require.
 fn refuse_incomplete(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<(), Diagnostic> {
     let listed: Vec<EffectName> = loads.iter().map(LoadSpec::effect).collect();
     EffectName::combine(&listed).map_err(|(effect, message)| {
@@ -80,7 +80,7 @@ fn refuse_incomplete(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<()
     })
 }
 
-/// Adds the loads to a scene that has none, in the order in which solvers apply them.
+/// Adds the loads to a scene without loads, in the order in which solvers apply them.
 pub(crate) fn add(
     evaluator: &Evaluator<'_>,
     spec: &[LoadSpec],

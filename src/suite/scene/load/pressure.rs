@@ -1,29 +1,36 @@
-//! A pressure on a face of a box, which follows the face.
+//! A pressure on a face of a box or a rim of a round body, which follows it.
 
 use super::contract::{BodySite, BuildEffect, BuildError, LoadTarget, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, LoadedFace};
 use crate::exact::formula::Formula;
-use crate::exact::{Condition, FacePoint, Term, Violation};
+use crate::exact::{Circle, Condition, FacePoint, Term, Violation};
 use crate::fem::TimeFunction;
-use crate::mpm::{Effect, Placement, Pressure, Side};
+use crate::mpm::{Effect, Placement, Pressure, RimCircle, Side};
 #[cfg(feature = "schemas")]
-use crate::suite::scene::face::face_name;
+use crate::suite::scene::face::face_or_rim;
 use crate::suite::scene::numbers::{LoadNumbers, scalar};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Pressure that follows one face (Pa), a formula of the coordinates and t.
+/// Pressure that follows one face or rim (Pa), a formula of the coordinates and t.
 #[derive(Debug, Clone, serde::Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PressureSpec {
-    /// The face.
-    #[cfg_attr(feature = "schemas", schemars(schema_with = "face_name"))]
+    /// The face of a box, or the rim `inner` or `outer` of an annulus or a disk.
+    #[cfg_attr(feature = "schemas", schemars(schema_with = "face_or_rim"))]
     on: String,
     /// Pressure (Pa), a formula of the coordinates and `t`.
     value: NumberText,
-    /// Where it acts; at the outermost particles unless stated.
+    /// Point of action on a face; by default at the outermost particles. On a rim it is the surface.
     at: Option<Placement>,
+}
+
+/// Part of the surface under pressure.
+#[derive(Debug)]
+enum Site {
+    Face(LoadedFace, Placement),
+    Rim(Circle),
 }
 
 impl LoadKeys for PressureSpec {
@@ -32,11 +39,22 @@ impl LoadKeys for PressureSpec {
     }
 
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
-        Ok(Arc::new(PressureLoad {
-            face: entry.free_face(&self.on)?,
-            value: entry.scalar(&entry.path.then("value"), &self.value)?,
-            placement: self.at.unwrap_or_default(),
-        }))
+        let site = if entry.scene.faces.is_empty() {
+            if let Some(Placement::Particles) = self.at {
+                let message = "a pressure on a rim acts at the surface";
+                let diagnostic = entry.evaluator.diagnostic(&entry.path.then("at"), message);
+                return Err(diagnostic.with_help("remove `at`"));
+            }
+            Site::Rim(entry.free_rim(&self.on)?)
+        } else {
+            Site::Face(entry.free_face(&self.on)?, self.at.unwrap_or_default())
+        };
+        let value = entry.scalar(&entry.path.then("value"), &self.value)?;
+        Ok(Arc::new(PressureLoad { site, value }))
+    }
+
+    fn acts_on_rims(&self) -> bool {
+        true
     }
 
     fn face(&self) -> Option<&str> {
@@ -47,14 +65,20 @@ impl LoadKeys for PressureSpec {
 /// A pressure (Pa, per present area), a formula of the coordinates and t.
 #[derive(Debug)]
 struct PressureLoad {
-    face: LoadedFace,
+    site: Site,
     value: Formula,
-    placement: Placement,
 }
 
-impl Term for PressureLoad {}
+impl Term for PressureLoad {
+    fn pressed_rim(&self) -> Option<(usize, &Formula)> {
+        match &self.site {
+            Site::Face(..) => None,
+            Site::Rim(circle) => Some((circle.number, &self.value)),
+        }
+    }
+}
 
-/// `P n = -p J F^-T n`: it stays normal to the moving face.
+/// `P n = -p J F^-T n`: it is normal to the moving face.
 impl Condition for PressureLoad {
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
         let (p, area) = (point.value(&self.value), point.present_area());
@@ -65,7 +89,10 @@ impl Condition for PressureLoad {
 
 impl SceneLoad for PressureLoad {
     fn target(&self) -> LoadTarget {
-        LoadTarget::Face(self.face.number)
+        match &self.site {
+            Site::Face(face, _) => LoadTarget::Face(face.number),
+            Site::Rim(circle) => LoadTarget::Rim(circle.number),
+        }
     }
 
     fn numbers(&self) -> LoadNumbers {
@@ -73,8 +100,11 @@ impl SceneLoad for PressureLoad {
     }
 
     fn rows(&self) -> Vec<(String, String)> {
-        let text = format!("pressure {} Pa, which follows the face", self.value.source());
-        vec![self.face.row(&text, self.placement)]
+        let pressure = format!("pressure {} Pa, which follows the", self.value.source());
+        vec![match &self.site {
+            Site::Face(face, placement) => face.row(&format!("{pressure} face"), *placement),
+            Site::Rim(circle) => (format!("{} rim", circle.name), format!("{pressure} rim")),
+        }]
     }
 
     fn condition(self: Arc<Self>) -> Option<Arc<dyn Condition>> {
@@ -82,13 +112,14 @@ impl SceneLoad for PressureLoad {
     }
 
     fn traction(&self, values: &[f64]) -> Vec<f64> {
-        let (normal, side) = self.face.place();
+        let Site::Face(face, _) = &self.site else { return Vec::new() };
+        let (normal, side) = face.place();
         let inwards = if side == Side::High { -1.0 } else { 1.0 };
         let component = |axis| if axis == normal { inwards * self.value.eval(values) } else { 0.0 };
         (0..values.len() - 1).map(component).collect()
     }
 
-    /// In uniaxial strain a face keeps its area, so a pressure is a traction.
+    /// In uniaxial strain the area of a face is constant, so a pressure is a traction.
     fn tension(&self, x: f64, _: f64) -> Option<TimeFunction> {
         let value = self.value.clone();
         Some(Box::new(move |t| -value.eval(&[x, t])))
@@ -97,7 +128,16 @@ impl SceneLoad for PressureLoad {
 
 impl<const D: usize> BuildEffect<D> for PressureLoad {
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
-        let ((axis, side), value) = (self.face.place(), scalar(&self.value));
-        Ok(Box::new(Pressure::at(site.particles, axis, side, self.placement, value)))
+        let value = scalar(&self.value);
+        Ok(Box::new(match &self.site {
+            Site::Face(face, placement) => {
+                let (axis, side) = face.place();
+                Pressure::at(site.particles, axis, side, *placement, value)
+            }
+            Site::Rim(Circle { centre, radius, outwards, .. }) => {
+                let (centre, radius, outwards) = (*centre, *radius, *outwards);
+                Pressure::on_rim(site.particles, &RimCircle { centre, radius, outwards }, value)
+            }
+        }))
     }
 }

@@ -50,13 +50,13 @@ impl LoadKeys for SetForceSpec {
 struct SetForceLoad {
     set: LoadedSet,
     value: Vec<Formula>,
-    /// Of the set in the body (m^D).
+    /// Volume of the set in the body (m^D).
     volume: f64,
-    /// Of the body (kg/m3).
+    /// Density of the body (kg/m3).
     density: f64,
 }
 
-/// A force f on a part of volume V is a body force `f/(rho0 V)` inside and none outside.
+/// A force f on a part of volume V is a body force `f/(rho0 V)` inside and zero outside.
 impl Term for SetForceLoad {
     fn stated(&self, i: usize, label: &[f64], t: f64, _: &[f64; 3]) -> f64 {
         if !self.set.region.holds(label) {
@@ -77,7 +77,7 @@ impl SceneLoad for SetForceLoad {
     }
 
     fn rows(&self) -> Vec<(String, String)> {
-        vec![self.set.row(&format!("force {} N in all", sources(&self.value)))]
+        vec![self.set.row(&format!("total force {} N", sources(&self.value)))]
     }
 }
 

@@ -1,4 +1,4 @@
-//! Thermal expansion: strain that temperature makes.
+//! Thermal expansion: strain due to temperature.
 
 use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
@@ -45,11 +45,11 @@ impl LoadKeys for ExpansionSpec {
     }
 }
 
-/// Young's modulus (Pa) and Poisson's ratio of a law in rate form; none of a law of the whole
+/// Young's modulus (Pa) and Poisson's ratio of a law in rate form; `None` for a law of the total
 /// deformation.
 ///
 /// # Errors
-/// A complaint about a material whose heated stress is not known in the dimension of the scene.
+/// A diagnostic of a material without thermal stress in the dimension of the scene.
 fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
     let LoadEntry { evaluator, path, scene, .. } = entry;
     let (name, d) = (scene.material.name(), scene.dimension());

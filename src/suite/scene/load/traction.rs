@@ -22,7 +22,7 @@ pub(crate) struct TractionSpec {
     on: String,
     /// Force per reference area (Pa), formulas of the coordinates and `t`.
     value: Vec<NumberText>,
-    /// Where it acts; at the outermost particles unless stated.
+    /// Point of action; by default at the outermost particles.
     at: Option<Placement>,
 }
 

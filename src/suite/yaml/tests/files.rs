@@ -1,4 +1,4 @@
-//! Files that are not what they should be.
+//! Tests of invalid files.
 
 use crate::suite::yaml::{Diagnostic, MAX_BYTES, Source};
 use rstest::rstest;
@@ -6,7 +6,7 @@ use std::env::temp_dir;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-/// A file or folder that goes when the test ends.
+/// A file or folder that is deleted at the end of the test.
 struct Temporary(PathBuf);
 
 impl Temporary {

@@ -1,4 +1,4 @@
-//! Correct input is read as it was meant, and found again.
+//! Correct input is read as intended, and located again.
 
 use super::sample::{Basis, Load, Material, Method, SAMPLE, Scheme, Suite};
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered, Source, Step, read};

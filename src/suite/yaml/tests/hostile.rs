@@ -1,4 +1,4 @@
-//! Files meant to do harm, or that would by accident.
+//! Malicious files, and files that are harmful by accident.
 
 use super::sample::{SAMPLE, Suite};
 use crate::suite::yaml::{Diagnostic, Source, read};

@@ -1,4 +1,4 @@
-//! The front door against a suite such as its author would write, and against mistakes in it.
+//! Tests of reading a typical suite, and of mistakes in it.
 
 pub(crate) mod files;
 pub(crate) mod good;

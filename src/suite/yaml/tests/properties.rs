@@ -1,11 +1,11 @@
-//! For any text at all: no panic, and complaints that can be shown.
+//! For any text: no panic, and printable diagnostics.
 
 use super::sample::{SAMPLE, Suite};
 use crate::suite::yaml::{Source, Step, read};
 use proptest::prelude::*;
 use serde_yaml::Value;
 
-/// Reads a text as everything that it could be, and shows what comes of it.
+/// Reads a text as every type, and prints the results.
 fn survives(text: &str) {
     let outcome = Source::from_text("any.yaml", text).and_then(|source| {
         source.value_at(&["suite".into()]);
@@ -20,7 +20,7 @@ fn survives(text: &str) {
     }
 }
 
-/// Text made of what YAML gives a meaning to.
+/// Text made of characters with a meaning in YAML.
 fn yaml_like() -> impl Strategy<Value = String> {
     let token = prop_oneof![
         8 => prop::sample::select(vec![
@@ -95,8 +95,8 @@ proptest! {
         survives(&text);
     }
 
-    /// The scan before the parser follows the parser: it refuses nothing that the parser takes
-    /// but what it means to, and finds a scalar wherever the parser does.
+    /// The scan agrees with the parser: it refuses only what it is meant to refuse, and finds every
+    /// scalar that the parser finds.
     #[test]
     fn the_scan_agrees_with_the_parser(text in prop_oneof![yaml_like(), mutated()]) {
         if let Ok(value) = serde_yaml::from_str::<Value>(&text) {
@@ -116,7 +116,7 @@ proptest! {
         }
     }
 
-    /// Where a text stands verbatim, its parts are found; whatever the style.
+    /// If a text is verbatim in the file, its parts are located, in any quotation style.
     #[test]
     fn a_part_of_a_formula_is_where_it_says(
         style in prop::sample::select(vec!["", "'", "\""]),

@@ -1,4 +1,5 @@
-//! The conversation: the same request has the same answer, whichever way the steps are grouped.
+//! Examination of the protocol: equal requests have equal answers, for any grouping of the steps
+//! into messages.
 
 use super::force::ramp;
 use crate::external::ProblemNeeds;
@@ -87,9 +88,9 @@ fn repeated(first: &Course, second: &Course, patient: &Patient<'_>) -> Option<So
     })
 }
 
-/// Six steps in one message against six messages, under everything that the solver can take at
-/// once: stresses, and a body force that depends on time or gravity. What happens once for each
-/// message shows under acceleration only.
+/// Compares six steps in one message with six messages, under all loads that the solver supports:
+/// stresses, and a body force that depends on time, or gravity. An operation that is done once per
+/// message instead of once per step is only visible under acceleration.
 fn grouped_under_acceleration(
     patient: &Patient<'_>,
     kind: Kind,
@@ -122,7 +123,7 @@ fn grouped_under_acceleration(
         Err(Hindrance::Broke(_)) => return Ok(None),
         Err(lacks) => return Err(lacks),
     };
-    // A body that is torn apart is left to the examinations of forces.
+    // A body that fails is a case for the examinations of forces.
     if stepwise.failure.is_some() {
         return Ok(None);
     }
@@ -179,8 +180,8 @@ fn halved_step(whole: &Course, half: &Course) -> Option<SolverFinding> {
         size(minus(mean(course.last()), mean(1)))
     };
     let ratio = distance(half) / distance(whole);
-    // A constant speed gives a half, a constant acceleration a quarter; no motion at all is left
-    // to `translation`.
+    // The ratio is 1/2 at constant speed and 1/4 at constant acceleration. `translation` examines
+    // bodies that do not move.
     if distance(whole) == 0.0 || ratio <= 0.75 {
         return None;
     }

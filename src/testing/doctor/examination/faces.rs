@@ -15,8 +15,8 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Distance (cells) by which particles reach beyond a face, so that a node there has a mass of this
-/// share only.
+/// Distance (cells) by which particles reach beyond a face, so that a node there has only this
+/// share of a mass.
 const SLIVER: f64 = 1.0 / (1_u64 << 44) as f64;
 
 /// Largest strain of a rigid body, from rounding.
@@ -67,7 +67,7 @@ fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFind
     let course = patient.run(scene)?;
     let (lambda, mu) = scene.lame();
     let mut most = 0.0_f64;
-    // Changes since the first step: what the columns mean is examined elsewhere.
+    // Changes since the first step: other examinations check the meaning of the columns.
     let after_start = course.states.get(1..).and_then(<[_]>::split_first);
     let Some((first, later)) = after_start else { return Ok(None) };
     for state in later {

@@ -16,10 +16,10 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Gravity (m/s2): not that of the earth, which a solver may have by itself.
+/// Gravity (m/s2): different from that of the earth, which may be a default of the solver.
 const GRAVITY: f64 = 3.7;
 
-/// Share by which a figure may be off the pattern that explains it.
+/// Maximum relative difference between a figure and the pattern that explains it.
 const NEAR: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -156,7 +156,7 @@ pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, Strin
     ("gravity-scaled", cause.to_owned())
 }
 
-/// Positions that are not g t^2/2, where velocities have no defect.
+/// Finding on positions other than g t^2/2, if velocities have no defect.
 fn of_distance(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
     let (last, dt, axis) = (course.last(), course.problem.dt, course.problem.dimension - 1);
     let end = course.times[last];

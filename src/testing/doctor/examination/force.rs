@@ -1,4 +1,4 @@
-//! A body force that is asked for at places and times.
+//! Examination of a body force that the solver requests at places and times.
 
 use super::fall::factor_cause;
 use super::translation::VELOCITY;
@@ -23,7 +23,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 const FORCE: f64 = 0.8;
 const RATE: f64 = 6.0;
 
-/// Share by which a figure may be off the pattern that explains it.
+/// Maximum relative difference between a figure and the pattern that explains it.
 const NEAR: f64 = 0.1;
 
 /// Questions: times (s) and reference positions (m).
@@ -32,7 +32,7 @@ type Questions = Arc<Mutex<Vec<(f64, [f64; 3])>>>;
 /// A force along the first axis, as a function of the place on it (m) and time (s).
 type ForceAlong = fn(f64, f64) -> f64;
 
-/// A force that keeps the questions.
+/// A force that records the requests.
 #[derive(Clone)]
 struct AskedForce {
     asked: Questions,
@@ -60,14 +60,14 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     )?;
     let asked = Questions::default();
     let mut course = run(patient, &moving, &asked, true, |_, t| FORCE + RATE * t);
-    // Requests for places outside of the body are refused: again, to see which they are.
+    // Requests for places outside the body are refused: a second run records them.
     if matches!(course, Err(Hindrance::Broke(_))) {
         let again = run(patient, &moving, &asked, false, |_, t| FORCE + RATE * t);
         if again.is_ok() {
             course = again;
         }
     }
-    // Requests at wrong places or times explain a run that breaks.
+    // Requests at wrong places or times explain a run that fails.
     let requests = other_times(&asked, &moving).or_else(|| places(&asked, &moving));
     let course = match (course, requests) {
         (Err(Hindrance::Broke(_)), Some(finding)) => {
@@ -108,8 +108,8 @@ pub(super) fn ramp(problem: &mut LevelProblem) {
     problem.constant_body_force = None;
 }
 
-/// A run of `scene`, whose requests may be checked to be inside the body, with the force `force(x,
-/// t)` along the first axis.
+/// A run of `scene`, optionally with a check that requests are inside the body, with the force
+/// `force(x, t)` along the first axis.
 fn run(
     patient: &Patient<'_>,
     scene: &BoxScene,
@@ -153,7 +153,7 @@ fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     })
 }
 
-/// Questions at places where particles are, and not at those from which they come.
+/// Finding on requests at the current positions of particles instead of their reference positions.
 fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
     if asked.is_empty() {
@@ -184,7 +184,7 @@ fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     })
 }
 
-/// Forces of another size, or of other times.
+/// Finding on forces of wrong size, or of wrong times.
 fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     let (last, dt) = (course.last(), course.problem.dt);
     let end = course.times[last];
@@ -209,7 +209,8 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
         shown(at[at.len() - 1]),
         at.len()
     );
-    // Velocities of a leapfrog hide the shift in what the body gains, but not in the requests.
+    // With the velocities of a leapfrog the shift is not visible in the momentum, but in the
+    // requests.
     let is_late = at.len() as u64 == last as u64 && (at[0] / dt - 1.0).abs() <= NEAR;
     if is(1.0) || is_late {
         return Some(SolverFinding::remark(
@@ -241,7 +242,8 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     ))
 }
 
-/// A force that grows along X, so that each point has a different one after one step.
+/// Finding with a force that grows along X, so that each point has a different force after one
+/// step.
 fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     let (mut x, mut v, mut across) = (Vec::new(), Vec::new(), 0.0_f64);
     for (label, speed) in course.points(velocity, 1) {

@@ -1,10 +1,10 @@
 //! Stresses at finite strain and rotation: the columns `stress` and `deformation_gradient` of each
 //! law.
 //!
-//! A body without any effect of stiffness moves on with `v = L (X - C)`, with stretch, shear and
-//! rotation of the order of one. In its middle, F is compared with the gradient of the
-//! displacements, and the stress with that of the law for this F: the stress with which a body
-//! starts that is displaced by `(F - I) (X - C)`.
+//! A body with negligible stiffness moves with `v = L (X - C)`, with stretch, shear and rotation of
+//! the order of one. In its middle, F is compared with the gradient of the displacements, and the
+//! stress with that of the law for this F: the initial stress of a body with the initial
+//! displacement `(F - I) (X - C)`.
 
 use super::stress::{impulses, inside};
 use crate::mpm::det_of_rows;
@@ -25,7 +25,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 /// Displacement gradient at the end.
 const GRADIENT: [[f64; 3]; 3] = [[0.25, 0.45, 0.1], [-0.15, -0.1, 0.2], [0.05, -0.1, 0.15]];
 
-/// Rate (1/s) of the stretch by which volumes are examined.
+/// Rate (1/s) of the stretch in the examination of volumes.
 const STRETCHED: f64 = 0.5;
 
 /// Displacement gradient at the start of a body that starts deformed.
@@ -69,7 +69,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             .into_iter()
             .filter_map(|(off, column)| off.map(|off| format!("{column} off by {}", shown(off))));
         measured.push(format!("{name}: {}", texts.collect::<Vec<_>>().join(", ")));
-        // A start that is not taken is left to `start`.
+        // A start that is not accepted is a case for `start`.
         if !scene.displacement.is_zero() && !starts_deformed(course, scene) {
             continue;
         }
@@ -100,7 +100,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured.join("; "), findings))
 }
 
-/// Whether the displacement and F after the first step are about those of the start.
+/// Whether displacement and F after the first step are close to those of the start.
 fn starts_deformed(course: &Course, scene: &BoxScene) -> bool {
     let d = scene.dimension;
     let start = &course.problem.particles.deformation_gradient[..d * d];
@@ -111,8 +111,8 @@ fn starts_deformed(course: &Course, scene: &BoxScene) -> bool {
         && off <= 0.3 * course.farthest(displacement, 0, [0.0; 3])
 }
 
-/// The momentum that flows through a body while it is stretched to one and a half of its length,
-/// over that of the law: forces have the present volumes of particles.
+/// The momentum flux in a body that is stretched to 1.5 of its length, over that of the law: forces
+/// must use the current volumes of particles.
 fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFinding>), Hindrance> {
     let cells = if kind.0 == 3 { 8.0 } else { 12.0 };
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
@@ -123,7 +123,7 @@ fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFindi
     let courses = patient.run_all(&[scene.clone(), scene.soft()])?;
     let impulse = |course: &Course| impulses(course, &scene, 0, 0)[course.last()];
     let d = scene.dimension;
-    // The first Piola stress along the stretch by Simpson's rule: J = F_00, so that P_00 is
+    // The first Piola stress along the stretch by Simpson's rule: J = F_00, so that P_00 equals
     // sigma_00.
     let mut expected = 0.0;
     for (share, weight) in [(0.0, 1.0), (0.25, 4.0), (0.5, 2.0), (0.75, 4.0), (1.0, 1.0)] {
@@ -170,7 +170,7 @@ fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineFiel
     AffineField { gradient, centre: scene.centre(), ..AffineField::default() }
 }
 
-/// F in the middle at the end, row after row, by the least squares of displacements there.
+/// F in the middle at the end, row after row, by a least-squares fit of displacements there.
 fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
     let (d, centre) = (scene.dimension, scene.centre());
     let is_near =
@@ -183,7 +183,7 @@ fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
     let mut f = vec![0.0; d * d];
     for i in 0..d {
         for j in 0..d {
-            // Points lie evenly about the centre, so that axes do not mix.
+            // Points are symmetric about the centre, so that axes do not mix.
             let slope: f64 = points.iter().map(|(x, u)| x[j] * u[i]).sum();
             let squares: f64 = points.iter().map(|(x, _)| x[j] * x[j]).sum();
             f[i * d + j] = f64::from(u8::from(i == j)) + slope / squares;
@@ -292,9 +292,9 @@ fn of_stress(
     ))
 }
 
-/// Stress (Pa), row after row, where the displacement gradient has grown in proportion to time up
-/// to the deformation gradient `f`, with the Jaumann rate of linear elasticity: sigma' = C : D
-/// + W sigma - sigma W, with the spin W; `None` if the body is inverted on the way.
+/// Stress (Pa), row after row, for a displacement gradient that grows in proportion to time up to
+/// the deformation gradient `f`, with the Jaumann rate of linear elasticity: sigma' = C : D + W
+/// sigma - sigma W, with the spin W; `None` if the body becomes inverted.
 fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Option<Vec<f64>> {
     const PARTS: u64 = 400;
     let d = scene.dimension;

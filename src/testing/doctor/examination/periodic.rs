@@ -76,7 +76,7 @@ fn examine_ends(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(all)
 }
 
-/// Momentum that the upper half of a body loses across the ends of a periodic axis, as a share:
+/// Share of the momentum that the upper half of a body loses across the ends of a periodic axis:
 /// the body is stretched at a constant rate, so that its ends move towards each other.
 fn lost_at_ends(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<f64, Hindrance> {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);

@@ -1,4 +1,4 @@
-//! A body at rest, without stress and loads, which stays where it is.
+//! Examination of a body at rest without stress and loads, which must not move.
 
 use crate::subject::Precision;
 use crate::testing::doctor::course::{
@@ -16,7 +16,8 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Share of a mean by which points may differ from it and move as one.
+/// Maximum deviation of points from their mean, as a share of the mean, that counts as motion as
+/// one.
 const AS_ONE: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {

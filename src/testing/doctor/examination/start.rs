@@ -1,8 +1,8 @@
 //! A body that starts deformed and under stress, and is let go.
 //!
-//! Its displacement is that of a simple shear, so that F and the stress are uniform. In one half
-//! of it, momentum grows by the first Piola stress of the start: `dP_j/dt = -P_ji A` through the
-//! reference plane with normal i, until waves come in from the free faces.
+//! The displacement of the body is a simple shear, so that F and the stress are uniform. The
+//! momentum of one half grows by the first Piola stress of the start, `dP_j/dt = -P_ji A` through
+//! the reference plane with normal i, until waves arrive from the free faces.
 
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside};
 use crate::mpm::det_of_rows;
@@ -21,9 +21,9 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Shear at the start: one, so that a square lattice of particles becomes one again. Other
-/// deformations leave a lattice that cells sample unevenly, which costs a tenth of the force with
-/// linear functions.
+/// Shear at the start: one, so that a square lattice of particles is mapped to a square lattice.
+/// Other deformations give a lattice that is unevenly distributed over cells, which costs a tenth
+/// of the force with linear functions.
 const SHEAR: f64 = 1.0;
 
 /// Stretch at the start, in one dimension.
@@ -37,7 +37,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let laws = FINITE.into_iter();
     let laws = laws.filter_map(|law| patient.able(&[first.dimension], &[law], &scene).ok());
     let mut scenes: Vec<BoxScene> = laws.collect();
-    // A shear keeps volumes: masses and volumes show in a stretch, with a law of F if there is one.
+    // A shear preserves volumes. Masses and volumes are visible in a stretch, with a law of F if
+    // there is one.
     if first.dimension > 1 {
         let law = scenes.last().map_or(first.law, |scene| scene.law);
         scenes.push(stretched((first.dimension, law)));
@@ -67,7 +68,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 
 fn scene(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
-    // The sheared lattice keeps a distance from cell faces.
+    // The sheared lattice has a distance from cell faces.
     let mut scene = BoxScene::of_cells(kind, [0.75 + 0.125 * H, 0.25, 0.5], cells, 7.0);
     let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
     if kind.0 == 1 {

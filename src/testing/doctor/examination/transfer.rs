@@ -1,14 +1,14 @@
-//! The transfer of velocities between particles and grid, without stress: a body that turns or
-//! stretches.
+//! Examination of the transfer of velocities between particles and grid, without stress: a body
+//! that rotates or stretches.
 //!
-//! Weights that sum to one transfer a uniform velocity exactly, so that `translation` does not see
-//! how a velocity gradient is transferred. With the velocity `v = L (X - C)` of a rotation or a
-//! stretch about the centre C the moment `M = sum m (X - C) x v`, or `sum m (X - C) . v`, shows
+//! Weights that sum to one transfer a uniform velocity exactly, so that `translation` does not test
+//! the transfer of a velocity gradient. With the velocity `v = L (X - C)` of a rotation or a
+//! stretch about the centre C, the moment `M = sum m (X - C) x v`, or `sum m (X - C) . v`, shows
 //! it. A transfer that averages (PIC) loses `beta d D sum m L` of it in each step, where D is the
-//! second moment of the weights along an axis, 1/4 h2 for quadratic and 1/3 h2 for cubic
-//! B-splines, and beta the share of PIC. An affine transfer loses `1 - a` times as much if its
-//! matrix C is wrong by the factor a, twice as much of a rotation if C is transposed, and nothing
-//! if C is right (Jiang et al. 2015, eq. 8 to 11).
+//! second moment of the weights along an axis, 1/4 h2 for quadratic and 1/3 h2 for cubic B-splines,
+//! and beta the share of PIC. An affine transfer loses `1 - a` times as much if its matrix C is
+//! wrong by the factor a, twice as much of a rotation if C is transposed, and nothing if C is right
+//! (Jiang et al. 2015, eq. 8 to 11).
 
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
@@ -37,10 +37,10 @@ const RATE: f64 = 1e-4;
 /// Bases whose averaging is known.
 const BASES: [&str; 3] = ["linear", "quadratic_bspline", "cubic_bspline"];
 
-/// Relative difference of a loss from that of a basis.
+/// Maximum relative difference between a loss and that of a basis.
 const NEAR: f64 = 0.03;
 
-/// Loss (over h2 and the inertia) below which a transfer counts as one that keeps the moment.
+/// Loss (over h2 and the inertia) below which a transfer counts as conserving the moment.
 const KEPT: f64 = 0.004;
 
 /// Steps of each run.
@@ -53,8 +53,7 @@ enum SlowMotion {
     Stretch,
 }
 
-/// Losses of the moment, in units of `d h2 M/I`: that of the first step, and the mean of later
-/// steps.
+/// Losses of the moment, in units of `d h2 M/I`: in the first step, and on average in later steps.
 #[derive(Debug, Clone, Copy)]
 struct Losses {
     first: f64,
@@ -76,7 +75,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let losses: Vec<Losses> = courses.iter().zip(&scenes).map(|(c, s)| losses_of(c, s)).collect();
     let (stretch, small) = (losses[0], losses[losses.len() - 1]);
     let rotation = if kind.0 > 1 { losses[1] } else { stretch };
-    // The whole moment is gone in the first step, and nothing later.
+    // The whole moment is lost in the first step, and nothing later.
     if losses.iter().all(|l| l.first * l.unit > 0.5 && !(l.later.abs() > KEPT)) {
         let seen = "after one step the velocities of a stretched body belong to other places";
         let finding = SolverFinding::defect(
@@ -102,8 +101,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, finding.into_iter().collect()))
 }
 
-/// Examines what becomes of the initial velocity of a stretched body: whether it is taken, in which
-/// layout, and whether it grows.
+/// Examines the initial velocity of a stretched body: whether it is used, its layout, and whether
+/// it grows.
 fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY, &|kind| scene(kind, SlowMotion::Stretch))?;
     let course = patient.run(&scene)?;
@@ -192,8 +191,8 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
     Losses { first: share(0, 1), later: share(1, last) / (last - 1) as f64, unit }
 }
 
-/// The finding on losses of a stretch, of a rotation, and of the stretch of a body an eighth of
-/// the size, with those of averaging with each basis.
+/// The finding on losses of a stretch, of a rotation, and of the stretch of a body an eighth of the
+/// size, compared with the losses of averaging with each basis.
 fn cause(
     stretch: Losses,
     rotation: Losses,
@@ -219,8 +218,8 @@ fn cause(
     let defect = |name, cause| Some(SolverFinding::defect(name, seen.clone(), cause, look_at));
     let is_alike = |a: f64, b: f64| (a - b).abs() <= KEPT + NEAR * a.abs().max(b.abs());
     if stretch.later.abs() <= KEPT && rotation.later > KEPT {
-        // A transposed matrix loses twice what averaging does: from the second step on if it starts
-        // at zero, and in the first one too if it starts with the gradient of the velocity.
+        // A transposed matrix loses twice as much as averaging: from the second step on if it
+        // starts at zero, and also in the first step if it starts with the velocity gradient.
         let averaged = averaging.iter().map(|l| l.first).fold(0.0, f64::max);
         let is_twice = rotation.later > 1.2 * rotation.first || rotation.first > 1.15 * averaged;
         return if is_twice {
@@ -242,8 +241,9 @@ fn cause(
              wrong by a power of h",
         );
     }
-    // A share of averaging treats all motions and steps alike. An affine matrix starts at zero:
-    // its first step averages completely, as far as the basis does, and only later ones show it.
+    // A share of averaging affects all motions and steps equally. An affine matrix starts at zero:
+    // its first step averages completely, depending on the basis, and only later steps show the
+    // matrix.
     let most = averaging.iter().map(|l| l.later).fold(0.0, f64::max);
     let is_share = losses.iter().all(|loss| (-KEPT..=1.1 * most + KEPT).contains(loss));
     let of_basis = averaging.iter().find(|l| is_alike(l.first, stretch.first));
@@ -253,7 +253,7 @@ fn cause(
         // error.
         None => stretch.later > 0.65 * stretch.first,
     };
-    // Shares: FLIP may take the place of a part of the averaging of any basis.
+    // Shares: FLIP may replace a part of the averaging of any basis.
     let is_blend = averaging.iter().any(|l| {
         let share = stretch.first / l.first;
         let decay = 1.0 - share * (1.0 - l.later / l.first);

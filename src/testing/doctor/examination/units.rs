@@ -1,4 +1,4 @@
-//! The same problem in other units.
+//! Examination of the change of units: one problem in other units of length, time and mass.
 
 use super::stress::spreading;
 use crate::subject::Precision;
@@ -15,7 +15,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Powers of two, so that not even rounding changes.
+/// Powers of two, so that even rounding does not change.
 const THOUSANDTH: f64 = 1.0 / 1024.0;
 const TINY: f64 = THOUSANDTH * THOUSANDTH * THOUSANDTH * THOUSANDTH;
 

@@ -21,7 +21,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 /// Length of the body (cells).
 const CELLS: f64 = 6.0;
 
-/// Periods of the lowest mode: waves travel to the other end and back in each.
+/// Number of periods of the lowest mode: in each, waves travel to the other end and back.
 const PERIODS: f64 = 2.0;
 
 /// Distance (cells) that waves travel in one step.
@@ -30,7 +30,7 @@ const COURANT: f64 = 0.3;
 /// Rate of stretch (1/s): strains stay below 1e-4.
 const RATE: f64 = 1e-5;
 
-/// Maximum kinetic energy, relative to that of the start.
+/// Maximum kinetic energy, relative to the initial value.
 const MOST: f64 = 1.3;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {

@@ -1,4 +1,4 @@
-//! A body without stress whose parts do not move alike.
+//! Causes if the parts of a body without stress move differently.
 
 use super::seen::UniformMotion;
 use crate::testing::doctor::course::{
@@ -8,15 +8,15 @@ use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::patient::Hindrance;
 use std::f64::consts::SQRT_2;
 
-/// Distance from the rim (cells) up to which functions see nodes beyond it.
+/// Distance from the rim (cells) within which the support of a function reaches nodes beyond it.
 const RIM: f64 = 1.6;
 
-/// Causes that show themselves whatever the size of the error: limits, and cells.
+/// Causes that are visible for any size of the error: limits and cells.
 pub(super) fn plain(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     limit(motion).or_else(|| light_nodes(motion)).or_else(|| crossing(motion))
 }
 
-/// The cause of what is more than rounding.
+/// The cause of a deviation beyond rounding.
 pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
     let soft = motion.scene.soft();
     let course = motion.patient.run(&soft)?;
@@ -42,8 +42,9 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
     Ok(slowed.unwrap_or_else(|| weights(motion, low, high, (way, speed))))
 }
 
-/// Points that slow unevenly, as much in a second whatever the step: weights cost a share of the
-/// speed in each step, or none. `motion` has no stiffness, so that points do not pull each other.
+/// Non-uniform drag: points slow down by different amounts, at a rate per time that does not depend
+/// on the step. A defect of weights would cost a share of the speed per step instead. `motion` has
+/// no stiffness, so that points exert no forces on each other.
 fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
@@ -52,8 +53,8 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
         return Ok(None);
     }
     let again = UniformMotion { course, scene: &halved, ..*motion };
-    // At the end of the first step, before losses saturate. A drag takes the same in twice the
-    // steps, and weights take twice as much: the limit lies in the middle.
+    // At the end of the first step, before losses saturate. With twice the number of steps a drag
+    // loses the same, and weights lose twice as much: the limit is in the middle.
     let (once, twice) = (lost(motion, 1), lost(&again, 2));
     let is_noise = !(once.1 * scene.steps as f64 > motion.patient.rounding());
     if is_noise || !((twice.1 / once.1).max(once.1 / twice.1) <= SQRT_2) {
@@ -82,7 +83,7 @@ fn lost(motion: &UniformMotion<'_>, k: usize) -> (f64, f64) {
     losses.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)))
 }
 
-/// Smallest and largest way of a point in the first step, over that of the velocity.
+/// Smallest and largest displacement of a point in the first step, over that due to the velocity.
 fn first_share(motion: &UniformMotion<'_>) -> (f64, f64) {
     let v = motion.velocity;
     let scale = dot(v, v) * motion.course.times[1];
@@ -111,7 +112,7 @@ fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) ->
     )
 }
 
-/// An end of the body that goes no further.
+/// Finding on an end of the body that stops.
 fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
     let (last, d) = (course.last(), course.problem.dimension);
@@ -139,7 +140,7 @@ fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     })
 }
 
-/// An error that comes with the first change of a cell.
+/// Finding on an error that starts with the first change of a cell.
 fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let course = &motion.course;
     let (h, origin) = (motion.scene.h, &course.problem.grid.origin);
@@ -154,7 +155,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let first = (1..=course.last()).find(crosses)?;
     let error = |k| motion.way_off(k) / (size(motion.velocity) * course.times[course.last()]);
     let (before, at) = (first.checked_sub(1).map(error)?, error(course.last()));
-    // Two steps that were right tell that it is not the steps as such.
+    // Two correct steps show that the steps themselves are not the cause.
     if first < 3 || !(before <= 1e-4 * at && at > 10.0 * motion.patient.rounding()) {
         return None;
     }
@@ -175,7 +176,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     ))
 }
 
-/// An error that begins at the rim alone.
+/// Finding on an error that begins at the rim only.
 fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
     let whole = size(v) * course.times[course.last()];

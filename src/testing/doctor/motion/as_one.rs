@@ -1,4 +1,4 @@
-//! A body that keeps its shape and does not move as it should.
+//! Causes if a body keeps its shape, but moves incorrectly.
 
 use super::seen::UniformMotion;
 use crate::testing::doctor::course::{
@@ -7,7 +7,7 @@ use crate::testing::doctor::course::{
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::Hindrance;
 
-/// Share by which a figure may be off the pattern that explains it.
+/// Maximum relative difference between a figure and the pattern that explains it.
 const NEAR: f64 = 0.02;
 
 /// The cause, if the motion follows one of the patterns.
@@ -26,7 +26,7 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>,
     if speed <= motion.patient.rounding() { Ok(way(motion)) } else { of_speed(motion) }
 }
 
-/// A vector whose components are those wanted, in another order or with other signs.
+/// Finding on a vector with permuted components or wrong signs.
 fn turned(motion: &UniformMotion<'_>, column: &str, seen: [f64; 3]) -> Option<SolverFinding> {
     let d = motion.course.problem.dimension;
     let wanted = motion.velocity;
@@ -46,7 +46,7 @@ fn turned(motion: &UniformMotion<'_>, column: &str, seen: [f64; 3]) -> Option<So
     ))
 }
 
-/// Velocities that are not kept.
+/// Finding on velocities that change.
 fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let shares = shares(motion);
     let last = shares[shares.len() - 1];
@@ -70,7 +70,8 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     if !(log_off <= 0.1 * logs[logs.len() - 1].abs() || off <= 0.1 * error) {
         return Ok(None);
     }
-    // The same with half the step: a rate stays, a loss in each step doubles.
+    // Repeats the run with half the step: a loss per time keeps its rate, a loss per step doubles
+    // it.
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
     let course = motion.patient.run(&halved)?;
@@ -104,7 +105,7 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     }))
 }
 
-/// Shares of the speed along the motion that are left at each time.
+/// Remaining share of the speed along the motion at each time.
 fn shares(motion: &UniformMotion<'_>) -> Vec<f64> {
     shares_of(motion)
 }

@@ -20,7 +20,7 @@ use seen::UniformMotion;
 /// Largest error of a motion whose cause may be rounding to 24 bits.
 const SINGLE: f64 = 1e-4;
 
-/// Examines whether `scene`, whose initial velocity is uniform, keeps moving with that velocity.
+/// Examines whether `scene`, whose initial velocity is uniform, continues with this velocity.
 pub(super) fn uniform(patient: &Patient<'_>, scene: &BoxScene) -> Result<Examined, Hindrance> {
     let course = patient.run(scene)?;
     let motion = UniformMotion { patient, scene, course, velocity: scene.velocity.value };
@@ -54,7 +54,7 @@ fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
     if as_one { Ok(as_one::unknown(motion)) } else { apart::cause(motion) }
 }
 
-/// The finding that noise is more than doubles leave.
+/// The finding on noise above the level of double precision.
 pub(super) fn single(way: f64, speed: f64) -> SolverFinding {
     SolverFinding::defect(
         "single-precision",

@@ -4,10 +4,11 @@ use crate::testing::doctor::course::{Course, displacement, minus, size, times, v
 use crate::testing::doctor::patient::Patient;
 use crate::testing::doctor::scene::BoxScene;
 
-/// Share of an error by which points may differ from their mean and err as one.
+/// Maximum deviation of points from their mean error, as a share of the error, that counts as a
+/// common error.
 const AS_ONE: f64 = 0.05;
 
-/// A motion that should be uniform, and what was seen of it.
+/// A motion that should be uniform, with its observations.
 pub(super) struct UniformMotion<'a> {
     pub(super) patient: &'a Patient<'a>,
     pub(super) scene: &'a BoxScene,

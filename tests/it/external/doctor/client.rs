@@ -48,7 +48,7 @@ struct Client {
     f: Vec<[f64; 4]>,
     sigma: Vec<[f64; 4]>,
     steps: u64,
-    /// Number of the run among those of the maker.
+    /// Number of this run of the factory.
     run: u32,
 }
 
@@ -299,7 +299,7 @@ impl Subject for Client {
                     }
                 }
             }
-            // That of a first step half a step back, or of one half a step on.
+            // Factor of the first step if it starts half a step back or half a step ahead.
             let first = match defect {
                 Leapfrog if self.steps == 0 => 0.5,
                 VelocityAhead if self.steps == 0 => 1.5,

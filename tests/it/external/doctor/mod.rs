@@ -1,4 +1,4 @@
-//! The doctor: each defect of a small client is named, and nothing else is.
+//! The doctor: each defect of a small client is reported, without false positives.
 
 mod client;
 mod defect;
@@ -80,7 +80,7 @@ fn a_defect_is_named_and_no_other(#[case] defect: Defect, #[case] name: &str) {
     assert_eq!(defects, [name], "{page}");
 }
 
-/// What belongs to a scheme is said, and is no defect.
+/// Properties of a scheme are reported, but not as defects.
 #[rstest]
 #[case(Defect::Nothing, &["rounding-grows-on-faces", "start-half-a-step-off"])]
 #[case(Defect::Leapfrog, &["rounding-grows-on-faces", "velocity-half-a-step-behind"])]

@@ -3,7 +3,7 @@
 use crate::cli::{BAD_INPUT, FAILED, Folder};
 use crate::external::program::HELLO;
 
-/// Exact where nothing but translation is asked for, with an acceleration of `G`.
+/// Exact for translation only, with an acceleration of `G`.
 const MOVER: &str = r#"
 read -r m; echo 'HELLO'
 read -r problem || exit 0

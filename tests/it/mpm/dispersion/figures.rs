@@ -125,7 +125,7 @@ fn stability_limits(#[case] spline: Spline, #[case] ppc: u32, #[case] expected: 
     }
 }
 
-/// Limits of one wave: `2/sqrt(kappa s)` and the others.
+/// Limits of one wave: `2/sqrt(kappa s)` and similar closed forms.
 #[rstest]
 fn limits_of_a_wave_have_closed_forms(
     #[values(Spline::Linear, Spline::Quadratic, Spline::Cubic)] spline: Spline,
@@ -143,7 +143,7 @@ fn limits_of_a_wave_have_closed_forms(
     ] {
         let step = method(spline, named).step(theta);
         assert_abs_diff_eq!(step.limit(), square.sqrt(), epsilon = 1e-12);
-        // An eigenvalue leaves the unit circle there.
+        // Here an eigenvalue leaves the unit circle.
         assert!(step.largest_modulus(0.999 * step.limit()) <= 1.0 + 1e-12);
         assert!(step.largest_modulus(1.001 * step.limit()) > 1.0 + 1e-4);
     }
@@ -162,7 +162,7 @@ fn pic_is_overdamped_at_short_time_steps(#[case] spline: Spline, #[case] expecte
     {
         assert_eq!(step.phase_error(courant).is_some(), has_phase, "C = {courant}");
     }
-    // The larger of two real eigenvalues is above the geometric mean of both.
+    // The larger of two real eigenvalues exceeds the geometric mean of both.
     let courant = 0.5 * low;
     assert!(step.largest_modulus(courant) > step.determinant(courant).sqrt());
 }

@@ -114,7 +114,7 @@ impl Row {
         Solver::new(parts).expect("a solver")
     }
 
-    /// Nodal velocities of the wave, over `size`, after each of so many steps.
+    /// Nodal velocities of the wave, over `size`, after each of `steps` steps.
     fn record(
         &self,
         solver: &mut Solver<1>,

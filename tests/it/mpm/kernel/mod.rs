@@ -1,6 +1,6 @@
 //! Laws of the loops, for every basis in 1-D, 2-D and 3-D: a pass of several parts has the bits of
-//! passes of one part each, all processor levels have the same bits, and the sums are those of the
-//! textbook loops ([`textbook`]).
+//! passes of one part each, all processor levels have the same bits, and the sums equal those of
+//! the textbook loops ([`textbook`]).
 
 mod blocks;
 mod textbook;

@@ -11,9 +11,9 @@
 //! L_p     =  sum_i v_i (x) grad N_i(x_p)
 //! ```
 //!
-//! with `mean_p = sum_i (x_i - x_p) N_i(x_p)`, zero except for domains that a wall cuts off. The
-//! laws hold the fast loops to these sums. A user has no reason to run the slow loops, and a reader
-//! finds here what the fast ones compute.
+//! with `mean_p = sum_i (x_i - x_p) N_i(x_p)`, zero except for domains that a wall cuts off. Tests
+//! compare the fast loops with these sums. Users have no reason to run the slow loops; they
+//! document the fast ones.
 
 use super::alone;
 use mpm_verify::mpm::{Grid, Kernel, Matrix, Particles, Vector, dyad};

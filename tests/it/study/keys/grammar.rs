@@ -1,5 +1,5 @@
-//! The grammar of a suite as its own error messages tell it: a value that can stand nowhere is put at
-//! a place, and the answer lists what may stand there. So every word comes from its registration.
+//! The grammar of a suite, derived from its error messages: an invalid value is put at a path, and
+//! the error lists the allowed keys or names. So every name comes from its registration.
 
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
@@ -12,19 +12,19 @@ const STRANGER: &str = "jjjjjjjj";
 /// Kinds of study.
 pub(super) const STUDIES: [&str; 4] = ["convergence", "stability", "internal_force", "gradient"];
 
-/// Keys of the whole file that hold what the author names.
+/// Keys of the whole file whose sub-keys are chosen by the author.
 const OF_AUTHORS: [&str; 2] = ["parameters", "functions"];
 
-/// All that may stand at one place.
+/// All allowed values at one path.
 #[derive(Debug, Default)]
 pub(super) struct Node {
     /// Whether it may be a number.
     pub(super) is_number: bool,
-    /// Keys of a map, or names that have settings, and what stands under them.
+    /// Keys of a map, or names with settings, with their nodes.
     pub(super) keys: Vec<(String, Node)>,
     /// Whether the keys are names to choose from.
     pub(super) is_choice: bool,
-    /// Names that may stand alone.
+    /// Names without settings.
     pub(super) names: Vec<String>,
     /// Value of a map whose keys the author invents.
     pub(super) named: Option<Box<Node>>,
@@ -52,7 +52,7 @@ impl Node {
         Self { keys: keys.into_iter().map(node).collect(), ..Self::default() }
     }
 
-    /// What may stand at `path` of a suite that is `base` elsewhere.
+    /// The values that are allowed at `path` of the suite `base`.
     fn at(base: &Value, path: &[Step<'_>]) -> Self {
         let answer = |text: &str| {
             let value = serde_yaml::from_str(text).expect("YAML");
@@ -87,7 +87,7 @@ impl Node {
         } else if !about(STRANGE) {
             // Neither a map nor a name with settings.
         } else if let Some(keys) = listed(&map, "possible keys: ") {
-            // A map that may be a number too takes the word for a formula.
+            // A map that may also be a number reads the name as a formula.
             node.is_number = !word.message().starts_with("expected a map");
             // The expectation of a full run is one more of the same.
             let keys = keys.into_iter().filter(|key| key != "full");
@@ -132,7 +132,7 @@ impl Node {
     }
 }
 
-/// A sound suite of the kind; what stands beside it in the scene is read after the rest.
+/// A valid suite of the kind. Other keys of its scene are read after the key that is tested.
 fn base(study: &str) -> Value {
     let scene = "scene: {dimension: 1, body: {box: {from: [0], to: [1]}}, material: \
                  {linear_elastic: {young: 100, poisson: 0, density: 1}}}\n";
@@ -160,7 +160,7 @@ fn base(study: &str) -> Value {
     serde_yaml::from_str(&text).expect("YAML")
 }
 
-/// `whole` with `value` at `path`. Only what stands beside a key of the file or of its scene stays.
+/// `whole` with `value` at `path`. Sibling keys are kept at the top level and in the scene only.
 fn put(whole: Value, path: &[Step<'_>], value: Value) -> Value {
     let Some((first, rest)) = path.split_first() else { return value };
     match first {
@@ -177,14 +177,14 @@ fn put(whole: Value, path: &[Step<'_>], value: Value) -> Value {
     }
 }
 
-/// The complaint about a suite.
+/// The diagnostic of a suite.
 fn refusal(text: &str) -> Diagnostic {
     let source = Source::from_text("keys.yaml", text).unwrap_or_else(|found| panic!("{found}"));
     let found = Suite::load(&source).err();
     found.unwrap_or_else(|| Diagnostic::about("keys.yaml", "nothing is wrong"))
 }
 
-/// The names of a list in the help of a complaint.
+/// The names of a list in the help of a diagnostic.
 fn listed(found: &Diagnostic, before: &str) -> Option<Vec<String>> {
     let list = found.help()?.strip_prefix(before)?;
     Some(list.split('`').skip(1).step_by(2).map(str::to_owned).collect())

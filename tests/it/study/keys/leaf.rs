@@ -1,9 +1,9 @@
-//! Where a suite has its words.
+//! Keys and names of a suite.
 
 use super::grammar::Node;
 use serde_yaml::Value;
 
-/// A word of a suite: a key, or a key and a name that stands there.
+/// A key of a suite, or a key with a name.
 pub(super) struct Word {
     pub(super) key: String,
     /// The name, where it is one of several.
@@ -15,7 +15,7 @@ pub(super) struct Word {
 /// Keys and numbers of members of lists, from the whole file on.
 pub(super) type Place = Vec<Value>;
 
-/// Every word of a suite.
+/// Every key and name of a suite.
 pub(super) fn words(grammar: &Node, study: &str, suite: &Value) -> Vec<Word> {
     let mut words = Vec::new();
     walk(grammar, suite, (study, ""), &mut Vec::new(), &mut words);
@@ -54,7 +54,7 @@ fn walk(
         Value::Sequence(list) => {
             for (i, value) in list.iter().enumerate() {
                 place.push(Value::from(i));
-                // What is not itself a list may be one of alternatives.
+                // A key whose value is not a list may have a list of alternatives.
                 let below = node.member.as_deref().unwrap_or(node);
                 walk(below, value, (study, key), place, words);
                 place.pop();
@@ -93,12 +93,12 @@ pub(super) fn shared(study: &str, key: &str) -> String {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Change {
     Times(f64),
-    /// Of a count.
+    /// Increases a count by one.
     PlusOne,
 }
 
 impl Change {
-    /// As the table says it: `1 %`, `x 2`, `+ 1`.
+    /// The change as text: `1 %`, `x 2`, `+ 1`.
     pub(super) fn shown(self) -> String {
         match self {
             Self::PlusOne => "+ 1".to_owned(),
@@ -115,7 +115,7 @@ impl Change {
         let text = value.as_str().map_or(text.trim(), |formula| formula);
         match self {
             Self::Times(factor) => format!("{factor}*({text})").into(),
-            // Some counts are no formulas.
+            // Some counts are not formulas.
             Self::PlusOne => {
                 value.as_u64().map_or_else(|| format!("1 + ({text})").into(), |n| (n + 1).into())
             }

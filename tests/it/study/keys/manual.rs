@@ -6,16 +6,16 @@ use serde_yaml::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Keys that stand at the head of any suite: other kinds of study have no rows for them.
+/// Keys at the head of any suite; they have rows for one kind of study only.
 const OF_ALL: [&str; 6] = ["suite", "title", "source", "about", "parameters", "functions"];
 
-/// Keys that the grammar of the error messages leaves out: what full runs have besides, and tables.
+/// Keys that are missing in the grammar of the error messages: those of full runs, and tables.
 const BESIDES: [&str; 4] = ["expect.full", "refine.full", "parameters.by", "parameters.table"];
 
-/// Most characters of a quotation.
+/// Maximum number of characters of a quotation.
 const LONGEST: usize = 70;
 
-/// A key with the names that may stand under it.
+/// The allowed names of each key.
 pub(super) type Names = BTreeMap<String, BTreeSet<String>>;
 
 /// Quotations by key: the text and the file.
@@ -52,7 +52,7 @@ fn add(study: &str, path: &str, node: &Node, keys: &mut Names) {
     }
 }
 
-/// Suites with the files that show them: those of the repository, and those on the pages.
+/// Suites with their files: those of the repository, and those on pages.
 fn suites() -> Vec<(String, Value)> {
     let files = mpm_verify::suite::yaml::Source::files_in(&root().join("verification"));
     let read = |file: PathBuf| {
@@ -72,7 +72,7 @@ fn suites() -> Vec<(String, Value)> {
     parsed.collect()
 }
 
-/// Of each key a list or a map that a suite says, or else a number or a word: the shortest.
+/// For each key the shortest value in a suite: a list or a map, or else a number or a name.
 pub(super) fn quotations(grammars: &[(&str, Node)]) -> Quotations {
     let mut found = Quotations::new();
     for (file, suite) in suites() {
@@ -125,7 +125,7 @@ fn quote(
     }
 }
 
-/// Whether the author names what stands under a key.
+/// Whether the author chooses the sub-keys of a key.
 fn is_of_author(path: &str) -> bool {
     ["parameters", "functions"].contains(&path)
 }
@@ -159,7 +159,7 @@ pub(super) fn pages() -> Vec<(PathBuf, String)> {
     pages.into_iter().map(read).collect()
 }
 
-/// Key and row, of a line that is the row of a key.
+/// Key and row, for a line that is the row of a key.
 fn row(line: &str) -> Option<(&str, &str)> {
     let (key, rest) = line.strip_prefix("| `")?.split_once("` | ")?;
     (rest.matches(" | ").count() >= 2 && rest.ends_with('|')).then_some((key, rest))
@@ -173,7 +173,7 @@ pub(super) fn rows(pages: &[(PathBuf, String)]) -> BTreeMap<&str, Vec<&str>> {
     rows
 }
 
-/// A page with the last cell of each row made anew.
+/// The page with the last cell of each row replaced.
 pub(super) fn with_quotations(page: &str, found: &Quotations) -> String {
     let renew = |line: &str| {
         let Some((key, _)) = row(line) else { return line.to_owned() };

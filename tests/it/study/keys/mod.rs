@@ -1,4 +1,4 @@
-//! Every word of the grammar is held by a gate (docs/keys.md).
+//! Every key and name of the grammar is checked by a gate (docs/keys.md).
 
 #[path = "../../../defects/gate.rs"]
 mod gate;
@@ -20,7 +20,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
 
-/// A word of the grammar: its key, whether it is a number, and the names that may stand there.
+/// For each key of the grammar, whether it is a number, and its allowed names.
 type Keys = BTreeMap<String, (bool, Vec<String>)>;
 
 /// Every key that takes a number or one of several names, in all kinds of study that run a method of
@@ -40,7 +40,7 @@ fn keys(grammars: &[(&str, Node)]) -> Keys {
     keys
 }
 
-/// The words of each kind of study.
+/// The grammar of each kind of study.
 static GRAMMARS: LazyLock<Vec<(&str, Node)>> =
     LazyLock::new(|| STUDIES.map(|study| (study, Node::of_study(study))).into());
 
@@ -53,7 +53,7 @@ fn suites() -> Vec<Known> {
     suites
 }
 
-/// Holds the words of docs/keys.md to those of the grammar.
+/// Asserts that docs/keys.md and the grammar have the same keys.
 fn same<T: Ord + std::fmt::Debug>(grammar: &BTreeSet<T>, page: &BTreeSet<T>) {
     let missing: Vec<&T> = grammar.difference(page).collect();
     assert!(missing.is_empty(), "not in docs/keys.md; run ci/keys: {missing:?}");
@@ -115,8 +115,8 @@ fn the_manual_has_every_verdict() {
     assert!(untold.is_empty(), "docs/grammar: the row of `expect.verdict` has not {untold:?}");
 }
 
-/// `required` alone says that a key must stand wherever it may; a default, that it need not
-/// stand everywhere.
+/// `required` alone marks a key that is required wherever it is allowed; a key with a default is
+/// optional somewhere.
 #[test]
 fn the_manual_says_which_keys_must_stand() {
     let (required, pages) = (required::required(), manual::pages());

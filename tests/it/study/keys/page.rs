@@ -9,7 +9,7 @@ use std::path::PathBuf;
 const BEGIN: &str = "<!-- written by ci/keys -->\n";
 const END: &str = "<!-- end -->";
 
-/// Predicted seconds of a suite in the sample, and which of such rows are of it.
+/// Maximum predicted time (s) of a suite in the sample, and the stride of the sample.
 const QUICK: f64 = 0.015;
 const EVERY: usize = 4;
 
@@ -17,7 +17,7 @@ const EVERY: usize = 4;
 pub(super) struct Line {
     /// Suites that use it.
     suites: usize,
-    /// The smallest change that is noticed, empty if none is.
+    /// The smallest change that is noticed; empty if no change is.
     pub(super) least: String,
     gate: String,
     /// Suite and case.
@@ -27,7 +27,7 @@ pub(super) struct Line {
     pub(super) reason: String,
 }
 
-/// Names that may stand under a key, with the number of suites and the reason that the table gives.
+/// Allowed names of a key, with the number of suites and the reason in the table.
 pub(super) type Names = BTreeMap<(String, String), (usize, String)>;
 
 /// A row of the sample.
@@ -53,7 +53,7 @@ fn rows<const N: usize>() -> Vec<[String; N]> {
     cells.filter_map(|cells: Vec<String>| cells.try_into().ok()).collect()
 }
 
-/// What stands between a pair of signs, and what before it.
+/// The text before the first `sign`, and the text between the first two.
 fn within(text: &str, sign: char) -> (&str, &str) {
     let (before, rest) = text.split_once(sign).unwrap_or((text, ""));
     (before, rest.split(sign).next().unwrap_or_default())
@@ -85,7 +85,7 @@ pub(super) fn names() -> Names {
     rows().into_iter().flat_map(of_row).collect()
 }
 
-/// Every so many-th number that a quick suite notices.
+/// A subset of the numbers that a quick suite notices.
 pub(super) fn sample() -> Vec<Sampled> {
     let known = [1.01, 1.001, 1.0001].map(Change::Times).map(|change| (change.shown(), change));
     let quick = numbers().into_iter().filter_map(|(key, line)| {
@@ -135,21 +135,21 @@ impl Line {
     }
 }
 
-/// Writes the tables; a row of a key that was not looked at stays.
+/// Writes the tables; rows of keys that were not tested do not change.
 pub(super) fn write(found: &Found) {
     let mut lines = numbers();
     lines.retain(|key, _| found.keys.contains(key));
     lines.extend(found.rows.iter().map(|row| (row.key.clone(), row.line())));
     let noticed = lines.values().filter(|line| !line.least.is_empty()).count();
     let mut text = vec![
-        format!("{} numbers, of which a change of {noticed} is noticed.", lines.len()),
+        format!("{} numbers; a change of {noticed} of them is noticed.", lines.len()),
         String::new(),
         "| key | suites | least change | gate that notices | suite, case | s |".to_owned(),
         "|---|--:|--:|---|---|--:|".to_owned(),
     ];
     text.extend(lines.iter().map(|(key, line)| line.shown(key)));
     let unused = found.names.values().filter(|suites| **suites == 0).count();
-    text.push(format!("\n{} names, of which {unused} stand in no suite.\n", found.names.len()));
+    text.push(format!("\n{} names; {unused} of them are in no suite.\n", found.names.len()));
     text.push("| key | names, with the number of suites |\n|---|---|".to_owned());
     let mut by_key: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for ((key, name), suites) in &found.names {

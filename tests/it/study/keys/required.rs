@@ -1,4 +1,4 @@
-//! Which keys must stand, by the JSON Schema of a suite.
+//! Required keys, from the JSON Schema of a suite.
 
 use super::leaf::joined;
 use super::manual::key_of;
@@ -16,7 +16,7 @@ const STUDIES: [(&str, &str); 4] = [
 /// Keys of maps that have one for each face.
 const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
 
-/// By key, whether it is required; both, if that depends on where it stands.
+/// By key, whether it is required; both, if this depends on the context.
 pub(super) type Required = BTreeMap<String, BTreeSet<bool>>;
 
 struct Walk<'a> {

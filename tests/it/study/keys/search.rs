@@ -12,29 +12,30 @@ use std::sync::Mutex;
 /// The change that some gate is to notice.
 const ONE_PERCENT: Change = Change::Times(1.01);
 
-/// Changes tried where that is not noticed.
+/// Changes that are tried if this one is not noticed.
 const LARGER: [f64; 7] = [1.1, 2.0, 0.5, 10.0, 0.1, 1e3, 1e-3];
 
-/// Changes tried where it is.
+/// Changes that are tried if it is noticed.
 const SMALLER: [f64; 2] = [1.001, 1.0001];
 
-/// Cheapest suites, and cheapest of the others that expect an order, in which larger changes are
-/// tried, and all changes of keys of the judge or with a reason. A suite that is exact to rounding
-/// has no order to lose.
+/// Number of cheapest suites, and of cheapest other suites with an expected order, in which larger
+/// changes are tried, and all changes of keys of the judge or with a reason. A suite that is exact
+/// to rounding has no order to lose.
 const FEW: usize = 6;
 
-/// First keys of the numbers that a solver gets; all others are the judge's, or the truth's.
+/// First keys of the numbers that a solver uses; all others belong to the judge, or to the exact
+/// solution.
 const OF_SOLVER: [&str; 6] =
     ["scene", "manufactured", "particles", "methods.mpm", "stability.particles", "internal_force"];
 
-/// First keys of a truth, whose change is noticed when a suite is loaded.
+/// First keys of an exact solution, whose change is noticed when a suite is loaded.
 const OF_TRUTH: [&str; 2] = ["exact.", "equilibrium."];
 
 /// Everything that was found.
 pub(super) struct Found {
     /// Every number of the grammar.
     pub(super) keys: BTreeSet<String>,
-    /// Those that were changed.
+    /// Keys whose number was changed.
     pub(super) rows: Vec<Row>,
     /// Key and name, and the number of suites that have it.
     pub(super) names: BTreeMap<(String, String), usize>,
@@ -70,7 +71,7 @@ pub(super) fn is_of_solver(key: &str) -> bool {
 /// A suite, and all places of a number in it.
 type Use = (usize, Vec<Place>);
 
-/// Uses of each number, by its key, those of cheap suites first.
+/// Uses of each number, by its key, in cheap suites first.
 type Uses = BTreeMap<String, Vec<Use>>;
 
 fn uses(grammars: &[(&str, Node)], suites: &[Known]) -> (Uses, BTreeMap<(String, String), usize>) {
@@ -144,7 +145,7 @@ pub(super) fn still_noticed(row: &page::Sampled, grammars: &[(&str, Node)], suit
     );
 }
 
-/// Suites, and which of their cases pass if nothing is changed.
+/// Suites, and the cases that pass without a change.
 struct Control<'a> {
     suites: &'a [Known],
     known: Mutex<HashMap<(usize, usize), bool>>,
@@ -155,7 +156,7 @@ fn each<'a>(uses: &[&'a Use]) -> impl Iterator<Item = (usize, &'a Place)> + Clon
     uses.iter().flat_map(|(suite, places)| places.iter().map(|place| (*suite, place)))
 }
 
-/// A gate, and the case; none if the suite is refused.
+/// A gate, and the case; `None` if the suite is refused.
 type Noticed = (&'static str, Option<usize>);
 
 impl Control<'_> {

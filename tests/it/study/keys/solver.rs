@@ -1,4 +1,4 @@
-//! Our solver with one number changed, under the suite as it stands.
+//! The built-in solver with one number changed, under the unchanged suite.
 
 use super::gate::gate;
 use super::leaf::{Change, Place, changed};
@@ -22,7 +22,7 @@ pub(super) struct Known {
     pub(super) seconds: f64,
 }
 
-/// Seconds that a step of a suite without levels is taken for, and such a suite of so many steps.
+/// Assumed time (s) per step of a suite without levels, and the number of steps of such a suite.
 const STEP: f64 = 2.5e-4;
 const STEPS: f64 = 1000.0;
 
@@ -55,8 +55,8 @@ impl Known {
         expected.any(|expected| expected.order.is_some())
     }
 
-    /// The solver's part of the suite with one number changed; what nobody but the solver reads is
-    /// changed in the suite itself.
+    /// The part of the suite that the solver reads, with one number changed. A number that only the
+    /// solver reads is changed in the suite itself.
     ///
     /// # Errors
     /// Why the changed text is refused.
@@ -116,7 +116,8 @@ impl Known {
         Ok(Changed { judged: Judged::Whole(suite), known: self })
     }
 
-    /// The same with nothing changed, by the same ways: what it does not meet it never would.
+    /// The suite without a change, run in the same way as changed ones: expectations that it fails
+    /// are not counted later.
     pub(super) fn unchanged(&self) -> Changed<'_> {
         let plan = self.suite.plan::<ConvergencePlan>();
         let judged = plan.map_or_else(
@@ -162,7 +163,7 @@ impl Changed<'_> {
     }
 }
 
-/// Our solver of a method, on the levels of a suite, with a plan of its own.
+/// The built-in solver with a method, on the levels of a suite, with a separate plan.
 struct Ours<'a> {
     plan: &'a ConvergencePlan,
     method: Method,

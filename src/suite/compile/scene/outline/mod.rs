@@ -1,4 +1,4 @@
-//! Shapes of bodies: boxes, and bodies of another outline.
+//! Shapes of bodies: boxes, and bodies with another outline.
 
 mod polygon;
 pub(crate) mod quadrilateral;
@@ -25,7 +25,7 @@ pub(crate) enum BodyShape<'a> {
 /// The shape that `spec` describes.
 ///
 /// # Errors
-/// A complaint about a body that makes no sense in `dimension` dimensions.
+/// A diagnostic of a body that is invalid in `dimension` dimensions.
 pub(crate) fn shape<'a>(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -67,7 +67,7 @@ pub(crate) fn shape<'a>(
     }
 }
 
-/// Rims are free: a scene can neither hold nor load them.
+/// Rims are free: a scene has no conditions on them, and only some loads act on round rims.
 ///
 /// # Errors
 /// A diagnostic of the first condition or load on a rim.
@@ -84,21 +84,25 @@ pub(crate) fn rims_are_free(
     });
     let loaded = spec.loads.iter().enumerate().find_map(|(i, load)| {
         let on = load.keys().face()?;
+        if load.keys().acts_on_rims() && !outline.circles().is_empty() {
+            return None;
+        }
         let message = format!("the rims of a body of kind `{kind}` are free, `{on}` has no load");
         Some(evaluator.diagnostic(&load.path(i).then("on"), &message))
     });
     match held.or(loaded) {
-        Some(diagnostic) => {
-            Err(diagnostic.with_help("only the faces of a `box` can be held or loaded"))
-        }
+        Some(diagnostic) => Err(diagnostic.with_help(
+            "only the faces of a `box` can be held or loaded, and a `pressure` acts on the \
+                 `inner` or `outer` rim of an annulus or a disk",
+        )),
         None => Ok(()),
     }
 }
 
-/// A grid that the suite asks for must reach over the whole body.
+/// A stated grid must contain the whole body.
 ///
 /// # Errors
-/// A complaint about the end of the grid that lies inside.
+/// A diagnostic of the end of the grid that is inside the body.
 pub(crate) fn fits(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -127,7 +131,7 @@ pub(crate) fn fits(
 /// Lowest and highest corner of a box.
 ///
 /// # Errors
-/// A complaint about a box that is empty, too small or too large.
+/// A diagnostic of a box that is empty, too small or too large.
 pub(crate) fn corners(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -6,13 +6,13 @@ use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Most corners of a polygon, for every part of a lattice is held against all of them.
+/// Maximum number of corners of a polygon: every lattice cell is intersected with all sides.
 const MOST: usize = 100;
 
 /// The polygon with the corners at `path`.
 ///
 /// # Errors
-/// A complaint about corners that are those of no simple polygon.
+/// A diagnostic if the corners do not form a simple polygon.
 pub(super) fn polygon(
     evaluator: &Evaluator<'_>,
     path: &Path,

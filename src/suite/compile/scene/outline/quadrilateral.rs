@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// The panel that `spec` at `path` describes, and its outline.
 ///
 /// # Errors
-/// A complaint about corners that are not those of a convex panel in the plane.
+/// A diagnostic of corners that do not form a convex panel in the plane.
 pub(super) fn quadrilateral(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -36,7 +36,7 @@ pub(super) fn quadrilateral(
     Ok((Arc::new(outline.map_err(|(_, side)| to_the_right(side))?), panel))
 }
 
-/// A face can be held or loaded where a whole side lies on it.
+/// A face can have a condition or load only if a whole side is on it.
 ///
 /// # Errors
 /// A diagnostic of the first condition or load on another face.
@@ -48,7 +48,7 @@ pub(crate) fn faces_are_sides(
 ) -> Result<(), Diagnostic> {
     let is_side = |name: &str| {
         let number = FACES.iter().position(|face| *face == name);
-        // Others are no faces, which a later check reports.
+        // Other numbers are not faces, which a later check reports.
         number.is_none_or(|i| i >= 4 || panel.has_side_at(i / 2, i % 2 == 1))
     };
     let no_side = |at: &Path, face: &str, is_key: bool| {

@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// The annulus at `path`.
 ///
 /// # Errors
-/// A complaint about rims that are none.
+/// A diagnostic of invalid rims.
 pub(super) fn annulus(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -30,7 +30,7 @@ pub(super) fn annulus(
 /// The disk or ball at `path`.
 ///
 /// # Errors
-/// A complaint about a centre or a radius that is none.
+/// A diagnostic of an invalid centre or radius.
 pub(super) fn filled(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -9,12 +9,12 @@ use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
-/// Keys of the thermal condition on a face, as suites write them.
+/// Keys of a thermal condition on a face, in suites.
 pub(crate) trait ThermalKeys {
     /// The condition, checked, with every number computed.
     ///
     /// # Errors
-    /// The first mistake in its keys.
+    /// The first error in its keys.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic>;
 
     /// Whether heat can enter.
@@ -32,7 +32,8 @@ pub struct SceneHeat {
     pub capacity: f64,
     /// Heat that arises (W/kg), a formula of the coordinates, t and T.
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates and t; not stated, that of the truth.
+    /// Initial temperature (K), a formula of the coordinates and t; default: that of the exact
+    /// solution.
     pub initial: Option<Formula>,
     /// Every face of the body.
     pub(crate) faces: Vec<ThermalFace>,
@@ -48,7 +49,7 @@ pub(crate) struct ThermalFace {
 }
 
 impl ThermalFace {
-    /// The face of the truth.
+    /// The face of the exact heat problem.
     pub(crate) fn exact(&self) -> HeatFace {
         let Self { name, axis, high, condition } = self;
         HeatFace { name, axis: *axis, high: *high, condition: condition.clone() }
@@ -57,7 +58,7 @@ impl ThermalFace {
 
 /// A thermal condition of a scene as one of the solver.
 pub(crate) trait BuildThermal<const D: usize> {
-    /// The condition; none where no heat enters.
+    /// The condition; `None` if no heat enters.
     fn build(&self) -> Option<Thermal<D>> {
         None
     }
@@ -68,10 +69,10 @@ in_every_dimension! {
     BuildThermals: BuildThermal
 }
 
-/// Thermal condition on one face of the body, with every number computed: the contract of the
-/// family, whose members stand in `suite/scene/boundary/thermal`.
+/// Thermal condition on one face of the body, with computed numbers: the contract of the family,
+/// whose members are in `suite/scene/boundary/thermal`.
 pub(crate) trait HeatCondition: BuildThermals + ThermalCondition + 'static {
-    /// Value of its row in reports; none of a face that is no end.
+    /// Value of its row in reports; `None` for a periodic face.
     fn row(&self) -> Option<String>;
 }
 

@@ -1,4 +1,4 @@
-//! A face with a given flux of heat.
+//! A face with a prescribed heat flux.
 
 use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
 use crate::exact::Violation;

@@ -1,5 +1,5 @@
-//! Thermal conditions on the faces of a body in which heat flows: the family. A member is one file
-//! and one line below (and the `mod` that Rust wants).
+//! Family of the thermal conditions on the faces of a body that conducts heat. A member is one file
+//! and one line below (and a `mod` line).
 
 mod contract;
 mod convection;

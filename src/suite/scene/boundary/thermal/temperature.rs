@@ -1,4 +1,4 @@
-//! A face with a given temperature.
+//! A face with a prescribed temperature.
 
 use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
 use crate::exact::Violation;

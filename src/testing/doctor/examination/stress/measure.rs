@@ -1,13 +1,13 @@
 //! Stresses by the momentum that flows through the middle of a body.
 //!
-//! The columns `stress` and `deformation_gradient` of a solver that gives them.
+//! The columns `stress` and `deformation_gradient` of a solver that reports them.
 
 use crate::testing::doctor::course::{AffineField, Course, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::{BoxScene, H, Kind};
 
 /// Rates of stretch along the first axis and of shear (1/s): strains stay below 1e-3. The body is
-/// compressed, as artificial viscosities act in compression only.
+/// compressed, because artificial viscosities act in compression only.
 pub(super) const STRETCH: f64 = -5e-3;
 pub(super) const SHEAR: f64 = 4e-3;
 
@@ -21,8 +21,8 @@ pub(in crate::testing::doctor) const TRAVEL: f64 = 1.5;
 /// Steps of the run: few, since averaging (PIC) spreads momentum in each.
 pub(in crate::testing::doctor) const STEPS: u64 = 6;
 
-/// Moduli (Pa) by which stresses grow: sigma_xx and sigma_yy over the stretch, sigma_xy (force
-/// along y) and sigma_yx over the shear. In one dimension there is the first one only.
+/// Moduli (Pa) from the growth of stresses: sigma_xx and sigma_yy over the stretch, sigma_xy (force
+/// along y) and sigma_yx over the shear. In 1-D there is only the first.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct MeasuredModuli {
     pub(super) along: f64,
@@ -39,7 +39,7 @@ pub(super) struct MeasuredModuli {
 /// The scene, which `units` runs as well.
 pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
-    // A cell of 0.15 m and these numbers of particles give no two mistakes the same factor.
+    // With a cell of 0.15 m and these numbers of particles, no two defects have the same factor.
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], cells, 3.0);
     scene.ppc = if kind.0 == 3 { 2 } else { 3 };
     let mut scene = scene.scaled(1.2, 1.0, libm::pow(1.2, kind.0 as f64));
@@ -108,9 +108,9 @@ pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) 
     [constant, (ends[1] * rows[0][0] - ends[0] * rows[1][0]) / det]
 }
 
-/// Impulse (Pa s) of the stress with normal i and force j at each time: the momentum that has left
-/// the upper half of a tube along axis i for the lower one, over the area of the tube. Only
-/// velocities enter, at reference places.
+/// Impulse (Pa s) of the stress with normal i and force j at each time: the momentum that has moved
+/// from the upper half of a tube along axis i to the lower one, over the area of the tube. It is
+/// computed from velocities at reference positions only.
 pub(in crate::testing::doctor) fn impulses(
     course: &Course,
     scene: &BoxScene,
@@ -124,7 +124,7 @@ pub(in crate::testing::doctor) fn impulses(
         (0..d).all(|a| a == i || (label[a] - middle[a]).abs() <= TUBE * scene.h * (1.0 + 1e-9))
     };
     let labels = course.points(velocity, 0).map(|(label, _)| label);
-    // Points may lie on the side of the tube, as nodes do: the area is that of the points inside.
+    // Points may be on the side of the tube, as nodes are: the area is that of the points inside.
     let volume: f64 = labels.zip(weight).filter(|(x, _)| in_tube(*x)).map(|(_, w)| w).sum();
     let area = volume / (scene.body.1[i] - scene.body.0[i]);
     let impulse = |k: usize| {
@@ -142,11 +142,11 @@ pub(in crate::testing::doctor) fn impulses(
     (0..=course.last()).map(impulse).collect()
 }
 
-/// Share by which a column may be off: it may be that of a step before, and waves are near.
+/// Maximum relative difference of a column: it may be one step old, and waves are near.
 pub(super) const NEAR: f64 = 0.2;
 
-/// Ratio of the growth of the column `stress` along the stretch to its expected value; `None` if
-/// the column is not given.
+/// Ratio of the growth of the column `stress` along the stretch to its expected value; `None`
+/// without this column.
 pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
     let (lambda, mu) = scene.lame();
@@ -155,8 +155,8 @@ pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     Some((along(last)? - along(1)?) / ((lambda + 2.0 * mu) * STRETCH * time))
 }
 
-/// Ratio of F_00 - 1 of the column `deformation_gradient` to that of the motion; `None` if the
-/// column is not given.
+/// Ratio of F_00 - 1 of the column `deformation_gradient` to that of the motion; `None` without
+/// this column.
 pub(super) fn strain_factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
     let f = inside(course, scene, &course.states[last].deformation_gradient)?;
@@ -191,7 +191,7 @@ pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> 
     found
 }
 
-/// Mean of a tensor within a cell of the middle; `None` if the column is not given.
+/// Mean of a tensor within one cell of the middle; `None` without this column.
 pub(in crate::testing::doctor) fn inside(
     course: &Course,
     scene: &BoxScene,
@@ -203,8 +203,8 @@ pub(in crate::testing::doctor) fn inside(
     })
 }
 
-/// Mean of a tensor (`d * d` numbers per point) over points whose label `is_near`; `None` if the
-/// column is not given, NaN without such points.
+/// Mean of a tensor (`d * d` numbers per point) over points whose label `is_near`; `None` without
+/// this column, NaN without such points.
 pub(in crate::testing::doctor) fn mean_tensor(
     course: &Course,
     column: &[f64],

@@ -1,10 +1,10 @@
 //! A body that stretches and shears: the stress in it, by the momentum that flows through its
 //! middle.
 //!
-//! With an initial velocity `v = L (X - C)` the strain is uniform, L t, until waves come in from
-//! the free faces, and no force acts inside. Momentum goes from one half to the other as `dP_j/dt
-//! = -sigma_ij A` through the middle plane with normal i. In a tube of points about the axis i it
-//! can be counted exactly, for any functions, from velocities alone.
+//! With an initial velocity `v = L (X - C)` the strain is uniform, L t, until waves arrive from the
+//! free faces, and no force acts inside. Momentum is transferred from one half to the other as
+//! `dP_j/dt = -sigma_ij A` through the middle plane with normal i. In a tube of points about the
+//! axis i it can be computed exactly, for any basis functions, from velocities alone.
 //!
 //! ```text
 //! measure   the scene, and stresses by momentum
@@ -34,7 +34,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Examines every dimension that the solver can take, until one has findings.
+/// Examines every dimension that the solver supports, until one has findings.
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let first = patient.able(&[2, 3, 1], &ELASTIC, &spreading)?;
     let mut all = Examined::default();
@@ -59,7 +59,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(all)
 }
 
-/// The finding on a body that is stretched, where one that is compressed has none.
+/// The finding on a body in tension, if the body in compression has none.
 fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
     let mut stretched = scene.clone();
     stretched.velocity.gradient = scene.velocity.gradient.map(|row| row.map(|slope| -slope));
@@ -106,7 +106,7 @@ fn examine_scene(
     let (mut course, mut measured) = measure(patient, &scene, averages)?;
     let (lambda, mu) = scene.lame();
     let ratio = measured.along.abs() / (lambda + 2.0 * mu);
-    // Waves that are faster than expected have come in: repeat with a shorter time.
+    // Waves that are faster than expected have arrived: repeat with a shorter time.
     if ratio > 2.0 {
         scene.dt /= ratio.sqrt();
         (course, measured) = measure(patient, &scene, averages)?;

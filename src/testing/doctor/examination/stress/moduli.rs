@@ -1,20 +1,20 @@
-//! Mistakes with characteristic moduli.
+//! Defects that are recognised by the measured moduli.
 
 use super::measure::{MeasuredModuli, NEAR as NEAR_FACTOR, factor as column_factor, strain_factor};
 use crate::testing::doctor::course::{Course, shown};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::BoxScene;
 
-/// Share of the largest modulus by which one may differ, and by which it may differ in addition
-/// where averaging moves as much momentum as stress.
+/// Maximum difference of a modulus, as a share of the largest modulus.
 const NEAR: f64 = 0.03;
+
+/// Additional maximum difference if averaging moves as much momentum as stress.
 const AVERAGED: f64 = 0.06;
 
-/// A mistake: its name, the moduli along, across and of shear that it gives, its cause, and where
-/// to look.
+/// A defect: its name, its moduli (along, across, shear), its cause, and where to look.
 type Mistake = (&'static str, [f64; 3], &'static str, &'static str);
 
-/// The mistake that gives these moduli, if they are not those of the law.
+/// The defect with the measured moduli, if they differ from those of the law.
 pub(super) fn cause(
     course: &Course,
     scene: &BoxScene,
@@ -151,8 +151,8 @@ fn mistakes(scene: &BoxScene, lambda: f64, mu: f64) -> Vec<Mistake> {
     all
 }
 
-/// All moduli have the same factor: the modulus, the mass, the volume or the gradients are wrong.
-/// The column `stress` shows whether it is the modulus.
+/// Finding for a common factor of all moduli: the modulus, the mass, the volume or the gradients
+/// are wrong. The column `stress` shows whether it is the modulus.
 fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> SolverFinding {
     let is = |wanted: f64| (factor / wanted - 1.0).abs() <= NEAR;
     if is(-1.0) {
@@ -223,7 +223,7 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
     SolverFinding::defect(name, seen, &cause, look_at)
 }
 
-/// Factors of accelerations with a known cause, no two of them alike.
+/// Distinct factors of accelerations with a known cause.
 fn factors(scene: &BoxScene) -> Vec<(f64, &'static str)> {
     let d = scene.dimension as u32;
     let (h, particles) = (scene.h, scene.ppc.pow(d) as f64);

@@ -1,43 +1,43 @@
-//! Findings on walls, by what the runs show of each.
+//! Findings on walls, from the results of the runs with each.
 
 use super::measure::{SUNK, TRAVEL, Wall};
 use crate::testing::doctor::course::shown;
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::FACES;
 
-/// Range of the force on a body that is thrown, over the expected one. It swings about its mean
-/// for a long time: with FLIP and cubic functions, 0.70 is the mean of the run.
+/// Range of the force on a decelerated body, over the expected force. It oscillates about its mean
+/// for a long time: with FLIP and cubic functions, the mean of the run is 0.70.
 const THROWN: std::ops::RangeInclusive<f64> = 0.5..=1.5;
 
 /// Force below which a wall lets go, or lets slide.
 const NONE: f64 = 0.2;
 
-/// Force below which there is no wall.
+/// Force below which the wall counts as missing.
 const ABSENT: f64 = 0.1;
 
-/// Difference of the forces of walls that are mirror images, or that differ in their hold along
-/// the wall only.
+/// Maximum relative difference of the forces of walls that are mirror images, or that differ in
+/// their condition along the wall only.
 const UNEVEN: f64 = 0.05;
 
-/// Displacement of a pushed body through the wall, over that of a free body in the time of one
-/// cell.
+/// Displacement of a body through the wall that counts as no wall, over that of a free body in the
+/// time of one cell.
 const THROUGH: f64 = 0.8;
 
-/// Relative error of the force under gravity, which begins smoothly: averaging (PIC) with cubic
-/// functions makes it 0.15.
+/// Maximum relative error of the force under gravity, which begins smoothly: averaging (PIC) with
+/// cubic functions has 0.15.
 const SMOOTH: f64 = 0.2;
 
 /// Part of the weight of a cell that may be missing in the force of a wall under gravity.
 const WEIGHT: f64 = 0.3;
 
-/// Part of the weight of a cell that may be too much in that force: averaging (PIC) makes it 0.14.
+/// Maximum excess of this force, as a share of the weight of a cell: averaging (PIC) has 0.14.
 const CARRIED: f64 = 0.4;
 
-/// Error of displacements in an even stretch: sound clients have up to 0.04 with quadratic
-/// functions that are modified at the wall, functions cut at the wall 0.07 or more.
+/// Maximum error of displacements in a uniform stretch: correct clients have up to 0.04 with
+/// quadratic functions that are modified at the wall, functions cut at the wall 0.07 or more.
 const STRETCH: f64 = 0.05;
 
-/// Kinds of findings, those that explain others first.
+/// Kinds of findings; those that explain others come first.
 const KINDS: [&str; 11] = [
     "position-limited",
     "wall-holds-acceleration-only",
@@ -52,7 +52,7 @@ const KINDS: [&str; 11] = [
     "wall-breaks-linear-fields",
 ];
 
-/// The defect or, without one, the remark that explains the others, with the faces that show it.
+/// The defect or, without one, the remark that explains the others, with the affected faces.
 pub(super) fn finding(walls: &[Wall]) -> Option<SolverFinding> {
     first_kind(walls, of_wall).or_else(|| uneven(walls)).or_else(|| first_kind(walls, of_stretch))
 }
@@ -76,8 +76,8 @@ fn first_kind(
     Some(finding)
 }
 
-/// The finding on two walls with different forces where the same are expected: opposite faces of
-/// one condition, or one face with two conditions, as nothing moves along it.
+/// The finding on two walls with different forces that should be equal: opposite faces with one
+/// condition, or one face with two conditions, as nothing moves along it.
 fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
     let axis = |wall: &Wall| FACES.iter().position(|pair| pair.contains(&wall.face));
     let differ =
@@ -164,7 +164,7 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
         ));
     }
     let is_smooth = |falling: f64| (falling - 1.0).abs() <= SMOOTH;
-    // A wall that carries more than the weight of its own nodes stands inside the body.
+    // A wall that carries more than the weight of its own nodes is inside the body.
     let is_inside = wall.offset.is_some_and(|offset| !(offset <= CARRIED));
     let is_even = wall.along.is_none_or(|along| is_near(along) || along.abs() <= NONE);
     if !(thrown().all(is_near) && is_even && !is_inside && wall.falling.is_none_or(is_smooth)) {
@@ -206,7 +206,8 @@ fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     let [sinking, halved] = wall.sinking?;
     // Averaging (PIC) softens the wall too, but more with smaller steps.
     let sinks_by_steps = sinking.abs() > SUNK && halved.abs() <= 0.75 * sinking.abs();
-    // The wall does not carry the weight of its own nodes, half a cell, though it holds them well.
+    // The wall does not carry the weight of its own nodes, half a cell, although it fixes them
+    // correctly.
     let is_missing =
         wall.stretch.abs() <= STRETCH && wall.offset.is_some_and(|offset| !(offset >= -WEIGHT));
     if sinks_by_steps || is_missing {

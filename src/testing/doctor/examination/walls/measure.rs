@@ -21,14 +21,14 @@ const STRETCH_TRAVEL: f64 = 4.0;
 const STRETCH_STEPS: u64 = 16;
 const STRETCH_RATE: f64 = 1e-4;
 
-/// Gravity (m/s2): the speed that it gives in the run is of that order.
+/// Gravity (m/s2), which gives a speed of this order in the run.
 const GRAVITY: f64 = 1e-3;
 
 /// Displacement into a wall, over g t times the time of one cell, that is examined with half the
 /// step.
 pub(super) const SUNK: f64 = 0.1;
 
-/// One wall, as the runs show it: `None` where no run does.
+/// Results of the runs for one wall; `None` if no run shows the figure.
 #[derive(Debug, Clone)]
 pub(super) struct Wall {
     pub(super) face: &'static str,
@@ -41,13 +41,12 @@ pub(super) struct Wall {
     pub(super) along: Option<f64>,
     /// Force over the expected one under gravity.
     pub(super) falling: Option<f64>,
-    /// Force at once under gravity, over that on the mass of one cell: what is missing at all
-    /// times.
+    /// Immediate force under gravity, over that on the mass of one cell: the force that is missing
+    /// at all times.
     pub(super) offset: Option<f64>,
-    /// Displacement of a pushed body through the wall, over that of a free body in the time of one
-    /// cell.
+    /// Displacement of a body through the wall, over that of a free body in the time of one cell.
     pub(super) through: Option<f64>,
-    /// Largest displacement in the first step, over that of the velocity.
+    /// Largest displacement in the first step, over that due to the velocity.
     pub(super) jump: Option<f64>,
     /// Displacement along gravity at the wall, over g t times the time of one cell: with the steps
     /// of the run, and with half of them.
@@ -76,7 +75,7 @@ impl Wall {
     }
 }
 
-/// The bar along `axis`, held at both ends.
+/// The bar along `axis`, fixed at both ends.
 pub(super) fn bar(kind: Kind, axis: usize, condition: &'static str) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], if kind.0 == 3 { 3.0 } else { 4.0 }, 3.0);
     scene.body.1[axis] = scene.body.0[axis] + CELLS * H;
@@ -87,8 +86,8 @@ pub(super) fn bar(kind: Kind, axis: usize, condition: &'static str) -> BoxScene 
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// Both walls across `axis`: the bar is thrown, moves along the wall, and falls. On the first axis
-/// it is thrown both ways.
+/// Both walls across `axis`: the bar has an initial velocity, moves along the wall, and falls. On
+/// the first axis the velocity has both signs.
 pub(super) fn walls_across(
     patient: &Patient<'_>,
     kind: Kind,
@@ -175,10 +174,10 @@ pub(super) fn walls_across(
 /// Errors of the displacements within two cells of the walls at both ends of `axis`, over the
 /// displacement at a distance of one cell; positive away from the wall.
 ///
-/// With the initial velocity `v = a (X - X_wall)` along the normal a bar of linear elasticity
-/// stretches evenly until a wave arrives from its free end: every particle keeps its velocity. A
-/// method reproduces this if its functions represent a linear velocity up to the wall, which they
-/// do not if nodes beyond the wall are held at zero: the exact values are the odd continuation.
+/// With the initial velocity `v = a (X - X_wall)` along the normal, a bar of linear elasticity
+/// stretches uniformly until a wave arrives from its free end: every particle keeps its velocity. A
+/// method reproduces this if its functions represent a linear velocity up to the wall. They do not
+/// if nodes beyond the wall are fixed at zero: the exact values are the odd continuation.
 fn stretch_errors(
     patient: &Patient<'_>,
     kind: Kind,
@@ -196,7 +195,7 @@ fn stretch_errors(
             let error = (-end.sign() * u[axis] - strain * depth) / (strain * H);
             (depth <= 2.0 * H).then_some(error)
         });
-        // The larger one; NaN stays.
+        // The larger one; NaN propagates.
         errors.fold(0.0, |largest: f64, error| {
             if largest.is_nan() || error.abs() <= largest.abs() { largest } else { error }
         })
@@ -285,8 +284,8 @@ impl BarEnd {
         -slope / (c * scene.velocity.value[along])
     }
 
-    /// Force of the wall under gravity from rest: the part that acts at once, over `rho h g`, and
-    /// the part that grows, over `rho c g t`.
+    /// Force of the wall under gravity from rest: the immediate part, over `rho h g`, and the
+    /// growing part, over `rho c g t`.
     fn force_under_gravity(self, course: &Course, scene: &BoxScene, c: f64) -> [f64; 2] {
         let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
         let held: Vec<f64> = (0..=course.last())
@@ -296,7 +295,7 @@ impl BarEnd {
         [constant / (scene.h * GRAVITY), rate / (c * GRAVITY)]
     }
 
-    /// Mean normal stress (Pa) within two cells of the wall at the end, if the solver gives the
+    /// Mean normal stress (Pa) within two cells of the wall at the end, if the solver reports the
     /// column.
     fn stress_column(self, course: &Course, scene: &BoxScene) -> Option<f64> {
         let d = scene.dimension;

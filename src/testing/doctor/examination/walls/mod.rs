@@ -1,12 +1,12 @@
 //! Walls on every face: a body that is thrown against them, pulled from them, moves along them,
 //! and falls.
 //!
-//! A bar of modulus E without Poisson's effect that is held at one end and thrown with v stops
-//! there with the force `rho c v A`, c^2 = E/rho, until the wave has crossed it. Under the
-//! acceleration g from rest the force is `rho c g t A`. Both ends are held at once: one is pushed,
-//! the other one pulled. The momentum of one half shows the force of its wall as long as no wave
-//! arrives from the other. A bar that is stretched evenly from a wall shows whether linear fields
-//! are reproduced there.
+//! A bar of modulus E without Poisson's effect that is fixed at one end and has the initial
+//! velocity v stops there with the force `rho c v A`, c^2 = E/rho, until the wave has crossed it.
+//! Under the acceleration g from rest the force is `rho c g t A`. Both ends are fixed in one run:
+//! one is in compression, the other in tension. The momentum of one half shows the force of its
+//! wall as long as no wave arrives from the other wall. A bar that is stretched uniformly from a
+//! wall shows whether linear fields are reproduced there.
 //!
 //! ```text
 //! measure   the scenes, and the forces and motions at each wall

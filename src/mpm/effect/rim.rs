@@ -1,0 +1,137 @@
+//! A rim of a round body in the plane, cut into facets that carry a surface force.
+//!
+//! The particles at a rim form a staircase, so their shares of the surface are not those of a face
+//! of a box. The circle is cut into arcs about half a spacing long. The force on an arc acts on the
+//! nearest particle, with its moment: `f_i (x) x_i` of a particle and its arm sum to `f (x) x_s`
+//! wherever linear fields are reproduced. The vectors of area are exact, so that a uniform pressure
+//! has no resultant.
+
+use crate::mpm::foundation::algebra::{Vector, cofactor, dyad};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::kernel::contract::Kernel;
+use crate::subject::Entry;
+use std::f64::consts::TAU;
+
+/// A circular rim in the reference configuration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RimCircle {
+    /// Centre (m).
+    pub centre: [f64; 2],
+    /// Radius (m).
+    pub radius: f64,
+    /// Sign of the outward normal of the body along the radius.
+    pub outwards: f64,
+}
+
+/// An arc of a rim.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Facet<const D: usize> {
+    /// The particle nearest to the middle of the arc.
+    pub(super) particle: usize,
+    /// The middle of the arc in the reference configuration (m).
+    pub(super) label: Vector<D>,
+    /// The integral of the outward normal over the arc, in the reference configuration (m^(D-1)).
+    area: Vector<D>,
+}
+
+/// A column of facets has no numbers to show.
+impl<const D: usize> Entry for Facet<D> {}
+
+/// Arcs per particle spacing along the rim.
+const PER_SPACING: f64 = 2.0;
+
+/// Distance from the rim to the furthest particles that can carry a facet, in spacings: the rim of
+/// a staircase is at most half a diagonal away from a particle.
+const REACH: f64 = 2.0;
+
+/// The facets of `circle`, from the positive first axis on. A body with particles has particles near
+/// each of its rims.
+pub(super) fn facets<const D: usize>(
+    particles: &Particles<D>,
+    circle: &RimCircle,
+) -> Vec<Facet<D>> {
+    let RimCircle { centre, radius, outwards } = *circle;
+    let spacing = particles.spacing.iter().copied().fold(f64::INFINITY, f64::min);
+    let distance_from_rim = |x: &Vector<D>| {
+        let square: f64 = x.iter().zip(centre).map(|(x, c)| (x - c) * (x - c)).sum();
+        (square.sqrt() - radius).abs()
+    };
+    let near: Vec<usize> = (0..particles.x0.len())
+        .filter(|&p| distance_from_rim(&particles.x0[p]) <= REACH * spacing)
+        .collect();
+    let count = (TAU * radius * PER_SPACING / spacing).ceil();
+    let half = 0.5 * TAU / count;
+    let length = 2.0 * radius * libm::sin(half);
+    let facet = |k: usize| {
+        let angle = half * (2 * k + 1) as f64;
+        let radial = [libm::cos(angle), libm::sin(angle)];
+        let along = |origin: [f64; 2], by: f64| {
+            Vector::from_fn(|i, _| if i < 2 { origin[i] + by * radial[i] } else { 0.0 })
+        };
+        let label: Vector<D> = along(centre, radius);
+        let distance = |p: &usize| (particles.x0[*p] - label).norm_squared();
+        // The first of several at the same distance.
+        let nearest = near.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        Some(Facet { particle: nearest, label, area: along([0.0; 2], outwards * length) })
+    };
+    (0..count as usize).filter_map(facet).collect()
+}
+
+/// Puts a pressure (Pa, per current area) on every facet, a function of its place in the reference
+/// configuration. F at the rim is that of the particle, half a spacing away. Returns the
+/// particle-node pairs visited.
+pub(super) fn press<const D: usize>(
+    facets: &[Facet<D>],
+    particles: &Particles<D>,
+    kernel: &dyn Kernel<D>,
+    grid: &mut Grid<D>,
+    pressure: impl Fn(&Vector<D>) -> f64,
+) -> u64 {
+    let is_current = particles.current_position.is_empty();
+    for Facet { particle, label, area } in facets {
+        let (p, f) = (*particle, &particles.def_grad[*particle]);
+        let across = particles.across.get(p).copied().unwrap_or(1.0);
+        let force = cofactor(f) * area * (-pressure(label) * across);
+        kernel.p2g_point_force(particles, p, &force, grid);
+        let arm = label - particles.x0[p];
+        let arm = if is_current { f * arm } else { arm };
+        kernel.p2g_point_moment(particles, p, &dyad(&force, &arm), grid);
+    }
+    2 * facets.len() as u64 * kernel.support()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::Block;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// A circle in a square of particles: facets close, and each lies near its particle.
+    #[rstest]
+    #[case::outer(1.0)]
+    #[case::inner(-1.0)]
+    fn facets_have_no_resultant_and_the_length_of_the_rim(#[case] outwards: f64) {
+        let block =
+            Block { from: Vector::zeros(), to: Vector::<2>::from([4.0, 4.0]), density: 1.0 };
+        let particles = Particles::fill(&block, 0.5, 2);
+        let circle = RimCircle { centre: [2.0, 1.9], radius: 1.3, outwards };
+        let facets = facets(&particles, &circle);
+        let sum = facets.iter().fold(Vector::<2>::zeros(), |sum, facet| sum + facet.area);
+        assert!(sum.norm() <= 1e-14, "{sum}");
+        let length: f64 = facets.iter().map(|facet| facet.area.norm()).sum();
+        assert_relative_eq!(length, TAU * 1.3, max_relative = 1e-3);
+        // Twice the area of the polygon by the divergence theorem, negative around a hole.
+        let doubled: f64 = facets
+            .iter()
+            .map(|facet| facet.area.dot(&(facet.label - Vector::from([2.0, 1.9]))))
+            .sum();
+        assert_relative_eq!(doubled, outwards * 2.0 * 0.5 * TAU * 1.69, max_relative = 1e-3);
+        let half_diagonal = 0.125 * 2.0_f64.sqrt();
+        for facet in &facets {
+            let distance = (particles.x0[facet.particle] - facet.label).norm();
+            assert!(distance <= half_diagonal + 1e-12, "{facet:?}");
+        }
+    }
+}

@@ -1,0 +1,330 @@
+//! Averaged volume ratios, compared with loops over one particle at a time.
+//!
+//! A fluid of linear compressibility has `sigma = K (Jbar - 1) I`, so that its stress gives Jbar.
+
+use crate::common::interrupted::goes_on;
+use crate::common::{DT, H, body, free_body};
+use allocation_counter::measure;
+use mpm_verify::mpm::{
+    Advance, BasisName, Block, Boundary, Hencky, LinearFluid, LoopSettings, Material, Matrix,
+    NeoHookean, Particles, SchemeName, Setup, Solver, StressUpdate, TransferName, Vector,
+    VolumeName, det, kernel_with,
+};
+use mpm_verify::subject::{Column, Failure, Start, Subject};
+use rayon::ThreadPoolBuilder;
+use rstest::rstest;
+
+const BULK: f64 = 3.0;
+
+/// A free body with averaged volume ratios that strains by different amounts from place to place.
+fn averaged<const D: usize>(
+    basis: BasisName,
+    scheme: SchemeName,
+    material: Box<dyn Material<D>>,
+) -> Setup<D> {
+    let mut setup = free_body::<D>((basis, TransferName::Flip), scheme);
+    let particles = &mut setup.particles;
+    particles.sigma.fill(Matrix::zeros());
+    for (p, (x, v)) in particles.x.iter().zip(&mut particles.v).enumerate() {
+        *v = Vector::from_fn(|i, _| libm::sin(7.0 * x[i] + 3.0 * x[(i + 1) % D] + p as f64));
+    }
+    Setup { material, volume: VolumeName::Averaged, ..setup }
+}
+
+/// Jbar of each particle by sums over particles and nodes one by one, with the weights of `before`
+/// and the volumes of `after`.
+fn textbook<const D: usize>(
+    setup: &Setup<D>,
+    before: &Particles<D>,
+    after: &Particles<D>,
+) -> Vec<f64> {
+    let mut weighted = before.clone();
+    weighted.mass.clone_from(&after.vol0);
+    let j: Vec<f64> = after.vol.iter().zip(&after.vol0).map(|(vol, vol0)| vol / vol0).collect();
+    let (ones, flat) = (vec![1.0; j.len()], vec![Vector::zeros(); j.len()]);
+    let sum = |value: &[f64]| {
+        let mut column = vec![0.0; setup.grid.nodes()];
+        setup.kernel.p2g_scalar(&weighted, value, &flat, &setup.grid, &mut column);
+        column
+    };
+    let (sums, weights) = (sum(&j), sum(&ones));
+    let mean = |(sum, weight): (f64, &f64)| if *weight == 0.0 { 0.0 } else { sum / weight };
+    let nodal: Vec<f64> = sums.into_iter().zip(&weights).map(mean).collect();
+    let mut means = vec![0.0; j.len()];
+    setup.kernel.g2p_scalar(&setup.grid, &nodal, before, 1.0, &mut means);
+    means
+}
+
+fn is_average_of_the_textbook<const D: usize>(basis: BasisName, scheme: SchemeName) {
+    let parts = averaged::<D>(basis, scheme, Box::new(LinearFluid::new(BULK)));
+    let mut solver =
+        Solver::new(averaged::<D>(basis, scheme, Box::new(LinearFluid::new(BULK)))).unwrap();
+    let mut spread = 0.0_f64;
+    for step in 0..5 {
+        let before = solver.particles().clone();
+        solver.step(DT).unwrap();
+        let after = solver.particles();
+        let own = after.vol.iter().zip(&after.vol0).map(|(vol, vol0)| vol / vol0);
+        let least = own.clone().fold(f64::INFINITY, f64::min);
+        let most = own.clone().fold(0.0, f64::max);
+        let expected = textbook(&parts, &before, after);
+        for (p, (sigma, expected)) in after.sigma.iter().zip(expected).enumerate() {
+            let mean = 1.0 + sigma[(0, 0)] / BULK;
+            let what = format!("{D}-D {basis:?} {scheme:?}, step {step}, particle {p}");
+            assert!((mean - expected).abs() <= 1e-13, "{what}: {mean} for {expected}");
+            assert!(mean >= least - 1e-14 && mean <= most + 1e-14, "{what}: not between");
+            assert_eq!(sigma[(0, 0)], sigma[(1, 1)], "{what}");
+        }
+        spread = spread.max(most - least);
+    }
+    assert!(spread > 1e-3, "{basis:?}: the volume ratios differ, by {spread:.1e}");
+}
+
+#[rstest]
+fn a_law_sees_the_weighted_mean_of_the_volume_ratios(
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    for &basis in BasisName::ALL {
+        is_average_of_the_textbook::<2>(basis, scheme);
+        is_average_of_the_textbook::<3>(basis, scheme);
+    }
+}
+
+/// sigma of the law at `(Jbar/J)^(1/D) F`, with F and J of the particles.
+fn stress_at_average<const D: usize>(
+    law: &mut dyn Material<D>,
+    particles: &Particles<D>,
+    means: &[f64],
+) -> Vec<Matrix<D>> {
+    let mut copy = particles.clone();
+    for (f, mean) in copy.def_grad.iter_mut().zip(means) {
+        *f *= libm::pow(mean / det(f), 1.0 / D as f64);
+    }
+    law.update(&mut StressUpdate::new(0.0, &mut copy));
+    copy.sigma
+}
+
+fn is_law_of_average<const D: usize>(basis: BasisName, scheme: SchemeName) {
+    let law = || Box::new(NeoHookean::new(2.0, 0.45));
+    let parts = averaged::<D>(basis, scheme, law());
+    let mut solver = Solver::new(averaged::<D>(basis, scheme, law())).unwrap();
+    for step in 0..5 {
+        let before = solver.particles().clone();
+        solver.step(DT).unwrap();
+        let after = solver.particles();
+        let means = textbook(&parts, &before, after);
+        let expected = stress_at_average(law().as_mut(), after, &means);
+        for (p, (sigma, expected)) in after.sigma.iter().zip(expected).enumerate() {
+            let error = (sigma - expected).norm();
+            assert!(error <= 1e-12, "{D}-D {basis:?} {scheme:?}, step {step}, {p}: {error:.1e}");
+        }
+        for (f, (vol, vol0)) in after.def_grad.iter().zip(after.vol.iter().zip(&after.vol0)) {
+            assert!((det(f) - vol / vol0).abs() <= 1e-14, "F and V are the particle's own");
+        }
+    }
+}
+
+#[rstest]
+fn stress_is_that_of_f_with_the_averaged_volume_ratio(
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    for &basis in BasisName::ALL {
+        is_law_of_average::<2>(basis, scheme);
+        is_law_of_average::<3>(basis, scheme);
+    }
+}
+
+/// The internal force has the stress of the average and the particle's own volume: one USL step
+/// from a deformed start, whose accelerations follow from particles with that stress.
+#[test]
+fn a_deformed_start_and_its_force_have_averaged_stress_and_own_volumes() {
+    for &basis in BasisName::ALL {
+        let law = || Box::new(NeoHookean::new(2.0, 0.45));
+        let deformed = || {
+            let mut setup = averaged::<2>(basis, SchemeName::Usl, law());
+            setup.particles.v.fill(Vector::zeros());
+            let x0 = setup.particles.x0.clone();
+            setup.particles.deform(|p| {
+                let f = 0.1 * libm::cos(9.0 * x0[p][0] + 4.0 * x0[p][1] + 2.0 * p as f64);
+                (Vector::zeros(), Matrix::<2>::new(1.0 + f, 0.2, -0.1, 1.05 - 0.5 * f))
+            });
+            setup
+        };
+        let mut solver = Solver::new(deformed()).unwrap();
+        let start = solver.particles().clone();
+        let means = textbook(&deformed(), &start, &start);
+        let expected = stress_at_average(law().as_mut(), &start, &means);
+        for (sigma, expected) in start.sigma.iter().zip(&expected) {
+            assert!((sigma - expected).norm() <= 1e-12, "{basis:?}");
+        }
+        let mut parts = deformed();
+        (parts.particles, parts.particles.sigma) = (start.clone(), expected);
+        parts.kernel.p2g_internal_force(&parts.particles, &mut parts.grid);
+        solver.step(DT).unwrap();
+        for (found, expected) in solver.grid().force.iter().zip(&parts.grid.force) {
+            assert!((found - expected).norm() <= 1e-13, "{basis:?}");
+        }
+    }
+}
+
+/// A grid whose nodes all move as `rate (x - centre)`.
+struct Affine {
+    velocity: Vec<Vector<2>>,
+}
+
+impl Boundary<2> for Affine {
+    fn columns(&self) -> Vec<Column<'_>> {
+        Vec::new()
+    }
+
+    fn hold_velocity(&self, velocity: &mut [Vector<2>], _: f64) {
+        velocity.copy_from_slice(&self.velocity);
+    }
+
+    fn hold_acceleration(&self, acceleration: &mut [Vector<2>], _: &Advance) {
+        acceleration.fill(Vector::zeros());
+    }
+
+    fn clear(&self, field: &mut [Vector<2>]) {
+        field.fill(Vector::zeros());
+    }
+}
+
+/// Whole steps with a uniform velocity gradient: J grows alike everywhere, and so does its mean.
+#[rstest]
+fn an_affine_motion_is_that_of_the_plain_method(
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    let rate = Matrix::<2>::new(0.5, 0.3, -0.2, 0.4);
+    for &basis in BasisName::ALL {
+        let run = |volume: VolumeName| {
+            let material = Box::new(NeoHookean::new(1.0, 0.4999));
+            let setup = averaged::<2>(basis, scheme, material);
+            let place = |node: usize| {
+                Vector::from_fn(|axis, _| (setup.grid.index_on_axis(node, axis) as f64 - 3.5) * H)
+            };
+            let velocity = (0..setup.grid.nodes()).map(|node| rate * place(node)).collect();
+            let boundary: Vec<Box<dyn Boundary<2>>> = vec![Box::new(Affine { velocity })];
+            let mut solver = Solver::new(Setup { volume, boundary, ..setup }).unwrap();
+            (0..40).for_each(|_| solver.step(2.5e-3).unwrap());
+            solver
+        };
+        let (plain, average) = (run(VolumeName::Particle), run(VolumeName::Averaged));
+        let (plain, average) = (plain.particles(), average.particles());
+        let j = det(&average.def_grad[0]);
+        assert!((j - 1.0).abs() > 0.05, "{basis:?}: J = {j}");
+        for p in 0..plain.len() {
+            let moved = (plain.x[p] - average.x[p]).norm();
+            assert!(moved <= 1e-13, "{basis:?} {scheme:?} particle {p}: {moved:.1e}");
+            let stress = (plain.sigma[p] - average.sigma[p]).norm() / plain.sigma[p].norm();
+            assert!(stress <= 1e-13, "{basis:?} {scheme:?} particle {p}: stress {stress:.1e}");
+        }
+    }
+}
+
+/// A uniform F, anywhere in the grid: its mean is itself.
+#[test]
+fn a_uniform_volume_ratio_is_its_own_average() {
+    fn check<const D: usize>() {
+        for &basis in BasisName::ALL {
+            let start = |volume| {
+                let law = Box::new(Hencky::new(2.0, 0.45));
+                let mut setup = Setup { volume, ..averaged::<D>(basis, SchemeName::Musl, law) };
+                let f = Matrix::<D>::from_fn(|i, k| if i == k { 1.1 } else { 0.05 });
+                setup.particles.deform(|_| (Vector::zeros(), f));
+                Solver::new(setup).unwrap()
+            };
+            let [plain, average] = VolumeName::ALL else { unreachable!("two names") };
+            let (plain, average) = (start(*plain), start(*average));
+            for (plain, average) in plain.particles().sigma.iter().zip(&average.particles().sigma) {
+                let error = (plain - average).norm();
+                assert!(error <= 1e-13, "{D}-D {basis:?}: {error:.1e}");
+            }
+        }
+    }
+    check::<2>();
+    check::<3>();
+}
+
+#[rstest]
+fn a_free_body_keeps_its_momentum(
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    let momentum = |particles: &Particles<2>| -> Vector<2> {
+        particles.v.iter().zip(&particles.mass).map(|(v, m)| v * *m).sum()
+    };
+    for &basis in BasisName::ALL {
+        let law = Box::new(NeoHookean::new(2.0, 0.49));
+        let mut solver = Solver::new(averaged::<2>(basis, scheme, law)).unwrap();
+        let (before, start) = (momentum(solver.particles()), solver.particles());
+        let size: f64 = start.v.iter().zip(&start.mass).map(|(v, m)| v.norm() * m).sum();
+        for step in 0..40 {
+            solver.step(DT).unwrap();
+            let drift = (momentum(solver.particles()) - before).norm() / size;
+            assert!(drift <= 1e-14, "{basis:?}, step {step}: {drift:.1e}");
+        }
+        assert!(solver.totals().unwrap().strain_energy.is_none(), "no energy belongs to the force");
+    }
+}
+
+/// Loops cut into blocks, on one thread and on several.
+#[test]
+fn threads_that_share_an_average_give_the_bits_of_one() {
+    let run = |threads| {
+        let mut setup =
+            averaged::<2>(BasisName::Linear, SchemeName::Musl, Box::new(NeoHookean::new(2.0, 0.4)));
+        let settings = LoopSettings { min_particles: 16, min_block: 8, ..LoopSettings::default() };
+        setup.kernel = kernel_with(BasisName::Linear, settings);
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut solver = Solver::new(setup).unwrap();
+            (0..10).for_each(|_| solver.step(DT).unwrap());
+            let stresses = solver.particles().sigma.iter().flatten();
+            stresses.map(|number| number.to_bits()).collect::<Vec<_>>()
+        })
+    };
+    let one = run(1);
+    for threads in [2, 3] {
+        assert!(run(threads) == one, "{threads} threads differ from one");
+    }
+}
+
+#[rstest]
+fn an_interrupted_run_gives_the_bits_of_a_whole_one(
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+    #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
+) {
+    for &basis in BasisName::ALL {
+        let solver = || {
+            let law = Box::new(NeoHookean::new(2.0, 0.4));
+            Solver::new(Setup { start, ..averaged::<2>(basis, scheme, law) }).unwrap()
+        };
+        assert!(goes_on(solver, DT, &format!("{basis:?} {scheme:?} {start:?}")));
+        let fluid = || {
+            let law = Box::new(LinearFluid::new(BULK));
+            Solver::new(Setup { start, ..averaged::<3>(basis, scheme, law) }).unwrap()
+        };
+        assert!(goes_on(fluid, DT, &format!("fluid, {basis:?} {scheme:?} {start:?}")));
+    }
+}
+
+#[test]
+fn no_step_after_the_first_allocates() {
+    for &basis in BasisName::ALL {
+        let law = Box::new(NeoHookean::new(2.0, 0.4));
+        let mut solver = Solver::new(averaged::<2>(basis, SchemeName::Musl, law)).unwrap();
+        solver.step(DT).unwrap();
+        let steps = measure(|| (0..20).for_each(|_| solver.step(DT).unwrap()));
+        assert_eq!(steps.count_total, 0, "{basis:?}");
+    }
+}
+
+#[test]
+fn a_bar_is_refused() {
+    let (from, to) = (Vector::<1>::new(1.0), Vector::<1>::new(2.0));
+    let bar = Particles::fill(&Block { from, to, density: 1.0 }, 0.5, 2);
+    let setup = body((BasisName::Linear, TransferName::Flip), SchemeName::Usl, bar, (0.5, 6));
+    let material = Box::new(NeoHookean::new(1.0, 0.3));
+    let setup = Setup { material, volume: VolumeName::Averaged, ..setup };
+    assert!(matches!(Solver::new(setup), Err(Failure::Solve(_))));
+}
