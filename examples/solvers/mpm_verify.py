@@ -14,7 +14,7 @@ import os
 import sys
 import traceback
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +40,8 @@ class Solver(Protocol):
     version: str
     capabilities: Message  # abilities that are not named are lacking
     # Optional: `formal_order`, the order in h of the displacements if it is not 2;
-    # `precision`, `"single"` for a solver that computes in single precision.
+    # `precision`, `"single"` for a solver that computes in single precision;
+    # `differentiate(of, with_respect_to, steps, dt)` for the capability `gradients`.
 
     def setup(self, problem: Problem) -> Message | None:
         """Takes the initial state. Returns the `points` at which states will be given, with their
@@ -53,6 +54,16 @@ class Solver(Protocol):
         """The present state: arrays `displacement` (m) and `velocity` (m/s); optional arrays
         `stress` (Pa), `deformation_gradient` and `temperature`; optional numbers `crossings`,
         `left_domain` and `min_j`."""
+
+
+class Differentiable(Protocol):
+    """A solver with the capability `gradients`, a list of names of parameters."""
+
+    def differentiate(self, of: Message, with_respect_to: list[str], steps: int, dt: float
+                      ) -> tuple[float, list[float]]:
+        """The functional `of` after `steps` steps of length `dt` (s) from t = 0, and its
+        derivatives with respect to the parameters, in their order. Called after `setup`, in place
+        of `advance`. Raises `Cannot` if the solver does not have this derivative."""
 
 
 @dataclass
@@ -276,6 +287,11 @@ class Session:
             columns = {k: np.asarray(v, float) for k, v in state.items() if k not in COUNTERS}
             counters = {k: v for k, v in state.items() if k in COUNTERS}
             return {"type": "state", "columns": columns, **counters}
+        if request["type"] == "differentiate":
+            value, gradient = cast(Differentiable, solver).differentiate(
+                request["of"], request["with_respect_to"], request["steps"], request["dt"])
+            return {"type": "gradient", "value": float(value),
+                    "gradient": [float(entry) for entry in gradient]}
         raise ValueError(f"the request {request['type']} is not part of protocol {PROTOCOL}")
 
 

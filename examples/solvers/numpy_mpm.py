@@ -1,6 +1,7 @@
 """An explicit MPM in one to three dimensions, in NumPy, as a solver under test.
 
     mpm-verify run SUITE --solver 'python3 examples/solvers/numpy_mpm.py --scheme usl'
+    mpm-verify run gradient-bar --solver 'python3 examples/solvers/numpy_mpm.py --gradient'
 
 Sulsky, Chen & Schreyer (1994) with a lumped mass matrix; B-splines at walls as in Steffen, Kirby &
 Berzins (2008).
@@ -10,13 +11,79 @@ from __future__ import annotations
 
 import argparse
 import itertools
-from typing import Any
+import math
+from typing import Any, Callable
 
 import numpy as np
 
-from mpm_verify import Array, Message, Problem, serve
+from mpm_verify import Array, Cannot, Message, Problem, serve
 
 DEGREES = {"linear": 1, "quadratic_bspline": 2, "cubic_bspline": 3}
+
+
+class Dual(np.lib.mixins.NDArrayOperatorsMixin):
+    """An array with its derivatives, an array for each parameter: forward differentiation.
+
+    Branches, such as the cell of a particle, depend on the value only."""
+
+    def __init__(self, value: Any, slopes: list[Any]) -> None:
+        self.value = np.asarray(value)
+        self.slopes = [np.broadcast_to(slope, self.value.shape) for slope in slopes]
+
+    def __array_ufunc__(self, ufunc: Any, _: str, *inputs: Any, **options: Any) -> Any:
+        a, *rest = part(inputs)
+        b = rest[0] if rest else None
+        if "where" in options:  # a division where a condition holds; the result is zero elsewhere
+            b = np.where(options["where"], b, np.inf)
+        value = ufunc(a, b) if rest else ufunc(a)
+        slope: Callable[..., Any] | None = {
+            np.add: lambda da, db: da + db, np.subtract: lambda da, db: da - db,
+            np.multiply: lambda da, db: da * b + a * db,
+            np.matmul: lambda da, db: (0 * a + da) @ b + a @ (0 * b + db),
+            np.divide: lambda da, db: (da - a / b * db) / b, np.negative: lambda da: -da,
+            np.log: lambda da: da / a}.get(ufunc)
+        if slope is None:  # comparisons and roundings
+            return value
+        return Dual(value, [slope(*(x.slopes[k] if isinstance(x, Dual) else 0.0 for x in inputs))
+                            for k in range(len(self.slopes))])
+
+    def __array_function__(self, function: Any, _: Any, inputs: Any, options: Any) -> Any:
+        count, values = range(len(self.slopes)), part(inputs)
+        if function is np.einsum:  # linear in each operand
+            def slope(k: int) -> Any:
+                return sum(np.einsum(*values[:i], x.slopes[k], *values[i + 1:])
+                           for i, x in enumerate(inputs) if isinstance(x, Dual))
+            return Dual(np.einsum(*values), [slope(k) for k in count])
+        if function is np.linalg.det:
+            value, inverse = np.linalg.det(self.value), np.linalg.inv(self.value)
+            return Dual(value, [value * np.trace(inverse @ d, axis1=1, axis2=2)
+                                for d in self.slopes])
+        if function is np.linalg.eigh:  # of matrices of one number
+            return self[..., 0], np.ones_like(self.value)
+        if function in (np.linalg.svd, np.ones_like, np.zeros_like):  # no derivatives in 1-D
+            return function(*values, **options)
+        # Functions that are linear in all duals: stack, trace, diff, bincount.
+        return Dual(function(*values, **options),
+                    [function(*part(inputs, k), **options) for k in count])
+
+    def __getitem__(self, index: Any) -> Dual:
+        return Dual(self.value[index], [slope[index] for slope in self.slopes])
+
+    def __getattr__(self, name: str) -> Any:
+        if name in ("astype", "min", "shape"):
+            return getattr(self.value, name)
+        return lambda *inputs, **options: Dual(
+            getattr(self.value, name)(*inputs, **options),
+            [getattr(slope, name)(*inputs, **options) for slope in self.slopes])
+
+
+def part(x: Any, k: int | None = None) -> Any:
+    """`x`, and all that a sequence holds, with the values of duals, or with their slopes `k`."""
+    if isinstance(x, (list, tuple)):
+        return type(x)(part(inner, k) for inner in x)
+    if isinstance(x, Dual):
+        return x.value if k is None else x.slopes[k]
+    return x
 
 
 def bsplines(degree: int, s: Array, cell: Array, cells: int, periodic: bool) -> tuple[Array, Array]:
@@ -36,7 +103,7 @@ def bsplines(degree: int, s: Array, cell: Array, cells: int, periodic: bool) -> 
         value.append(saved)
     spans = [knots[degree + r] - knots[r] for r in range(degree)]
     terms = [degree * low / span for low, span in zip(lower, spans)]
-    return np.array(value), -np.diff(terms, axis=0, prepend=0, append=0)
+    return np.stack(value), -np.diff(np.stack(terms), axis=0, prepend=0, append=0)
 
 
 class Mpm:
@@ -56,15 +123,17 @@ class Mpm:
         "initial_stress": True,
     }
 
-    def __init__(self, basis: str, scheme: str, flip: float, start: str) -> None:
+    def __init__(self, basis: str, scheme: str, flip: float, start: str,
+                 gradient: bool = False) -> None:
         self.degree, self.scheme, self.flip, self.start = DEGREES[basis], scheme, flip, start
+        if gradient:
+            parameters = ["young", "poisson", "density", "initial_velocity"]
+            self.capabilities = {**self.capabilities, "gradients": parameters}
 
     def setup(self, problem: Problem) -> None:
         self.problem, self.d = problem, problem.dimension
         law, parameters = problem.materials[0]["law"], problem.materials[0]["parameters"]
-        young, poisson = parameters["young"], parameters["poisson"]
-        self.lam = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
-        self.mu = young / (2 * (1 + poisson))
+        self.set_moduli(parameters["young"], parameters["poisson"])
         self.update_stress = {"linear_elastic": self.rate, "neo_hookean": self.neo_hookean,
                               "hencky": self.hencky, "corotated": self.corotated}[law]
         self.x, self.v = problem.position.copy(), problem.velocity.copy()
@@ -102,6 +171,10 @@ class Mpm:
             elif load["load"] == "damping":
                 self.damping.append(index)
         self.locate()
+
+    def set_moduli(self, young: Any, poisson: Any) -> None:
+        self.lam = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
+        self.mu = young / (2 * (1 + poisson))
 
     def node_places(self) -> Array:
         """Places of the nodes (m): with B-splines, the means of the knots of each function."""
@@ -150,17 +223,18 @@ class Mpm:
             nodes.append(np.ravel_multi_index(at, self.counts))
             value = [n[r] for (_, n, _), r in zip(axes, offsets)]
             slope = [dn[r] / self.problem.h for (_, _, dn), r in zip(axes, offsets)]
-            values.append(np.prod(value, axis=0))
-            gradients.append([np.prod([*value[:a], slope[a], *value[a + 1:]], axis=0)
-                              for a in range(self.d)])
-        self.nodes, self.n = np.array(nodes).T.copy(), np.array(values).T.copy()
-        self.dn = np.array(gradients).transpose(2, 0, 1).copy()
+            values.append(math.prod(value))
+            gradients.append(np.stack([math.prod([*value[:a], slope[a], *value[a + 1:]])
+                                       for a in range(self.d)]))
+        self.nodes, self.n = np.array(nodes).T.copy(), np.stack(values).transpose(1, 0).copy()
+        self.dn = np.stack(gradients).transpose(2, 0, 1).copy()
         self.mass = self.add(self.n * self.m[:, None])
 
     def add(self, terms: Array) -> Array:
         """Sums at the nodes of terms (n, k)."""
         size = len(self.free)
-        return np.asarray(np.bincount(self.nodes.ravel(), terms.ravel(), size), float)
+        sums: Array = np.bincount(self.nodes.ravel(), terms.ravel(), size)
+        return sums
 
     def per_mass(self, terms: Array) -> Array:
         """Sums at the nodes of terms (n, k, d), divided by the nodal mass; zero where held."""
@@ -170,7 +244,8 @@ class Mpm:
 
     def gather(self, field: Array) -> Array:
         """A nodal field at the particles."""
-        return np.asarray(np.einsum("pk,pkd->pd", self.n, field[self.nodes]))
+        values: Array = np.einsum("pk,pkd->pd", self.n, field[self.nodes])
+        return values
 
     def velocity(self) -> Array:
         """Velocities of the nodes (m/s), from those of the particles."""
@@ -280,6 +355,46 @@ class Mpm:
         initial = self.f @ self.problem.reference_stress @ self.f.transpose(0, 2, 1)
         self.sigma = (tau + initial) / j[:, None, None]
 
+    def differentiate(self, of: Message, with_respect_to: list[str], steps: int, dt: float
+                      ) -> tuple[float, list[float]]:
+        """The functional `of` and its derivatives: all steps on duals."""
+        if self.d > 1:
+            raise Cannot("gradients in one dimension only")
+        if of["functional"] == "position_of" and of["particle"] >= len(self.x):
+            raise Cannot(f"there is no particle {of['particle']}")
+        self.seed(with_respect_to)
+        self.advance(steps, dt, 0.0)
+        value = self.functional(of)
+        return value.value, value.slopes
+
+    def seed(self, names: list[str]) -> None:
+        """Gives the parameters with these names the derivative 1 with respect to themselves."""
+        def dual(value: Any, name: str, slope: Any) -> Any:
+            return Dual(value, [slope if name == one else 0.0 for one in names])
+
+        material = self.problem.materials[0]
+        young, poisson = material["parameters"]["young"], material["parameters"]["poisson"]
+        self.set_moduli(dual(young, "young", 1.0), dual(poisson, "poisson", 1.0))
+        self.m = dual(self.m, "density", self.m / material["density"])
+        self.v = dual(self.v, "initial_velocity", self.v)
+        zeros = dual(np.zeros_like(self.x), "", 0.0)
+        self.x, self.f = self.x + zeros, self.f + zeros[:, None]
+        self.sigma, self.vol = self.sigma + zeros[:, None], self.vol + zeros[:, 0]
+        self.locate()
+
+    def functional(self, of: Message) -> Any:
+        """A functional of the present state."""
+        u, name = self.x - self.problem.reference_position, of["functional"]
+        if name == "mean_displacement":
+            return (self.m * u[:, of["axis"]]).sum() / self.m.sum()
+        if name == "mean_square_displacement":
+            return (self.m * (u * u).sum(axis=1)).sum() / self.m.sum()
+        if name == "kinetic_energy":
+            return 0.5 * (self.m * (self.v * self.v).sum(axis=1)).sum()
+        if name == "position_of":
+            return self.x[of["particle"], of["axis"]]
+        raise Cannot(f"no gradient of {name}")
+
     def state(self) -> Message:
         return {"displacement": self.x - self.problem.reference_position, "velocity": self.v,
                 "stress": self.sigma, "deformation_gradient": self.f,
@@ -293,4 +408,5 @@ if __name__ == "__main__":
     parser.add_argument("--flip", type=float, default=1.0, help="share of FLIP; the rest is PIC")
     parser.add_argument("--start", choices=["at_zero", "half_step_back"], default="at_zero",
                         help="time of the first velocity; the latter takes it to -dt/2")
+    parser.add_argument("--gradient", action="store_true", help="derivatives, in 1-D")
     serve(Mpm(**vars(parser.parse_args())))

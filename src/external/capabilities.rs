@@ -20,6 +20,8 @@ pub struct Capabilities {
     pub loads: Vec<String>,
     /// Columns of its state in addition to displacement and velocity.
     pub columns: Vec<String>,
+    /// Parameters with respect to which functionals of the final state are differentiated.
+    pub gradients: Vec<String>,
     /// Whether it accepts a body force that is given by values only, not by a formula.
     pub manufactured: bool,
     /// Whether particles may start displaced, with F and stress.
@@ -57,6 +59,8 @@ pub struct ProblemNeeds {
     pub loads: Vec<&'static str>,
     /// The judged column, if it is an optional one.
     pub column: Option<&'static str>,
+    /// Parameters with respect to which the study needs gradients.
+    pub gradients: Vec<&'static str>,
     /// Whether the body force is manufactured.
     pub manufactured: bool,
     /// Whether the body starts deformed.
@@ -105,6 +109,7 @@ impl Capabilities {
             ("conditions", &self.conditions, &needs.conditions),
             ("loads", &self.loads, &needs.loads),
             ("columns", &self.columns, &column),
+            ("gradients", &self.gradients, &needs.gradients),
         ] {
             let missing = wanted.iter().filter(|name| !has.iter().any(|known| known == *name));
             lacking.extend(missing.map(|name| match misspelt(capability, name, has) {
@@ -154,6 +159,7 @@ impl Capabilities {
             ("conditions", &self.conditions),
             ("loads", &self.loads),
             ("columns", &self.columns),
+            ("gradients", &self.gradients),
         ] {
             let known = known(capability);
             for name in stated.iter().filter(|name| !known.contains(&name.as_str())) {
@@ -233,6 +239,10 @@ const CONDITIONS: &[&str] = &["free", "fixed", "roller", "periodic", "friction",
 /// Names of the optional columns of a state.
 const COLUMNS: &[&str] = &["stress", "deformation_gradient", "temperature"];
 
+/// Parameters with respect to which there are gradients.
+const GRADIENTS: &[&str] =
+    &["young", "poisson", "density", "yield", "hardening", "friction", "initial_velocity"];
+
 /// Keys of the capabilities.
 #[cfg(feature = "external-programs")]
 const KEYS: &[&str] = &[
@@ -241,6 +251,7 @@ const KEYS: &[&str] = &[
     "conditions",
     "loads",
     "columns",
+    "gradients",
     "manufactured",
     "initial_deformation",
     "several_bodies",
@@ -259,6 +270,7 @@ fn known(capability: &str) -> &'static [&'static str] {
         "laws" => LAWS,
         "conditions" => CONDITIONS,
         "loads" => LOADS,
+        "gradients" => GRADIENTS,
         _ => COLUMNS,
     }
 }
@@ -291,6 +303,7 @@ mod tests {
             conditions: vec!["free", "roller"],
             loads: vec!["gravity"],
             column: Some("stress"),
+            gradients: vec!["young"],
             manufactured: true,
             initial_deformation: true,
             several_bodies: true,
@@ -309,6 +322,7 @@ mod tests {
             "conditions: roller",
             "loads: gravity",
             "columns: stress",
+            "gradients: young",
             "manufactured",
             "initial_deformation",
             "several_bodies",
@@ -324,6 +338,7 @@ mod tests {
         let conditions = ["free", "fixed", "roller"];
         let able = Capabilities {
             columns: vec!["stress".to_owned()],
+            gradients: vec!["young".to_owned()],
             manufactured: true,
             initial_deformation: true,
             several_bodies: true,
@@ -335,7 +350,13 @@ mod tests {
             loaded_rims: true,
             ..Capabilities::of(&[1, 2], &["neo_hookean"], &conditions, &["gravity"])
         };
-        assert_eq!(able.lacking(&needs), all[15..]);
+        assert_eq!(able.lacking(&needs), all[16..]);
+    }
+
+    #[test]
+    fn known_gradients_are_the_parameters() {
+        let names = crate::subject::GradientParameter::ALL.iter().map(|parameter| parameter.name());
+        assert!(names.eq(GRADIENTS.iter().copied()));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Makers of solvers.
 
 use super::capabilities::ProblemNeeds;
+use super::gradient::{Gradient, GradientError, GradientRequest};
 use super::problem::LevelProblem;
 use crate::subject::{Precision, Subject};
 
@@ -43,4 +44,18 @@ pub trait SolverFactory: Sync {
     /// One line with the reason why the solver refuses the problem; the case is then not
     /// applicable. A solver with an error returns a subject whose first step fails.
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String>;
+
+    /// The value of a functional after all steps of `problem`, and its gradient. The default is
+    /// that of a solver that is not differentiable.
+    ///
+    /// # Errors
+    /// [`GradientError::Cannot`] if the solver has no such gradient, [`GradientError::Failed`] if
+    /// it breaks.
+    fn gradient(
+        &self,
+        _problem: LevelProblem,
+        _request: &GradientRequest,
+    ) -> Result<Gradient, GradientError> {
+        Err(GradientError::Cannot("has no gradients".to_owned()))
+    }
 }

@@ -5,6 +5,7 @@
 //! fields         quantities of a problem at any place and time
 //! capabilities   what a solver can do, what a problem needs, and the names of both
 //! factory        makes a subject of each problem: of a library's user, or
+//! gradient       derivatives of functionals, and problems with another value of a parameter
 //! format         a problem as a file
 //! program/       of a command that speaks the protocol (docs/protocol.md)
 //! ```
@@ -14,6 +15,7 @@ mod factory;
 mod fields;
 #[cfg(feature = "external-programs")]
 mod format;
+mod gradient;
 mod problem;
 #[cfg(feature = "external-programs")]
 mod program;
@@ -27,6 +29,7 @@ pub use fields::{
 pub(crate) use fields::{FieldSource, ForceSource, owned};
 #[cfg(feature = "external-programs")]
 pub use format::ProblemFormat;
+pub use gradient::{Gradient, GradientError, GradientRequest};
 pub use problem::{
     LevelProblem, ProblemBody, ProblemContact, ProblemFace, ProblemGrid, ProblemLoad,
     ProblemMaterial, ProblemParticles, ProblemRegion,

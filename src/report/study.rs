@@ -1,21 +1,21 @@
 //! Tables, remarks, JSON and figures of each kind of study.
 
 use crate::report::columns::stability::json_columns;
-use crate::report::columns::{force, json_object, level};
+use crate::report::columns::{force, gradient, json_object, level};
 use crate::report::columns::{interval, number};
 use crate::report::figure::drawing::Figure;
 use crate::report::figure::{study, sweep};
 use crate::report::text::table::Table;
 use crate::report::text::{levels, stability};
 use crate::verify::{
-    Axis, CaseOutcome, Convergence, Floor, FloorCause, InternalForce, LevelOutcome, Probe,
-    StabilityStudy, StudyResults, SuiteOutcome,
+    Axis, CaseOutcome, Convergence, Floor, FloorCause, GradientStudy, InternalForce, LevelOutcome,
+    Probe, StabilityStudy, StudyResults, SuiteOutcome,
 };
 use serde_json::{Map, Value, json};
 
 /// Every kind of study.
-pub(crate) const KINDS: [&dyn StudyReport; 3] =
-    [&ConvergenceReport, &InternalForceReport, &StabilityReport];
+pub(crate) const KINDS: [&dyn StudyReport; 4] =
+    [&ConvergenceReport, &InternalForceReport, &StabilityReport, &GradientReport];
 
 /// Report of one kind of study; cases of other kinds add nothing.
 pub(crate) trait StudyReport: Sync {
@@ -174,5 +174,46 @@ fn stability_json(study: &StabilityStudy) -> Value {
         "swept": study.swept,
         "sought": study.sought,
         "rows": study.rows.iter().map(|row| json_object(&columns, row)).collect::<Vec<_>>(),
+    })
+}
+
+/// Shows [`GradientStudy`].
+pub(crate) struct GradientReport;
+
+impl StudyReport for GradientReport {
+    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+        for (name, study) in studies::<GradientStudy>(cases) {
+            lines.extend([String::new(), format!("  {name}")]);
+            lines.extend(Table::new(&gradient::levels(), gradient::level_rows(study)).lines());
+            lines.push(String::new());
+            lines.extend(Table::new(&gradient::taylor(), gradient::taylor_rows(study)).lines());
+        }
+    }
+
+    fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
+        members(json!({"gradient": case.results().map(gradient_json)}))
+    }
+
+    fn figures(&self, _: &SuiteOutcome) -> Vec<Figure> {
+        Vec::new()
+    }
+}
+
+/// All checks of one derivative in JSON.
+fn gradient_json(study: &GradientStudy) -> Value {
+    let (levels, taylor, points) = (gradient::levels(), gradient::taylor(), gradient::points());
+    let level = |row: &gradient::GradientLevelRow| json_object(&levels, row);
+    let perturbed = |row: &gradient::TaylorRow| json_object(&taylor, row);
+    json!({
+        "functional": study.functional,
+        "parameter": study.parameter,
+        "state": study.state().0.name(),
+        "value": number(study.value.computed),
+        "reported_value": number(study.value.reported),
+        "order": number(study.order()),
+        "levels": gradient::level_rows(study).iter().map(level).collect::<Vec<_>>(),
+        "taylor": gradient::taylor_rows(study).iter().map(perturbed).collect::<Vec<_>>(),
+        "sweep": gradient::sweep(study),
+        "points": study.points.iter().map(|row| json_object(&points, row)).collect::<Vec<_>>(),
     })
 }

@@ -6,6 +6,7 @@ use super::describe::statement::{Rows, head};
 use crate::exact::Truth;
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::subject::{Profile, Subject};
+use crate::suite::model::gradient::GradientPlan;
 use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::stability::StabilityPlan;
 use crate::suite::model::study_plan::StudyPlan;
@@ -143,7 +144,8 @@ impl RunContext<'_> {
 type AsStudy = for<'a> fn(&'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study>;
 
 /// Every kind of study.
-const KINDS: [AsStudy; 3] = [of::<ConvergencePlan>, of::<ForcePlan>, of::<StabilityPlan>];
+const KINDS: [AsStudy; 4] =
+    [of::<ConvergencePlan>, of::<ForcePlan>, of::<StabilityPlan>, of::<GradientPlan>];
 
 fn of<'a, P: Study>(plan: &'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study> {
     let plan: &dyn Any = plan;

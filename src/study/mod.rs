@@ -4,6 +4,7 @@
 //! setup            model -> Subject: names become types
 //! convergence      errors over a refinement plan, judged
 //! internal_force   the internal force on a node while a particle crosses it
+//! gradient         derivatives that a differentiable solver reports
 //! stability        runs watched for growth, limits by bisection
 //! cost             seconds of every level, and what they buy
 //! cache            results of finished levels kept on disk
@@ -22,6 +23,7 @@ pub mod cost;
 pub mod describe;
 pub(crate) mod diagnosis;
 pub(crate) mod exact_motion;
+pub(crate) mod gradient;
 pub(crate) mod handover;
 pub(crate) mod internal_force;
 pub(crate) mod kind;

@@ -9,10 +9,12 @@
 
 mod checkpoint;
 mod column;
+mod functional;
 
 use crate::named::named;
 pub use checkpoint::{Checkpoint, Memory};
 pub use column::{BodyFields, Column, ColumnSize, Entry, Holder, Profile, StateField};
+pub use functional::{Functional, FunctionalValue, GradientParameter};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 

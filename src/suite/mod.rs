@@ -23,6 +23,7 @@ pub mod yaml;
 #[cfg(feature = "schemas")]
 pub use compile::schema::suite_schema;
 pub use grammar::{CrossingLevels, EquationName, NormName, WarningName};
+pub use model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan};
 pub use model::method::{AnyMethod, ExternalMethod, GateTerms, Method};
 pub use model::refine_plan::{Extent, LevelPlan, RefinePlan};
 pub use model::stability::{StabilityCase, StabilityPlan};

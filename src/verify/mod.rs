@@ -15,6 +15,7 @@
 //! | [`richardson`](Richardson) | order and limit from three values |
 //! | [`cost`](Ranking) | cost of accuracy, in transfers or seconds |
 //! | [`stability`](StabilityStudy) | growth in runs, amplification matrix, limits by bisection |
+//! | [`gradient`](GradientStudy) | derivatives that a solver reports |
 //! | [`expectation`](Expectation), [`limits`](Limits) | expectations of suites |
 //! | [`figure`](CaseFigure) | registry of the figures that suites bound |
 //!
@@ -31,6 +32,7 @@ pub(crate) mod error;
 mod exclusion;
 mod expectation;
 mod figure;
+mod gradient;
 mod judge_plan;
 pub(crate) mod order;
 mod outcome;
@@ -66,6 +68,10 @@ pub use expectation::proposal::{Ground, Proposal, ProposedKey, propose};
 pub use expectation::{Bounds, CaseFindings, Expectation};
 pub(crate) use figure::each_case_figure;
 pub use figure::{BoundKind, CaseFigure, FigureNeed, RunFigure};
+pub use gradient::{
+    FIRST_LEVEL, GradientLevel, GradientState, GradientStudy, GradientTerms, LAST_LEVEL, Perturbed,
+    Sweep, SweepPoint, Taylor, ValueCheck,
+};
 pub use judge_plan::{JudgePlan, LevelSizes};
 pub use order::fit::Interval;
 pub(crate) use order::format_number::{format_number, rounded};

@@ -714,13 +714,13 @@ GRID = [
     Fault("gradient-of-one-axis",
           "Uses the slope along an axis as gradient, without the functions of the other axes.",
           "gradients lack the weights of the other axes",
-          f"{LINEAR} {MUSL}", {"np.prod([*value[:a], slope[a], *value[a + 1:]], axis=0)": "slope[a]"}),
+          f"{LINEAR} {MUSL}", {"math.prod([*value[:a], slope[a], *value[a + 1:]])": "slope[a]"}),
     Fault("gradient-third-axis-copied",
           "Copies the line of the second axis for the third and forgets to change the index.",
           "gradients along z are those along y",
           f"{LINEAR} {MUSL}",
-          {"self.dn = np.array(gradients).transpose(2, 0, 1).copy()":
-           "self.dn = np.array(gradients).transpose(2, 0, 1).copy(); self.dn[..., 2:] = self.dn[..., 1:self.d - 1]"}),
+          {"self.dn = np.stack(gradients).transpose(2, 0, 1).copy()":
+           "self.dn = np.stack(gradients).transpose(2, 0, 1).copy(); self.dn[..., 2:] = self.dn[..., 1:self.d - 1]"}),
     Fault("gradient-half-cell-off",
           "Evaluates gradients at the cell centre and functions at the particle.",
           "gradients are evaluated at another place than the functions",
@@ -737,8 +737,8 @@ GRID = [
           "Neglects weights below 0.03 to save time.",
           "weights do not sum to one",
           [f"{CUBIC} {MUSL}", f"{QUADRATIC} {USL}"],
-          {"self.nodes, self.n = np.array(nodes).T.copy(), np.array(values).T.copy()":
-           "self.nodes, self.n = np.array(nodes).T.copy(), np.array(values).T.copy(); self.n[self.n < 0.03] = 0"}),
+          {"self.nodes, self.n = np.array(nodes).T.copy(), np.stack(values).transpose(1, 0).copy()":
+           "self.nodes, self.n = np.array(nodes).T.copy(), np.stack(values).transpose(1, 0).copy(); self.n[self.n < 0.03] = 0"}),
     Fault("weights-of-rounded-cell",
           "Finds cells by rounding to the nearest integer, which is right for quadratic splines at nodes only.",
           "particles use the functions of a neighbouring cell",
@@ -746,8 +746,8 @@ GRID = [
     Fault("weights-typo",
           "Has a typing error in a coefficient of the middle function: 0.74 instead of 0.75.",
           "weights do not sum to one",
-          f"{QUADRATIC} {USL}", {"return np.array(value), -np.diff":
-                                 "return np.array(value) * (1 - 0.0133 * (np.arange(degree + 1) == degree // 2))[:, None], -np.diff"}),
+          f"{QUADRATIC} {USL}", {"return np.stack(value), -np.diff":
+                                 "return np.stack(value) * (1 - 0.0133 * (np.arange(degree + 1) == degree // 2))[:, None], -np.diff"}),
     Fault("cells-found-once-per-message",
           "Updates the cells of particles at the start of each message only.",
           "particles that cross a cell face keep their old cell",
@@ -1278,4 +1278,61 @@ VARIATIONS = {variation.name: variation for variation in [
                   super().rate(step)
                   self.sigma += turned
           """, source="a reader of the guide"),
+]}
+
+# Mistakes in derivatives: the states are sound, and so are all suites without gradients.
+GRADIENT_FAULTS = {fault.name: fault for fault in [
+    Fault("gradient-stress-detached",
+          "Detaches the stress from the derivatives before it enters the force.",
+          "derivatives do not pass through the stress",
+          "--gradient",
+          patch="""
+              def acceleration(self, time, dt):
+                  sigma, self.sigma = self.sigma, part(self.sigma)
+                  field = super().acceleration(time, dt)
+                  self.sigma = sigma
+                  return field
+          """),
+    Fault("gradient-mass-detached",
+          "Detaches the nodal mass from the derivatives.",
+          "derivatives do not pass through the nodal mass",
+          "--gradient",
+          patch="""
+              def weigh(self):
+                  super().weigh()
+                  self.mass = part(self.mass)
+          """),
+    Fault("gradient-of-velocity-only",
+          "Differentiates with respect to the initial velocity only, and reports 0 for the rest.",
+          "parameters of the material have no derivative",
+          "--gradient",
+          patch="""
+              def seed(self, names):
+                  super().seed([name if name == "initial_velocity" else "" for name in names])
+          """),
+    Fault("gradient-doubled",
+          "Differentiates the square of a norm and forgets the factor 1/2.",
+          "derivatives are twice the correct ones",
+          "--gradient",
+          patch="""
+              def differentiate(self, *arguments):
+                  value, slopes = super().differentiate(*arguments)
+                  return value, [2 * slope for slope in slopes]
+          """),
+    Fault("gradient-in-another-order",
+          "Sorts the parameters by name and reports the derivatives in that order.",
+          "derivatives belong to other parameters",
+          "--gradient",
+          patch="""
+              def differentiate(self, of, names, steps, dt):
+                  return super().differentiate(of, sorted(names), steps, dt)
+          """),
+    Fault("gradient-one-step-short",
+          "Differentiates the state before the last step.",
+          "value and derivatives belong to an earlier time",
+          "--gradient",
+          patch="""
+              def differentiate(self, of, names, steps, dt):
+                  return super().differentiate(of, names, steps - 1, dt)
+          """),
 ]}

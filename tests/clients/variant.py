@@ -17,8 +17,9 @@ from pathlib import Path
 import numpy as np
 
 sys.dont_write_bytecode = True
-from faults import FAULTS, VARIATIONS
+from faults import FAULTS, GRADIENT_FAULTS, VARIATIONS
 
+ALL = {**FAULTS, **VARIATIONS, **GRADIENT_FAULTS}
 CLIENTS = Path(__file__).resolve().parent
 SOLVERS = CLIENTS.parents[1] / "examples/solvers"
 # Client name -> files to load in order, class name.
@@ -121,10 +122,10 @@ POINTS = {"particles": AtParticles, "shuffled": Shuffled, "nodes": AtNodes}
 def main():
     parser = argparse.ArgumentParser(allow_abbrev=False)
     parser.add_argument("--client", choices=SOURCES, default="numpy")
-    parser.add_argument("--fault", choices=[*FAULTS, *VARIATIONS], metavar="NAME")
+    parser.add_argument("--fault", choices=ALL, metavar="NAME")
     parser.add_argument("--points", choices=POINTS)
     arguments, rest = parser.parse_known_args()
-    module, name, program = load(arguments.client, {**FAULTS, **VARIATIONS}.get(arguments.fault))
+    module, name, program = load(arguments.client, ALL.get(arguments.fault))
     if arguments.points:
         bases = (POINTS[arguments.points], module.__dict__[name])
         module.__dict__[name] = type(name, bases, {})

@@ -13,6 +13,10 @@ pub struct Scope {
     constants: BTreeMap<String, f64>,
     functions: BTreeMap<String, Function>,
     tables: BTreeMap<String, Tabulated>,
+    /// Expressions of the free name and of constants that names stand for.
+    definitions: BTreeMap<String, Expr>,
+    /// A variable of formulas that functions and definitions see as well.
+    free: Option<String>,
 }
 
 /// A user function.
@@ -46,6 +50,28 @@ impl Scope {
             return Err(FormulaError::new(0..name.len(), message));
         }
         self.constants.insert(name.to_owned(), value);
+        Ok(())
+    }
+
+    /// Lets `name` be a variable that functions and definitions see as well. Each formula is then
+    /// bound to it as one of its variables.
+    ///
+    /// # Errors
+    /// When `name` is not a name or is taken.
+    pub fn free(&mut self, name: &str) -> Result<(), FormulaError> {
+        self.admit(name)?;
+        self.free = Some(name.to_owned());
+        Ok(())
+    }
+
+    /// Declares a name for an expression of constants, functions, other definitions and the free
+    /// variable.
+    ///
+    /// # Errors
+    /// When `name` is not a name or is taken.
+    pub fn definition(&mut self, name: &str, body: Expr) -> Result<(), FormulaError> {
+        self.admit(name)?;
+        self.definitions.insert(name.to_owned(), body);
         Ok(())
     }
 
@@ -133,6 +159,14 @@ impl Scope {
         self.constants.get(name).copied()
     }
 
+    pub(super) fn defined(&self, name: &str) -> Option<(&str, &Expr)> {
+        self.definitions.get_key_value(name).map(|(name, body)| (name.as_str(), body))
+    }
+
+    pub(super) fn is_free(&self, name: &str) -> bool {
+        self.free.as_deref() == Some(name)
+    }
+
     pub(super) fn tabulated(&self, name: &str) -> Option<(&str, &Tabulated)> {
         self.tables.get_key_value(name).map(|(name, table)| (name.as_str(), table))
     }
@@ -156,6 +190,9 @@ impl Scope {
         }
         if self.tables.contains_key(name) {
             return refuse("a table");
+        }
+        if self.definitions.contains_key(name) {
+            return refuse("a definition");
         }
         Ok(())
     }
@@ -183,4 +220,30 @@ fn interpolation(by: &str, rows: &[(f64, f64)]) -> Result<Expr, FormulaError> {
     };
     let first = rows.first().map_or(0.0, |(_, value)| *value);
     Expr::parse(&format!("({first:e}){}", rows.windows(2).map(rise).collect::<String>()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Formula, Jet};
+    use super::*;
+
+    #[test]
+    fn a_free_variable_is_differentiated_through_definitions_and_functions()
+    -> Result<(), FormulaError> {
+        let mut scope = Scope::new();
+        scope.function("s", &["x".to_owned()], Expr::parse("x*w")?)?;
+        scope.constant("rho", 2.0)?;
+        scope.free("E")?;
+        scope.definition("w", Expr::parse("sqrt(E/rho)")?)?;
+        let formula = Formula::bind(&Expr::parse("s(t)*E")?, &scope, &["t", "E"])?;
+        let value = formula.eval(&[Jet::<2>::variable(3.0, 0), Jet::variable(8.0, 1)]);
+        // t E sqrt(E/2): the derivative with respect to E is 3/2 t sqrt(E/2).
+        assert!((value.value() - 48.0).abs() < 1e-12);
+        assert!((value.d(1) - 9.0).abs() < 1e-12 && (value.dd(0, 1) - 3.0).abs() < 1e-12);
+        assert!(
+            scope.constant("w", 1.0).is_err() && scope.definition("s", Expr::parse("1")?).is_err()
+        );
+        assert!(Formula::bind(&Expr::parse("w")?, &scope, &["t"]).is_err(), "no value for E");
+        Ok(())
+    }
 }

@@ -27,6 +27,13 @@ pub(super) enum Answer {
         reason: String,
     },
     State(Box<State>),
+    /// The value of a functional of the final state, and its derivatives.
+    Gradient {
+        /// Value of the functional.
+        value: f64,
+        /// Derivatives, one for each entry of `with_respect_to`, in the same order.
+        gradient: Vec<f64>,
+    },
     /// The solver failed.
     Failed {
         /// Description of the failure.
@@ -263,6 +270,7 @@ impl Answer {
             Self::Ready { .. } => "ready",
             Self::Cannot { .. } => "cannot",
             Self::State(_) => "state",
+            Self::Gradient { .. } => "gradient",
             Self::Failed { .. } => "failed",
             Self::BodyForce { .. } => "body_force",
             Self::Values { .. } => "values",

@@ -135,6 +135,32 @@ pub enum ProgramError {
     /// The smallest determinant of F is not a positive number.
     #[error("gave `min_j` {0}: a determinant of F is a positive number")]
     Determinant(f64),
+    /// A gradient has the wrong number of entries.
+    #[error("gave a gradient of {found} numbers, expected {expected}: {names}")]
+    GradientLength {
+        /// Number of entries.
+        found: usize,
+        /// Number of entries that were requested.
+        expected: usize,
+        /// Names of the parameters that were requested.
+        names: String,
+    },
+    /// A gradient has a number that JSON does not have.
+    #[error("answered `differentiate` with {word}, which is no number; requested: {names}")]
+    GradientNoNumber {
+        /// The number.
+        word: &'static str,
+        /// Names of the parameters that were requested.
+        names: String,
+    },
+    /// An entry of a gradient, or the value of the functional, is not finite.
+    #[error("gave {value} as the {of}")]
+    GradientNotFinite {
+        /// The number.
+        value: f64,
+        /// The entry, with the name of the parameter.
+        of: String,
+    },
     /// The solver has no points.
     #[error("has no points")]
     NoPoints,

@@ -3,6 +3,7 @@
 //! ```text
 //! solver       greets the command, and starts it for each level
 //! subject      a level that runs in the process
+//! gradient     a gradient that the process computes
 //! inquiry      answers to the solver's requests for values
 //! connection   the process: requests in, answers out, within limits of time and memory
 //! answer       answers of a solver, and columns of numbers
@@ -15,6 +16,7 @@ mod answer;
 mod connection;
 mod error;
 mod frame;
+mod gradient;
 mod inquiry;
 mod schema;
 mod solver;

@@ -3,6 +3,7 @@
 use super::answer::{Answer, ColumnText};
 use super::solver::{PROTOCOL, VERSIONS};
 use crate::external::problem::{LevelProblem, ProblemParticles};
+use crate::subject::GradientParameter;
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
@@ -52,6 +53,7 @@ fn request(definitions: &mut SchemaGenerator) -> Value {
     let particles = json!({"type": "object", "properties": columns, "required": names});
     let problem = with_bytes(LevelProblem::json_schema(definitions));
     let forces = json!({"enum": ["none", "constant", "asked"]});
+    let parameters: Vec<&str> = GradientParameter::ALL.iter().map(|one| one.name()).collect();
     json!({"oneOf": [
         message("hello", json!({
             "protocol": {"const": PROTOCOL},
@@ -63,12 +65,38 @@ fn request(definitions: &mut SchemaGenerator) -> Value {
             message("problem", json!({"particles": particles, "body_force": forces})),
         ]},
         message("advance", json!({"steps": count, "dt": number, "from": number})),
+        message("differentiate", json!({
+            "of": functional(),
+            "with_respect_to": {"type": "array", "items": {"enum": parameters}, "minItems": 1},
+            "steps": count,
+            "dt": number,
+            "from": number,
+        })),
         message("body_force", json!({"values": column})),
         {"oneOf": [
             message("values", json!({"of": {"type": "string"}, "values": column})),
             message("values", json!({"of": {"type": "string"}, "error": {"type": "string"}})),
         ]},
         message("bye", json!({})),
+    ]})
+}
+
+/// A functional of the final state.
+fn functional() -> Value {
+    let index = json!({"type": "integer", "minimum": 0});
+    let of = |name: &str, keys: &[&str]| {
+        let mut properties = json!({"functional": {"const": name}});
+        for key in keys {
+            properties[*key] = index.clone();
+        }
+        let required: Vec<&str> = ["functional"].iter().chain(keys).copied().collect();
+        json!({"type": "object", "required": required, "properties": properties})
+    };
+    json!({"oneOf": [
+        of("mean_displacement", &["axis"]),
+        of("mean_square_displacement", &[]),
+        of("kinetic_energy", &[]),
+        of("position_of", &["particle", "axis"]),
     ]})
 }
 

@@ -1,6 +1,6 @@
 //! A solver program, as a factory of subjects.
 
-use super::answer::{Answer, Hello};
+use super::answer::{Answer, Hello, Points};
 use super::connection::{Connection, ProgramLimits};
 use super::error::{ProgramError, printable};
 use super::frame::Outgoing;
@@ -8,6 +8,7 @@ use super::inquiry::Inquiry;
 use super::subject::{ProgramSubject, conclude, longest_answer};
 use crate::external::capabilities::ProblemNeeds;
 use crate::external::factory::SolverFactory;
+use crate::external::gradient::{Gradient, GradientError, GradientRequest};
 use crate::external::problem::LevelProblem;
 use crate::subject::{
     Failure, HIGHEST_ORDER, Precision, RunCounters, Samples, Subject, is_solver_name,
@@ -70,6 +71,12 @@ impl SolverProgram {
     }
 
     fn start(&self, problem: &LevelProblem) -> Result<ProgramSubject, ProgramError> {
+        let Started { connection, inquiry, hello, points, bytes } = self.ready(problem)?;
+        ProgramSubject::new(connection, inquiry, problem, points, &bytes, &hello)
+    }
+
+    /// A process that has accepted `problem`.
+    pub(super) fn ready(&self, problem: &LevelProblem) -> Result<Started, ProgramError> {
         let (mut connection, hello) = connected(&self.command, self.limits)?;
         if hello != self.hello {
             return Err(ProgramError::ChangedHello);
@@ -91,7 +98,7 @@ impl SolverProgram {
         inquiry.allow(SETUP_QUESTIONS);
         match conclude(&mut connection, &mut inquiry)? {
             (Answer::Ready { points }, bytes) => {
-                ProgramSubject::new(connection, inquiry, problem, points, &bytes, &hello)
+                Ok(Started { connection, inquiry, hello, points, bytes })
             }
             (Answer::Cannot { reason }, _) => Err(ProgramError::Refused(printable(&reason))),
             (Answer::Failed { reason }, _) => Err(ProgramError::Failed(printable(&reason))),
@@ -100,6 +107,17 @@ impl SolverProgram {
             }
         }
     }
+}
+
+/// A process that has accepted a problem.
+pub(super) struct Started {
+    pub(super) connection: Connection,
+    pub(super) inquiry: Inquiry,
+    pub(super) hello: Hello,
+    /// Places of its states, if they are not the particles.
+    pub(super) points: Option<Points>,
+    /// Block of bytes of its answer.
+    pub(super) bytes: Vec<u8>,
 }
 
 /// Hash of the command, of the files that its arguments name, and of the hello message. Other files
@@ -187,6 +205,17 @@ impl SolverFactory for SolverProgram {
             Err(ProgramError::Refused(reason)) => Err(reason),
             Err(error) => Ok(Box::new(Broken(error.to_string()))),
         }
+    }
+
+    fn gradient(
+        &self,
+        problem: LevelProblem,
+        request: &GradientRequest,
+    ) -> Result<Gradient, GradientError> {
+        self.differentiate(&problem, request).map_err(|error| match error {
+            ProgramError::Refused(reason) => GradientError::Cannot(reason),
+            error => GradientError::Failed(error.to_string()),
+        })
     }
 }
 

@@ -11,7 +11,7 @@ use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use serde_json::json;
 
 /// Maximum number of requests for values between two instants, for each step.
-const QUESTIONS_PER_STEP: u64 = 1000;
+pub(super) const QUESTIONS_PER_STEP: u64 = 1000;
 
 /// Maximum length (bytes) of an answer to `problem`: every column, in decimal text, for three times
 /// as many points as particles.

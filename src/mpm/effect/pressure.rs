@@ -20,11 +20,11 @@ pub type PressureField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Se
 /// Pressure p(X, t) on one face or rim of the body; below zero it pulls.
 pub struct Pressure<const D: usize> {
     value: PressureField<D>,
-    site: Site<D>,
+    site: PressedSurface<D>,
 }
 
 /// The part of the surface under pressure.
-enum Site<const D: usize> {
+enum PressedSurface<const D: usize> {
     Face(Surface),
     Rim(Vec<Facet<D>>),
 }
@@ -38,7 +38,7 @@ impl<const D: usize> Pressure<D> {
         placement: Placement,
         value: PressureField<D>,
     ) -> Self {
-        Self { value, site: Site::Face(Surface::new(particles, axis, side, placement)) }
+        Self { value, site: PressedSurface::Face(Surface::new(particles, axis, side, placement)) }
     }
 
     /// A pressure on a circular rim of a body in the plane, filled with `particles`.
@@ -47,7 +47,7 @@ impl<const D: usize> Pressure<D> {
         circle: &RimCircle,
         value: PressureField<D>,
     ) -> Self {
-        Self { value, site: Site::Rim(facets(particles, circle)) }
+        Self { value, site: PressedSurface::Rim(facets(particles, circle)) }
     }
 }
 
@@ -58,8 +58,8 @@ impl<const D: usize> Effect<D> for Pressure<D> {
 
     fn columns(&self) -> Vec<Column<'_>> {
         vec![match &self.site {
-            Site::Face(surface) => Column::of_particles("surface layer", &surface.layer),
-            Site::Rim(facets) => Column::of_particles("facets of the rim", facets),
+            PressedSurface::Face(surface) => Column::of_particles("surface layer", &surface.layer),
+            PressedSurface::Rim(facets) => Column::of_particles("facets of the rim", facets),
         }]
     }
 
@@ -76,8 +76,8 @@ impl<const D: usize> Effect<D> for Pressure<D> {
     ) -> u64 {
         let Self { value, site } = self;
         let surface = match site {
-            Site::Face(surface) => surface,
-            Site::Rim(facets) => {
+            PressedSurface::Face(surface) => surface,
+            PressedSurface::Rim(facets) => {
                 return press(facets, particles, kernel, grid, |label| value(label, t));
             }
         };

@@ -45,8 +45,8 @@ const PER_SPACING: f64 = 2.0;
 /// a staircase is at most half a diagonal away from a particle.
 const REACH: f64 = 2.0;
 
-/// The facets of `circle`, from the positive first axis on. A body with particles has particles near
-/// each of its rims.
+/// The facets of `circle`, from the positive first axis on. A body with particles has particles
+/// near each of its rims.
 pub(super) fn facets<const D: usize>(
     particles: &Particles<D>,
     circle: &RimCircle,

@@ -9,6 +9,7 @@ use std::borrow::Cow;
 
 pub(crate) mod cost;
 pub(crate) mod force;
+pub(crate) mod gradient;
 pub(crate) mod level;
 pub(crate) mod stability;
 #[cfg(test)]

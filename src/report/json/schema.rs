@@ -1,8 +1,10 @@
 //! JSON Schema (draft 2020-12) of the document that `run --format json` prints. The keys and
 //! descriptions of rows come from their columns; tests compare the rest with documents.
 
-use crate::report::columns::{TableColumn, cost, force, level, stability};
-use crate::verify::{Axis, CaseOutcome, FloorCause, Quantity, Ranking, StabilityStudy, Verdict};
+use crate::report::columns::{TableColumn, cost, force, gradient, level, stability};
+use crate::verify::{
+    Axis, CaseOutcome, FloorCause, GradientState, Quantity, Ranking, StabilityStudy, Verdict,
+};
 use serde_json::{Map, Value, json};
 
 /// The schema, as indented JSON.
@@ -68,6 +70,7 @@ fn case() -> Value {
         ("levels", list(levels), "levels, from coarse to fine"),
         ("forces", or_null(list(forces)), "rows of an internal-force study"),
         ("stability", or_null(stability_study()), "rows of a stability study"),
+        ("gradient", or_null(gradient_study()), "checks of a reported derivative"),
     ])
 }
 
@@ -130,6 +133,27 @@ fn stability_study() -> Value {
         ("swept", text(), "parameter whose values make the rows"),
         ("sought", or_null(text()), "parameter whose limit is sought"),
         ("rows", list(row(&stability::json_columns(&study))), "one for each value"),
+    ])
+}
+
+fn gradient_study() -> Value {
+    let states: Vec<&str> = GradientState::ALL.iter().map(|state| state.name()).collect();
+    let sweep = object([
+        ("change", number(), "change of the functional over the interval"),
+        ("share", number(), "sum of trapezia of the derivative, over the change"),
+        ("jumps", list(number()), "jumps of the functional, over the change"),
+    ]);
+    object([
+        ("functional", text(), "the functional that is differentiated"),
+        ("parameter", text(), "the parameter of the problem"),
+        ("state", json!({"enum": states}), "the state of the derivative"),
+        ("value", number(), "value of the functional after a plain run"),
+        ("reported_value", number(), "value that the solver reports with the gradient"),
+        ("order", number(), "order of the error of the derivative"),
+        ("levels", list(row(&gradient::levels())), "the derivative on all levels"),
+        ("taylor", list(row(&gradient::taylor())), "the Taylor remainder"),
+        ("sweep", or_null(sweep), "the derivative over an interval of the parameter"),
+        ("points", list(row(&gradient::points())), "points of the sweep"),
     ])
 }
 

@@ -120,9 +120,9 @@ pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
 const LEVELS: usize = 4;
 
 /// A level with its predicted errors (m).
-struct Prediction {
+struct LevelPrediction {
     cells: u64,
-    /// That of the cells: interpolation by linear functions.
+    /// Error of the cells: interpolation by linear functions.
     discretisation: f64,
     /// Bound of the rounding errors of positions.
     rounding: f64,
@@ -143,14 +143,14 @@ pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     };
     let prediction = |level: &LevelPlan| {
         let steps = case.clock(plan, level.dt)?.steps;
-        Some(Prediction {
+        Some(LevelPrediction {
             cells: level.cells,
             discretisation: of_cells(preflight, level.h),
             rounding: rounding_bound(steps, spacing, plan.norm),
         })
     };
-    let levels: Vec<Prediction> = preflight.levels().iter().filter_map(prediction).collect();
-    let is_above = |level: &&Prediction| level.discretisation > level.rounding;
+    let levels: Vec<LevelPrediction> = preflight.levels().iter().filter_map(prediction).collect();
+    let is_above = |level: &&LevelPrediction| level.discretisation > level.rounding;
     let Some(first) = levels.iter().find(|level| !is_above(level)) else { return Vec::new() };
     let above = levels.iter().filter(is_above).count();
     let message = format!(

@@ -2,7 +2,9 @@
 //! solution.
 
 pub(crate) mod check;
+pub(crate) mod convergence;
 pub(crate) mod expect;
+pub(crate) mod gradient;
 pub(crate) mod internal_force;
 pub(crate) mod run;
 pub(crate) mod scene;

@@ -1,7 +1,7 @@
 //! JSON Schema of a suite (draft 7, which editors support), generated from the types of the
 //! grammar.
 
-use crate::suite::grammar::{ConvergenceSpec, InternalForceSpec, StabilitySpec};
+use crate::suite::grammar::{ConvergenceSpec, GradientSpec, InternalForceSpec, StabilitySpec};
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{RecursiveTransform, Transform};
@@ -13,6 +13,7 @@ pub fn suite_schema() -> String {
     let convergence = all.subschema_for::<ConvergenceSpec>();
     let stability = all.subschema_for::<StabilitySpec>();
     let internal_force = all.subschema_for::<InternalForceSpec>();
+    let gradient = all.subschema_for::<GradientSpec>();
     let definitions = all.take_definitions(true);
     let of_study =
         |name: &str| json!({"required": ["study"], "properties": {"study": {"const": name}}});
@@ -23,7 +24,11 @@ pub fn suite_schema() -> String {
         "type": "object",
         "if": of_study("stability"),
         "then": stability,
-        "else": {"if": of_study("internal_force"), "then": internal_force, "else": convergence},
+        "else": {
+            "if": of_study("internal_force"),
+            "then": internal_force,
+            "else": {"if": of_study("gradient"), "then": gradient, "else": convergence},
+        },
         "definitions": definitions,
     });
     RecursiveTransform(without_links).transform(&mut schema);

@@ -1,7 +1,7 @@
 //! The names that a suite declares: tables, and errors about duplicate, unused or late names.
 
 use super::{Evaluator, ParameterSpec, TableSpec, shown, with_help};
-use crate::exact::formula::Scope;
+use crate::exact::formula::{Expr, Formula, Scope};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 
 impl Evaluator<'_> {
@@ -63,6 +63,47 @@ impl Evaluator<'_> {
     /// The head under which the file declares `function`.
     pub(super) fn head_of(&self, function: &str) -> Option<&String> {
         self.heads.iter().find(|head| name_in(head) == function)
+    }
+}
+
+impl<'a> Evaluator<'a> {
+    /// An evaluator whose formulas have the parameter `name` as a variable, which the parameters
+    /// below it and the functions see as well.
+    ///
+    /// # Errors
+    /// A diagnostic if a parameter cannot be a function of `name`.
+    pub(crate) fn with_free(
+        &self,
+        name: &str,
+        parameters: &Ordered<ParameterSpec>,
+        functions: &Ordered<String>,
+    ) -> Result<Evaluator<'a>, Diagnostic> {
+        let mut evaluator =
+            Evaluator::new(self.source, &Ordered::default(), functions).map(|(new, _)| new)?;
+        evaluator.parameters.clone_from(&self.parameters);
+        for (key, spec) in parameters.as_slice() {
+            let path = Path::top("parameters").then(key.as_str());
+            let text = match spec {
+                ParameterSpec::Number(text) => text.to_string(),
+                ParameterSpec::Map(spec) => {
+                    evaluator.declare_table(&path, key, spec)?;
+                    continue;
+                }
+            };
+            let declared = if key == name {
+                evaluator.scope.free(name)
+            } else {
+                Expr::parse(&text).and_then(|body| {
+                    let formula = Formula::bind(&body, &evaluator.scope, &[name])?;
+                    match formula.constant() {
+                        Some(value) => evaluator.scope.constant(key, value),
+                        None => evaluator.scope.definition(key, body),
+                    }
+                })
+            };
+            declared.map_err(|error| evaluator.at_key(&path, &error))?;
+        }
+        Ok(evaluator)
     }
 }
 

@@ -5,6 +5,7 @@
 
 pub(crate) mod convergence;
 pub(crate) mod expect;
+pub(crate) mod gradient;
 pub(crate) mod internal_force;
 pub(crate) mod method;
 pub(crate) mod sample;
@@ -20,6 +21,7 @@ pub(crate) use convergence::{
 };
 pub use expect::WarningName;
 pub(crate) use expect::{AcknowledgeSpec, AnyMethodSpec, CrossingsName, DriftSpec, ExpectSpec};
+pub(crate) use gradient::{FunctionalSpec, GradientExpectSpec, GradientSpec};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
 pub(crate) use method::{MethodSpec, StepSpec};
 pub(crate) use scene::{
@@ -41,6 +43,8 @@ pub(crate) enum SuiteSpec {
     InternalForce(Box<InternalForceSpec>),
     /// Whether runs stay bounded, and the limit of a parameter.
     Stability(Box<StabilitySpec>),
+    /// Derivatives that a differentiable solver reports.
+    Gradient(Box<GradientSpec>),
 }
 
 /// Keys of every suite, for any kind of study.
@@ -62,6 +66,8 @@ pub(crate) enum StudyName {
     InternalForce,
     /// Whether runs stay bounded, and the limit of a parameter.
     Stability,
+    /// Derivatives that a differentiable solver reports.
+    Gradient,
 }
 
 impl StudyName {

@@ -88,6 +88,16 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("parameter", "C"),
     ("critical.from", "0.1"),
     ("critical.to", "2"),
+    // A gradient study.
+    ("gradient", "{of: {mean_displacement: {axis: 0}}, with_respect_to: {young: E}}"),
+    ("exact", "{equation: corotated, displacement: [\"...\"]}"),
+    ("of", "{mean_displacement: {axis: 0}}"),
+    ("with_respect_to", "{young: E}"),
+    ("axis", "0"),
+    ("particle", "0"),
+    ("sweep.parameter", "young"),
+    ("within", "0.002"),
+    ("points", "81"),
     // A study of the internal force.
     (
         "internal_force",
@@ -116,6 +126,9 @@ impl SuiteSpec {
                 read(&checked, "internal_force").map(Box::new).map(Self::InternalForce)
             }
             StudyName::Stability => read(&checked, "stability").map(Box::new).map(Self::Stability),
+            StudyName::Gradient => {
+                read(&checked, "gradient_study").map(Box::new).map(Self::Gradient)
+            }
         }
     }
 }

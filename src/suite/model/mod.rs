@@ -2,6 +2,7 @@
 
 pub(crate) mod external;
 pub(crate) mod fingerprint;
+pub(crate) mod gradient;
 pub(crate) mod internal_force;
 pub(crate) mod method;
 pub(crate) mod refine_plan;

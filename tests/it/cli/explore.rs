@@ -18,7 +18,7 @@ fn a_suite_without_expectations_says_what_it_sees_and_is_no_gate() {
         &[
             "explored  short-bar::mpm-linear-flip-musl",
             "  a   nothing: the suite has no `expect`, and is no gate",
-            "result        2 cases of which nothing is expected",
+            "result        2 cases without an expectation",
             "relative drift, the largest of all levels\n",
         ],
     );

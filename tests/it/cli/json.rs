@@ -6,7 +6,7 @@ use mpm_verify::report::report_schema;
 use rstest::rstest;
 use serde_json::{Value, json};
 
-const CASE: [&str; 20] = [
+const CASE: [&str; 21] = [
     "case",
     "subject",
     "axis",
@@ -25,6 +25,7 @@ const CASE: [&str; 20] = [
     "levels",
     "forces",
     "stability",
+    "gradient",
     "settings",
     "because",
 ];

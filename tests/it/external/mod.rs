@@ -1,8 +1,11 @@
 //! Solvers of other programs, as shell scripts: sound ones, and every way to misbehave.
 
+#[cfg(unix)]
+mod differentiate;
 mod doctor;
 #[cfg(unix)]
 mod gate;
+mod gradient;
 mod library;
 #[cfg(unix)]
 mod misbehaving;

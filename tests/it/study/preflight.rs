@@ -106,7 +106,7 @@ fn findings(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
 )]
 #[case::single_precision_that_shows(
     &[(MPM, SINGLE), ("a: 1e-8", "a: 1e-4")],
-    Severity::Warning, ("displacement", "from 12 cells on the error of the cells, about 2.1e-7 m, lies below the rounding bound of 5.2e-7 m", "an amplitude 20 times as large leaves 4 levels above the bound")
+    Severity::Warning, ("displacement", "from 12 cells on the error of the cells, about 3.4e-7 m, lies below the rounding bound of 6.9e-7 m", "an amplitude 17 times as large leaves 4 levels above the bound")
 )]
 #[case::single_precision_far_from_the_origin(
     &[(MPM, SINGLE), ("a: 1e-8", "a: 1e-4")],

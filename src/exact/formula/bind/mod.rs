@@ -46,6 +46,8 @@ pub(super) struct ProgramBuilder<'a> {
     pub(super) uses: BTreeSet<String>,
     /// Functions whose bodies are being compiled, the innermost last.
     calls: Vec<&'a str>,
+    /// The variable that functions and definitions see, if the scope has one.
+    free: Option<(&'a str, Operand)>,
     depth: usize,
     nodes: usize,
     /// How often the code under construction runs in one evaluation.
@@ -61,6 +63,7 @@ impl<'a> ProgramBuilder<'a> {
             registers: 0,
             uses: BTreeSet::new(),
             calls: Vec::new(),
+            free: None,
             depth: 0,
             nodes: 0,
             runs: 1,
@@ -75,7 +78,8 @@ impl<'a> ProgramBuilder<'a> {
         variables: &[&'a str],
     ) -> Result<Operand, FormulaError> {
         let variable = |(index, name): (usize, &&'a str)| (*name, Operand::Variable(index));
-        let locals = variables.iter().enumerate().map(variable).collect();
+        let locals: Vec<_> = variables.iter().enumerate().map(variable).collect();
+        self.free = locals.iter().copied().find(|(name, _)| self.scope.is_free(name));
         let mut frame = Frame { expr, function: None, locals, indices: Vec::new() };
         self.compile(&mut frame, expr.root(), 0)
     }
@@ -252,6 +256,22 @@ impl<'a> ProgramBuilder<'a> {
         let (expr, locals) = (&table.body, vec![(by, operand)]);
         let mut inner = Frame { expr, function: Some(name), locals, indices: Vec::new() };
         let result = self.compile(&mut inner, expr.root(), above(operand, at));
+        result.map_err(|error| error.within(name))
+    }
+}
+
+impl<'a> ProgramBuilder<'a> {
+    /// Compiles the expression that a name stands for.
+    pub(self) fn definition(
+        &mut self,
+        name: &'a str,
+        expr: &'a Expr,
+        at: usize,
+    ) -> Result<Operand, FormulaError> {
+        self.uses.insert(name.to_owned());
+        let mut inner =
+            Frame { expr, function: Some(name), locals: Vec::new(), indices: Vec::new() };
+        let result = self.compile(&mut inner, expr.root(), at);
         result.map_err(|error| error.within(name))
     }
 }

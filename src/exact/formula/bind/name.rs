@@ -26,6 +26,12 @@ impl<'a> ProgramBuilder<'a> {
             self.uses.insert(name.to_owned());
             return Ok(Operand::Constant(value));
         }
+        if let Some((_, operand)) = self.free.filter(|(free, _)| *free == name) {
+            return Ok(operand);
+        }
+        if let Some((name, body)) = self.scope.defined(name) {
+            return self.definition(name, body, at);
+        }
         if let Some(table) = self.scope.tabulated(name) {
             return self.table(frame, node, table.0, table.1, at);
         }

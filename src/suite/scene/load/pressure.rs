@@ -22,13 +22,14 @@ pub(crate) struct PressureSpec {
     on: String,
     /// Pressure (Pa), a formula of the coordinates and `t`.
     value: NumberText,
-    /// Point of action on a face; by default at the outermost particles. On a rim it is the surface.
+    /// Point of action on a face; by default at the outermost particles. On a rim it is the
+    /// surface.
     at: Option<Placement>,
 }
 
 /// Part of the surface under pressure.
 #[derive(Debug)]
-enum Site {
+enum PressedPart {
     Face(LoadedFace, Placement),
     Rim(Circle),
 }
@@ -45,9 +46,9 @@ impl LoadKeys for PressureSpec {
                 let diagnostic = entry.evaluator.diagnostic(&entry.path.then("at"), message);
                 return Err(diagnostic.with_help("remove `at`"));
             }
-            Site::Rim(entry.free_rim(&self.on)?)
+            PressedPart::Rim(entry.free_rim(&self.on)?)
         } else {
-            Site::Face(entry.free_face(&self.on)?, self.at.unwrap_or_default())
+            PressedPart::Face(entry.free_face(&self.on)?, self.at.unwrap_or_default())
         };
         let value = entry.scalar(&entry.path.then("value"), &self.value)?;
         Ok(Arc::new(PressureLoad { site, value }))
@@ -65,15 +66,15 @@ impl LoadKeys for PressureSpec {
 /// A pressure (Pa, per present area), a formula of the coordinates and t.
 #[derive(Debug)]
 struct PressureLoad {
-    site: Site,
+    site: PressedPart,
     value: Formula,
 }
 
 impl Term for PressureLoad {
     fn pressed_rim(&self) -> Option<(usize, &Formula)> {
         match &self.site {
-            Site::Face(..) => None,
-            Site::Rim(circle) => Some((circle.number, &self.value)),
+            PressedPart::Face(..) => None,
+            PressedPart::Rim(circle) => Some((circle.number, &self.value)),
         }
     }
 }
@@ -90,8 +91,8 @@ impl Condition for PressureLoad {
 impl SceneLoad for PressureLoad {
     fn target(&self) -> LoadTarget {
         match &self.site {
-            Site::Face(face, _) => LoadTarget::Face(face.number),
-            Site::Rim(circle) => LoadTarget::Rim(circle.number),
+            PressedPart::Face(face, _) => LoadTarget::Face(face.number),
+            PressedPart::Rim(circle) => LoadTarget::Rim(circle.number),
         }
     }
 
@@ -102,8 +103,8 @@ impl SceneLoad for PressureLoad {
     fn rows(&self) -> Vec<(String, String)> {
         let pressure = format!("pressure {} Pa, which follows the", self.value.source());
         vec![match &self.site {
-            Site::Face(face, placement) => face.row(&format!("{pressure} face"), *placement),
-            Site::Rim(circle) => (format!("{} rim", circle.name), format!("{pressure} rim")),
+            PressedPart::Face(face, placement) => face.row(&format!("{pressure} face"), *placement),
+            PressedPart::Rim(circle) => (format!("{} rim", circle.name), format!("{pressure} rim")),
         }]
     }
 
@@ -112,7 +113,7 @@ impl SceneLoad for PressureLoad {
     }
 
     fn traction(&self, values: &[f64]) -> Vec<f64> {
-        let Site::Face(face, _) = &self.site else { return Vec::new() };
+        let PressedPart::Face(face, _) = &self.site else { return Vec::new() };
         let (normal, side) = face.place();
         let inwards = if side == Side::High { -1.0 } else { 1.0 };
         let component = |axis| if axis == normal { inwards * self.value.eval(values) } else { 0.0 };
@@ -130,11 +131,11 @@ impl<const D: usize> BuildEffect<D> for PressureLoad {
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let value = scalar(&self.value);
         Ok(Box::new(match &self.site {
-            Site::Face(face, placement) => {
+            PressedPart::Face(face, placement) => {
                 let (axis, side) = face.place();
                 Pressure::at(site.particles, axis, side, *placement, value)
             }
-            Site::Rim(Circle { centre, radius, outwards, .. }) => {
+            PressedPart::Rim(Circle { centre, radius, outwards, .. }) => {
                 let (centre, radius, outwards) = (*centre, *radius, *outwards);
                 Pressure::on_rim(site.particles, &RimCircle { centre, radius, outwards }, value)
             }

@@ -10,7 +10,7 @@ const STRANGE: &str = "qqqqqqqq";
 const STRANGER: &str = "jjjjjjjj";
 
 /// Kinds of study.
-pub(super) const STUDIES: [&str; 3] = ["convergence", "stability", "internal_force"];
+pub(super) const STUDIES: [&str; 4] = ["convergence", "stability", "internal_force", "gradient"];
 
 /// Keys of the whole file whose sub-keys are chosen by the author.
 const OF_AUTHORS: [&str; 2] = ["parameters", "functions"];
@@ -146,6 +146,11 @@ fn base(study: &str) -> Value {
         "stability" => format!(
             "{scene}{methods}parameters: {{C: 1}}\nparticles: {{cells: 4, ppc: 4}}\n\
              run: {{dt: C, steps: 9}}\nsweep: {{C: [1]}}\n"
+        ),
+        "gradient" => format!(
+            "{scene}parameters: {{E: 1}}\nexact: {{equation: corotated, displacement: [t]}}\n\
+             gradient: {{of: kinetic_energy, with_respect_to: {{young: E}}}}\n\
+             run: {{until: 1, dt: 1e-3}}\nrefine: {{cells: [8, 16], ppc: 4}}\n"
         ),
         _ => "internal_force: {cell: 1, ppc: 4, volume: 0.25, stress: 1, positions: 16, \
               prediction: n_left}\nmethods: [{mpm: {basis: linear}}]\n"

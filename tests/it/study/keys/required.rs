@@ -6,10 +6,11 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Types of the schema for the kinds of study.
-const STUDIES: [(&str, &str); 3] = [
+const STUDIES: [(&str, &str); 4] = [
     ("convergence", "ConvergenceSpec"),
     ("stability", "StabilitySpec"),
     ("internal_force", "InternalForceSpec"),
+    ("gradient", "GradientSpec"),
 ];
 
 /// Keys of maps that have one for each face.

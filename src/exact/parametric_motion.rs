@@ -1,0 +1,121 @@
+//! A motion as a function of one parameter of its formulas.
+
+use super::formula::{Formula, Jet};
+use super::gauss::points;
+
+/// Panels of the quadrature along each axis, by the dimension.
+const PANELS: [usize; 3] = [16, 8, 3];
+
+/// A displacement whose formulas have a parameter as a variable.
+#[derive(Debug, Clone)]
+pub struct ParametricMotion {
+    /// Lowest corner of the body (m).
+    pub from: Vec<f64>,
+    /// Highest corner of the body (m).
+    pub to: Vec<f64>,
+    /// Components of the displacement (m), formulas of the coordinates, t and the parameter.
+    pub displacement: Vec<Formula>,
+    /// Value of the parameter.
+    pub value: f64,
+}
+
+/// Displacement and velocity at one place and time, with their derivatives with respect to the
+/// parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParametricState {
+    /// Displacement (m).
+    pub displacement: Vec<f64>,
+    /// Derivative of the displacement with respect to the parameter.
+    pub displacement_slope: Vec<f64>,
+    /// Velocity (m/s).
+    pub velocity: Vec<f64>,
+    /// Derivative of the velocity with respect to the parameter.
+    pub velocity_slope: Vec<f64>,
+}
+
+impl ParametricMotion {
+    /// The state at the reference position `label` (m) and time `t` (s), by differentiation of the
+    /// formulas.
+    pub fn at(&self, label: &[f64], t: f64) -> ParametricState {
+        let mut variables: Vec<Jet<2>> = label.iter().map(|x| Jet::from(*x)).collect();
+        variables.extend([Jet::variable(t, 0), Jet::variable(self.value, 1)]);
+        let components: Vec<Jet<2>> =
+            self.displacement.iter().map(|formula| formula.eval(&variables)).collect();
+        let all = |of: &dyn Fn(&Jet<2>) -> f64| components.iter().map(of).collect();
+        ParametricState {
+            displacement: all(&Jet::value),
+            displacement_slope: all(&|u| u.d(1)),
+            velocity: all(&|u| u.d(0)),
+            velocity_slope: all(&|u| u.dd(0, 1)),
+        }
+    }
+
+    /// States at time `t` (s) at the points of a quadrature over the body, with weights (m^D).
+    pub fn states(&self, t: f64) -> Vec<(ParametricState, f64)> {
+        self.places().iter().map(|(label, weight)| (self.at(label, t), *weight)).collect()
+    }
+
+    /// The factor c in `dv/dq = c v`, where v is the velocity at t = 0 and q the parameter.
+    /// `None` if the velocity does not scale with a function of the parameter.
+    pub fn velocity_factor(&self) -> Option<f64> {
+        let states = self.states(0.0);
+        let sum = |product: &dyn Fn(&ParametricState) -> f64| -> f64 {
+            states.iter().map(|(state, weight)| weight * product(state)).sum()
+        };
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let squares = sum(&|s| dot(&s.velocity, &s.velocity));
+        let slopes = sum(&|s| dot(&s.velocity_slope, &s.velocity_slope));
+        if slopes == 0.0 {
+            return Some(0.0);
+        }
+        let factor = sum(&|s| dot(&s.velocity_slope, &s.velocity)) / squares;
+        let rest = sum(&|s| {
+            let parts = s.velocity_slope.iter().zip(&s.velocity);
+            parts.map(|(slope, v)| slope - factor * v).map(|rest| rest * rest).sum()
+        });
+        (rest <= 1e-20 * slopes).then_some(factor)
+    }
+
+    /// Whether the displacement at t = 0 vanishes.
+    pub fn starts_at_rest_position(&self) -> bool {
+        self.states(0.0).iter().all(|(state, _)| state.displacement.iter().all(|u| *u == 0.0))
+    }
+
+    fn places(&self) -> Vec<(Vec<f64>, f64)> {
+        let axes: Vec<(f64, f64)> =
+            self.from.iter().copied().zip(self.to.iter().copied()).collect();
+        points(&axes, PANELS[axes.len().clamp(1, 3) - 1])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::formula::{Expr, Scope};
+    use super::*;
+
+    fn motion(text: &str) -> ParametricMotion {
+        let expr = Expr::parse(text).expect("a formula");
+        let formula = Formula::bind(&expr, &Scope::new(), &["X", "t", "q"]).expect("a formula");
+        ParametricMotion { from: vec![0.0], to: vec![1.0], displacement: vec![formula], value: 2.0 }
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_formula() {
+        let state = motion("X*q^2*sin(q*t)").at(&[0.5], 0.3);
+        let (sin, cos) = (libm::sin(0.6), libm::cos(0.6));
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-14;
+        assert!(close(state.displacement[0], 2.0 * sin));
+        assert!(close(state.displacement_slope[0], 2.0 * sin + 0.6 * cos));
+        assert!(close(state.velocity[0], 4.0 * cos));
+        assert!(close(state.velocity_slope[0], 6.0 * cos - 1.2 * sin));
+    }
+
+    #[test]
+    fn a_velocity_that_scales_with_the_parameter_has_a_factor() {
+        let factor = |text: &str| motion(text).velocity_factor();
+        assert_eq!(factor("sin(X)*sin(t)"), Some(0.0));
+        let scaled = factor("sin(X)*sin(q*t)").expect("a factor");
+        assert!((scaled - 0.5).abs() < 1e-14);
+        assert_eq!(factor("sin(q*X)*sin(t)"), None);
+    }
+}

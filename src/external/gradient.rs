@@ -1,0 +1,196 @@
+//! Values and gradients of functionals, and problems with another value of a parameter.
+
+use super::fields::{FieldError, FieldName, FieldPlaces, FieldSource, HandedNumber, ProblemFields};
+use super::problem::LevelProblem;
+use crate::subject::{Functional, FunctionalValue, GradientParameter, Samples};
+use std::sync::Arc;
+use thiserror::Error;
+
+/// A request for a value and its gradient after all steps of a problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GradientRequest {
+    /// The functional.
+    pub of: Functional,
+    /// The parameters, in the order of the entries of the gradient.
+    pub with_respect_to: Vec<GradientParameter>,
+}
+
+/// Answer of a solver to a [`GradientRequest`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gradient {
+    /// Value of the functional.
+    pub value: f64,
+    /// Derivatives, one for each parameter of the request, in units of the functional per unit of
+    /// the parameter.
+    pub gradient: Vec<f64>,
+}
+
+/// Reason for which a solver gives no gradient.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum GradientError {
+    /// The solver does not support this gradient: one line.
+    #[error("{0}")]
+    Cannot(String),
+    /// The solver broke: one line.
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl LevelProblem {
+    /// The nominal value of a parameter; `None` if the problem does not have it, or has several.
+    pub fn parameter(&self, parameter: GradientParameter) -> Option<f64> {
+        let [material] = self.materials.as_slice() else { return None };
+        match parameter {
+            GradientParameter::Density => Some(material.density),
+            GradientParameter::InitialVelocity => Some(1.0),
+            GradientParameter::Friction => self.faces.iter().find_map(|face| {
+                let coefficient = face.numbers.values.iter().find(|(key, _)| *key == "coefficient");
+                match coefficient {
+                    Some((_, HandedNumber::Scalar(value))) => Some(*value),
+                    _ => None,
+                }
+            }),
+            other => Some(material.parameter(other.name())).filter(|value| value.is_finite()),
+        }
+    }
+
+    /// The problem with another value of a parameter. Everything else keeps its value: initial
+    /// velocities, steps, loads and the other parameters. A density changes all masses.
+    #[must_use]
+    pub fn with_parameter(mut self, parameter: GradientParameter, value: f64) -> Self {
+        match parameter {
+            GradientParameter::Density => {
+                for material in &mut self.materials {
+                    material.density = value;
+                }
+                let volumes = &self.particles.reference_volume;
+                self.particles.mass = volumes.iter().map(|volume| value * volume).collect();
+            }
+            GradientParameter::InitialVelocity => {
+                for velocity in &mut self.particles.velocity {
+                    *velocity *= value;
+                }
+                let scaled = |source| ProblemFields(Arc::new(ScaledVelocity { source, by: value }));
+                self.fields = self.fields.map(|ProblemFields(source)| scaled(source));
+            }
+            GradientParameter::Friction => {
+                let numbers = self.faces.iter_mut().flat_map(|face| &mut face.numbers.values);
+                for (_, number) in numbers.filter(|(key, _)| *key == "coefficient") {
+                    *number = HandedNumber::Scalar(value);
+                }
+            }
+            other => {
+                for (key, known) in self.materials.iter_mut().flat_map(|m| &mut m.parameters) {
+                    if *key == other.name() {
+                        *known = value;
+                    }
+                }
+            }
+        }
+        self
+    }
+}
+
+impl Functional {
+    /// The value for `samples` of particles with masses `mass` (kg), and the size of its rounding:
+    /// displacements are differences of positions. NaN if the particle or axis does not exist.
+    pub fn value(self, mass: &[f64], samples: &Samples) -> FunctionalValue {
+        let d = samples.dimension.max(1);
+        let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
+        let total: f64 = mass.iter().sum();
+        let mean = |term: &dyn Fn(&[f64]) -> f64| {
+            let terms = samples.displacement.chunks_exact(d).zip(mass);
+            terms.map(|(u, m)| m * term(u)).sum::<f64>() / total
+        };
+        let positions = samples.label.iter().zip(&samples.displacement).map(|(x, u)| x + u);
+        let far = largest(positions);
+        let (value, scale) = match self {
+            Self::MeanDisplacement { axis } => {
+                (mean(&|u| u.get(axis).copied().unwrap_or(f64::NAN)), far)
+            }
+            Self::MeanSquareDisplacement => {
+                (mean(&square), 2.0 * far * largest(samples.displacement.iter().copied()))
+            }
+            Self::KineticEnergy => {
+                let terms = mass.iter().zip(samples.velocity.chunks_exact(d));
+                let value = terms.map(|(m, v)| 0.5 * m * square(v)).sum::<f64>();
+                (value, value)
+            }
+            Self::PositionOf { particle, axis } => {
+                let index = if axis < d { particle * d + axis } else { usize::MAX };
+                let of = |column: &[f64]| column.get(index).copied().unwrap_or(f64::NAN);
+                (of(&samples.label) + of(&samples.displacement), far)
+            }
+        };
+        FunctionalValue { value, scale }
+    }
+}
+
+/// Largest magnitude; NaN if a number is.
+fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
+    let larger = |a: f64, b: f64| if b <= a || a.is_nan() { a } else { b };
+    numbers.map(f64::abs).fold(0.0, larger)
+}
+
+/// Fields of a problem whose initial velocity is multiplied by a factor.
+struct ScaledVelocity {
+    source: Arc<dyn FieldSource>,
+    by: f64,
+}
+
+impl FieldSource for ScaledVelocity {
+    fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
+        self.source.bodies(labels)
+    }
+
+    fn nearest_body(&self, label: &[f64]) -> usize {
+        self.source.nearest_body(label)
+    }
+
+    fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError> {
+        self.source.check_places(places)
+    }
+
+    fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
+        let mut values = self.source.values(of, t, at)?;
+        if of == FieldName::Velocity {
+            for value in &mut values {
+                *value *= self.by;
+            }
+        }
+        Ok(values)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn samples() -> Samples {
+        Samples {
+            dimension: 2,
+            label: vec![0.0, 0.0, 1.0, 2.0],
+            displacement: vec![0.5, 1.0, -0.25, 3.0],
+            velocity: vec![1.0, 2.0, 3.0, 4.0],
+            ..Samples::default()
+        }
+    }
+
+    #[test]
+    fn functionals_are_sums_over_particles() {
+        let value = |of: Functional| of.value(&[1.0, 3.0], &samples()).value;
+        assert_eq!(value(Functional::MeanDisplacement { axis: 0 }), (0.5 - 0.75) / 4.0);
+        assert_eq!(value(Functional::MeanDisplacement { axis: 1 }), 10.0 / 4.0);
+        assert_eq!(value(Functional::MeanSquareDisplacement), (1.25 + 3.0 * 9.0625) / 4.0);
+        assert_eq!(value(Functional::KineticEnergy), 0.5 * (5.0 + 75.0));
+        assert_eq!(value(Functional::PositionOf { particle: 1, axis: 1 }), 5.0);
+    }
+
+    #[test]
+    fn a_particle_or_axis_that_does_not_exist_has_no_value() {
+        let value = |of: Functional| of.value(&[1.0, 3.0], &samples());
+        assert!(value(Functional::PositionOf { particle: 2, axis: 0 }).value.is_nan());
+        let beyond = value(Functional::MeanDisplacement { axis: 2 });
+        assert!(beyond.value.is_nan());
+    }
+}

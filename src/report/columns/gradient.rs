@@ -1,0 +1,95 @@
+//! Columns of a gradient study.
+
+use super::{Cell, TableColumn, decimals, scientific};
+use crate::report::columns::number;
+use crate::verify::{GradientLevel, GradientStudy, Perturbed, SweepPoint};
+use serde_json::{Value, json};
+
+/// One level of refinement, with the order from the level before.
+pub(crate) type GradientLevelRow = (GradientLevel, Option<f64>);
+
+/// One perturbation: the remainder, the order from the one before, and the central difference.
+pub(crate) struct TaylorRow {
+    perturbed: Perturbed,
+    remainder: f64,
+    order: Option<f64>,
+    difference: f64,
+}
+
+/// The levels of a study, from coarse to fine.
+pub(crate) fn level_rows(study: &GradientStudy) -> Vec<GradientLevelRow> {
+    let orders = std::iter::once(None).chain(study.pairwise_orders().into_iter().map(Some));
+    study.levels.iter().copied().zip(orders).collect()
+}
+
+/// The perturbations of a study, the largest first.
+pub(crate) fn taylor_rows(study: &GradientStudy) -> Vec<TaylorRow> {
+    let taylor = &study.taylor;
+    let orders = std::iter::once(None).chain(taylor.orders());
+    let all = taylor.perturbed.iter().zip(taylor.remainders()).zip(orders);
+    let row = |(((perturbed, remainder), order), difference): (_, f64)| {
+        let perturbed: &Perturbed = perturbed;
+        TaylorRow { perturbed: *perturbed, remainder, order, difference }
+    };
+    all.zip(taylor.differences()).map(row).collect()
+}
+
+/// One row for each level.
+pub(crate) fn levels<'a>() -> Vec<TableColumn<'a, GradientLevelRow>> {
+    type GradientLevelColumn<'a> = TableColumn<'a, GradientLevelRow>;
+    let of = |key, about, value: fn(&GradientLevel) -> f64| {
+        GradientLevelColumn::new(key, key, about, move |(level, _)| {
+            Cell::number(value(level), scientific)
+        })
+    };
+    vec![
+        GradientLevelColumn::new("cells", "cells", "cells along the first axis", |(level, _)| {
+            Cell::plain(level.cells)
+        }),
+        of("dt", "time step (s)", |level| level.dt),
+        of("gradient", "derivative that the solver reports", |level| level.gradient),
+        of("exact", "exact derivative", |level| level.exact),
+        of("error", "magnitude of the error of the derivative", GradientLevel::error),
+        GradientLevelColumn::new("order", "order", "order from the level before", |(_, order)| {
+            Cell::number(*order, decimals(2))
+        }),
+    ]
+}
+
+/// One row for each perturbation.
+pub(crate) fn taylor<'a>() -> Vec<TableColumn<'a, TaylorRow>> {
+    type TaylorColumn<'a> = TableColumn<'a, TaylorRow>;
+    vec![
+        TaylorColumn::new("k", "level", "the perturbation is the parameter times 2^-k", |row| {
+            Cell::plain(u64::from(row.perturbed.level))
+        }),
+        TaylorColumn::new("remainder", "remainder", "|J(q + e) - J(q) - e g|", |row| {
+            Cell::number(row.remainder, scientific)
+        }),
+        TaylorColumn::new("order", "order", "order of the remainder in e", |row| {
+            Cell::number(row.order, decimals(2))
+        }),
+        TaylorColumn::new("difference", "difference", "(J(q + e) - J(q - e))/(2 e)", |row| {
+            Cell::number(row.difference, scientific)
+        }),
+    ]
+}
+
+/// One row for each point of a sweep, in JSON only.
+pub(crate) fn points<'a>() -> Vec<TableColumn<'a, SweepPoint>> {
+    type SweepColumn<'a> = TableColumn<'a, SweepPoint>;
+    vec![
+        SweepColumn::json("parameter", "value of the parameter", |point| number(point.at)),
+        SweepColumn::json("value", "value of the functional", |point| number(point.value)),
+        SweepColumn::json("gradient", "derivative that the solver reports", |point| {
+            number(point.gradient)
+        }),
+    ]
+}
+
+/// The sweep of a study in JSON.
+pub(crate) fn sweep(study: &GradientStudy) -> Option<Value> {
+    let sweep = study.sweep.as_ref()?;
+    let jumps: Vec<Value> = sweep.jumps.iter().map(|jump| number(*jump)).collect();
+    Some(json!({"change": number(sweep.change), "share": number(sweep.share), "jumps": jumps}))
+}

@@ -1,0 +1,85 @@
+//! Functionals of the final state of a run, and the parameters of a problem that they depend on.
+
+use crate::named::named;
+use serde::Serialize;
+
+named! {
+    /// Parameters of a problem that a functional can be differentiated with respect to.
+    pub enum GradientParameter {
+        /// Young's modulus (Pa).
+        Young = "young",
+        /// Poisson's ratio.
+        Poisson = "poisson",
+        /// Reference density (kg/m3). All masses are proportional to it.
+        Density = "density",
+        /// Yield stress (Pa).
+        Yield = "yield",
+        /// Linear hardening modulus (Pa).
+        Hardening = "hardening",
+        /// Coefficient of friction of the faces.
+        Friction = "friction",
+        /// Factor on the whole initial velocity field; its nominal value is 1.
+        InitialVelocity = "initial_velocity",
+    }
+}
+
+/// A functional of the final state. Sums run over the particles, with masses m, displacements u
+/// and velocities v.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(tag = "functional", rename_all = "snake_case")]
+pub enum Functional {
+    /// `sum m u_axis / sum m` (m).
+    MeanDisplacement {
+        /// Axis of the displacement.
+        axis: usize,
+    },
+    /// `sum m |u|^2 / sum m` (m2).
+    MeanSquareDisplacement,
+    /// `sum m |v|^2 / 2` (J), without the affine part of APIC.
+    KineticEnergy,
+    /// Position of one particle (m).
+    PositionOf {
+        /// Index of the particle.
+        particle: usize,
+        /// Axis of the position.
+        axis: usize,
+    },
+}
+
+impl Functional {
+    /// Names of the functionals, as suites and messages spell them.
+    pub const NAMES: [&'static str; 4] =
+        ["mean_displacement", "mean_square_displacement", "kinetic_energy", "position_of"];
+
+    /// The name as suites and messages spell it.
+    pub fn name(self) -> &'static str {
+        let index = match self {
+            Self::MeanDisplacement { .. } => 0,
+            Self::MeanSquareDisplacement => 1,
+            Self::KineticEnergy => 2,
+            Self::PositionOf { .. } => 3,
+        };
+        Self::NAMES[index]
+    }
+}
+
+/// Value of a functional.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FunctionalValue {
+    /// The value.
+    pub value: f64,
+    /// Size of its rounding, in units of the rounding of a number.
+    pub scale: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn functionals_are_written_as_the_protocol_states() {
+        let written = serde_json::to_value(Functional::PositionOf { particle: 63, axis: 0 });
+        let expected = serde_json::json!({"functional": "position_of", "particle": 63, "axis": 0});
+        assert_eq!(written.ok(), Some(expected));
+    }
+}

@@ -1,0 +1,120 @@
+//! The convergence study: computes every number, resolves every name and checks the exact solution.
+
+use super::check::size::LevelPaths;
+use super::check::{self, size, steps, sums};
+use super::expect::any_method;
+use super::run::{self, places, reference, refine};
+use super::scene;
+use super::truth::{self, conduction, conservation_only};
+use crate::suite::evaluator::Evaluator;
+use crate::suite::grammar::{AcknowledgeSpec, ConvergenceSpec, WarningName};
+use crate::suite::model::ConvergencePlan;
+use crate::suite::model::method::AnyMethod;
+use crate::suite::yaml::{Diagnostic, Path};
+
+/// Default number of instants at which the error is measured.
+const INSTANTS: u64 = 50;
+
+/// A convergence study with compiled scene, exact solution, levels and cases.
+struct Compiled<'a> {
+    evaluator: &'a Evaluator<'a>,
+    spec: &'a ConvergenceSpec,
+    plan: &'a ConvergencePlan,
+    /// Paths of the levels in the file.
+    levels: Vec<LevelPaths>,
+    /// End of the longest run (s).
+    latest: f64,
+}
+
+/// A check of keys that belong together.
+type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
+
+/// Checks of a convergence study before its expectations are read. They are independent: their
+/// order only determines which of several errors is reported.
+const CROSS_CHECKS: [CrossCheck; 8] = [
+    |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
+    |suite| truth::refuse_violated(suite.evaluator, suite.spec, suite.plan),
+    |suite| check::refuse_law_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
+    |suite| check::refuse_foreign(suite.evaluator, suite.spec, &suite.plan.scene, suite.latest),
+    |suite| conservation_only::refuse_need_of_truth(suite.evaluator, suite.spec, suite.plan),
+    |suite| check::refuse_quantity_unknown_to_fem(suite.evaluator, suite.spec, suite.plan),
+    |suite| size::refuse_unfit_levels(suite.evaluator, suite.spec, suite.plan, &suite.levels),
+    |suite| steps::refuse_unusable(suite.evaluator, suite.plan, &suite.levels),
+];
+
+/// Checks the scene, exact solution, levels, cases and expectations of a convergence study.
+pub(crate) fn convergence_plan(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+) -> Result<ConvergencePlan, Diagnostic> {
+    let scene = scene::scene(evaluator, &spec.scene)?;
+    let (refine, levels) = refine::plan(evaluator, spec, &scene)?;
+    let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
+        evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
+    })?;
+    let until = run::until(evaluator, &spec.run.until)?;
+    let latest = until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
+    let conduction = conduction::conduction(evaluator, spec, &scene, latest)?;
+    let exact = match &conduction {
+        Some(_) => None,
+        None => truth::exact(evaluator, spec, &scene, latest)?,
+    };
+    let dimension = scene.dimension();
+    let reference =
+        spec.reference.as_ref().map(|spec| reference::reference(evaluator, spec, dimension));
+    let reference = reference.transpose()?.flatten();
+    let same_method = reference::same_method(evaluator, spec, &scene, &refine, &until, instants)?;
+    let observe = spec.observe.as_ref().map(|spec| places::observed(evaluator, spec, &scene));
+    let scale = spec.judge.scale.as_ref().map(|text| {
+        evaluator.positive(&Path::top("judge").then("scale"), text, "the scale of the error")
+    });
+    let scatter = places::scatter(evaluator, spec, &scene)?;
+    let mut plan = ConvergencePlan {
+        observe: observe.transpose()?,
+        scene,
+        exact,
+        conduction,
+        reference,
+        same_method,
+        refine,
+        scatter,
+        instants,
+        norm: spec.judge.norm,
+        of: spec.judge.of,
+        sum: None,
+        scale: scale.transpose()?,
+        crossing_levels: spec.judge.crossing_levels,
+        any_method: AnyMethod::default(),
+        cases: Vec::new(),
+        acknowledged: acknowledged(evaluator, &spec.acknowledge)?,
+    };
+    plan.cases = run::cases(evaluator, spec, &plan, &until)?;
+    let compiled = Compiled { evaluator, spec, plan: &plan, levels, latest };
+    CROSS_CHECKS.iter().try_for_each(|check| check(&compiled))?;
+    // The exact value of a sum comes from a solution that has been checked.
+    plan.sum = sums::judged(evaluator, spec, &plan)?;
+    plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
+    if let Some(spec) = &spec.any_method {
+        plan.any_method = any_method(evaluator, spec, &plan)?;
+    }
+    plan.cases = run::expected(evaluator, spec, &plan)?;
+    Ok(plan)
+}
+
+/// The warnings that a suite acknowledges. Each must have a reason, and occur once.
+fn acknowledged(
+    evaluator: &Evaluator<'_>,
+    specs: &[AcknowledgeSpec],
+) -> Result<Vec<WarningName>, Diagnostic> {
+    let mut names = Vec::new();
+    for (i, spec) in specs.iter().enumerate() {
+        let path = Path::top("acknowledge").then(i);
+        evaluator.because(&path, "an acknowledged warning", &spec.because)?;
+        if names.contains(&spec.warning) {
+            let message = format!("`{}` is acknowledged twice", spec.warning.name());
+            return Err(evaluator.diagnostic(&path.then("warning"), &message));
+        }
+        names.push(spec.warning);
+    }
+    Ok(names)
+}

@@ -1,0 +1,391 @@
+//! The gradient study: functional, parameters, exact sensitivities, and expectations.
+
+use super::convergence::convergence_plan;
+use super::expect::assign;
+use super::scene;
+use crate::exact::ParametricMotion;
+use crate::subject::{Functional, GradientParameter, PlaneState, Precision};
+use crate::suite::evaluator::{Evaluator, coordinates_and_time, shown, suggestion};
+use crate::suite::grammar::{
+    FunctionalSpec, GradientExpectSpec, GradientSpec, MethodSpec, ParameterSpec,
+};
+use crate::suite::model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan};
+use crate::suite::model::{Case, ConvergencePlan, Scene};
+use crate::suite::yaml::{Diagnostic, NumberText, Path, Source};
+use crate::verify::{Axis, GradientTerms};
+
+/// Maximum number of points of a sweep.
+const MOST_POINTS: u64 = 1000;
+
+/// Change of a parameter for which the stated solution must solve the problem as well.
+const CHANGE: f64 = 1.0 / 64.0;
+
+/// Checks a gradient study.
+pub(crate) fn plan(
+    evaluator: &Evaluator<'_>,
+    source: &Source,
+    spec: &GradientSpec,
+) -> Result<GradientPlan, Diagnostic> {
+    let methods = methods(evaluator, spec)?;
+    let problem = convergence_plan(evaluator, &spec.convergence(methods))?;
+    refuse_unfit_problem(evaluator, spec, &problem)?;
+    let of = functional(evaluator, spec, &problem)?;
+    let parameters = parameters(evaluator, source, spec, &problem)?;
+    let level = level(evaluator, spec, &problem)?;
+    let sweep = sweep(evaluator, spec, &parameters)?;
+    let mut plan = GradientPlan { problem, of, parameters, level, sweep, cases: Vec::new() };
+    plan.cases = cases(evaluator, spec, &plan)?;
+    Ok(plan)
+}
+
+/// The external solvers of the suite; one without a name if it states none.
+fn methods(evaluator: &Evaluator<'_>, spec: &GradientSpec) -> Result<Vec<MethodSpec>, Diagnostic> {
+    let is_other = |method: &MethodSpec| !matches!(method, MethodSpec::External { .. });
+    if let Some(i) = spec.methods.iter().position(is_other) {
+        let message = "gradients are those of external solvers; this crate has none";
+        let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), message);
+        return Err(diagnostic.with_help("write `external: {name: my-solver}`"));
+    }
+    if !spec.methods.is_empty() {
+        return Ok(spec.methods.clone());
+    }
+    let (name, precision) = ("solver".to_owned(), Some(Precision::Double));
+    Ok(vec![MethodSpec::External { name, formal_order: None, precision }])
+}
+
+/// Refuses a problem whose exact sensitivities are not defined here.
+fn refuse_unfit_problem(
+    evaluator: &Evaluator<'_>,
+    spec: &GradientSpec,
+    problem: &ConvergencePlan,
+) -> Result<(), Diagnostic> {
+    let scene: &Scene = &problem.scene;
+    let top = |key: &str| Path::top("scene").then(key);
+    let refused = [
+        (!scene.bodies.is_empty(), top("bodies"), "gradients are those of one body"),
+        (scene.outline.is_some(), top("body"), "gradients are those of a box"),
+        (scene.plane != PlaneState::Strain, top("plane"), "gradients are those of plane strain"),
+        (
+            !scene.initial_displacement.is_empty(),
+            top("initial_displacement"),
+            "the body of a gradient study starts undeformed",
+        ),
+        (
+            !scene.initial_stress.is_none(),
+            top("initial_stress"),
+            "the body of a gradient study starts without stress",
+        ),
+        (
+            spec.run.until.as_slice().len() > 1,
+            Path::top("run").then("until"),
+            "a gradient study has one end of the run",
+        ),
+        (
+            spec.run.instants.is_some(),
+            Path::top("run").then("instants"),
+            "a gradient study uses the state at the end of the run only",
+        ),
+        (
+            spec.exact.displacement.is_none() || spec.exact.temperature.is_some(),
+            Path::top("exact"),
+            "the exact solution of a gradient study is a displacement",
+        ),
+        (
+            problem.refine.axis != Axis::Space,
+            Path::top("refine"),
+            "a gradient study refines `cells`",
+        ),
+        (
+            problem.refine.rule.is_some(),
+            Path::top("run").then("dt"),
+            "the time step of a gradient study does not depend on the method",
+        ),
+    ];
+    match refused.into_iter().find(|(is_refused, ..)| *is_refused) {
+        Some((_, path, message)) => Err(evaluator.diagnostic_at_key(&path, message)),
+        None => Ok(()),
+    }
+}
+
+/// A whole number below `count`.
+fn index(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    text: &NumberText,
+    (what, count): (&str, usize),
+) -> Result<usize, Diagnostic> {
+    let value = evaluator.number(path, text)?;
+    if value >= 0.0 && value.fract() == 0.0 && value < count as f64 {
+        return Ok(value as usize);
+    }
+    let diagnostic = evaluator.diagnostic(path, &format!("the {what} is {}", shown(value)));
+    Err(diagnostic.with_label(&format!("expected a whole number from 0 to {}", count - 1)))
+}
+
+fn functional(
+    evaluator: &Evaluator<'_>,
+    spec: &GradientSpec,
+    problem: &ConvergencePlan,
+) -> Result<Functional, Diagnostic> {
+    let path = Path::top("gradient").then("of");
+    let axis = |name: &str, text: &NumberText| {
+        let count = ("axis", problem.scene.dimension());
+        index(evaluator, &path.then(name).then("axis"), text, count)
+    };
+    Ok(match &spec.gradient.of {
+        FunctionalSpec::MeanDisplacement { axis: text } => {
+            Functional::MeanDisplacement { axis: axis("mean_displacement", text)? }
+        }
+        FunctionalSpec::MeanSquareDisplacement => Functional::MeanSquareDisplacement,
+        FunctionalSpec::KineticEnergy => Functional::KineticEnergy,
+        FunctionalSpec::PositionOf { particle, axis: text } => {
+            let count = ("index of the particle", coarsest_particles(problem));
+            let at = path.then("position_of").then("particle");
+            let particle = index(evaluator, &at, particle, count)?;
+            Functional::PositionOf { particle, axis: axis("position_of", text)? }
+        }
+    })
+}
+
+/// Number of particles of the coarsest level, at least one.
+fn coarsest_particles(problem: &ConvergencePlan) -> usize {
+    let scene = &problem.scene;
+    let Some(level) = problem.refine.levels.first() else { return 1 };
+    let cells = scene.from.iter().zip(&scene.to).map(|(from, to)| (to - from) / level.h);
+    let cells: f64 = cells.map(libm::round).product();
+    (cells * level.ppc.unwrap_or(1) as f64).max(1.0) as usize
+}
+
+fn parameters(
+    evaluator: &Evaluator<'_>,
+    source: &Source,
+    spec: &GradientSpec,
+    problem: &ConvergencePlan,
+) -> Result<Vec<Differentiated>, Diagnostic> {
+    let path = Path::top("gradient").then("with_respect_to");
+    let entries = spec.gradient.with_respect_to.as_slice();
+    if entries.is_empty() {
+        let diagnostic = evaluator.diagnostic(&path, "there is no parameter");
+        return Err(diagnostic.with_help("write `with_respect_to: {young: E}`"));
+    }
+    let one = |(key, name): &(String, String)| {
+        let path = path.then(key.as_str());
+        let all = GradientParameter::ALL;
+        let Some(parameter) = all.iter().find(|one| one.name() == key) else {
+            let known: Vec<&str> = all.iter().map(|one| one.name()).collect();
+            let message = format!("`{key}` is not a parameter of a problem");
+            let diagnostic = evaluator.diagnostic_at_key(&path, &message);
+            return Err(diagnostic.with_help(&suggestion("parameters", key, &known)));
+        };
+        differentiated(evaluator, source, spec, problem, &path, (*parameter, name))
+    };
+    let all = entries.iter().map(one).collect::<Result<Vec<Differentiated>, Diagnostic>>()?;
+    let has_velocity = all.iter().any(|one| one.parameter == GradientParameter::InitialVelocity);
+    let is_total = |one: &Differentiated| {
+        one.velocity_factor != 0.0 && one.parameter != GradientParameter::InitialVelocity
+    };
+    match all.iter().find(|one| is_total(one)) {
+        Some(one) if !has_velocity => {
+            let name = &one.name;
+            let message = format!("the initial velocity depends on `{name}`");
+            let diagnostic = evaluator.diagnostic(&path.then(one.parameter.name()), &message);
+            Err(diagnostic.with_help("add `initial_velocity` to `with_respect_to`"))
+        }
+        _ => Ok(all),
+    }
+}
+
+/// The parameter of the problem that the parameter `name` of the suite sets.
+fn differentiated(
+    evaluator: &Evaluator<'_>,
+    source: &Source,
+    spec: &GradientSpec,
+    problem: &ConvergencePlan,
+    path: &Path,
+    (parameter, name): (GradientParameter, &String),
+) -> Result<Differentiated, Diagnostic> {
+    let declared = spec.parameters.as_slice();
+    if spec.parameters.get(name).is_none() {
+        let known: Vec<&str> = declared.iter().map(|(name, _)| name.as_str()).collect();
+        let message = format!("`{name}` is not a parameter of this suite");
+        let diagnostic = evaluator.diagnostic(path, &message);
+        return Err(diagnostic.with_help(&suggestion("parameters", name, &known)));
+    }
+    let value = evaluator.number(path, &NumberText::Formula(name.clone()))?;
+    if value == 0.0 {
+        let message = format!("`{name}` is 0, and a perturbation is a share of it");
+        return Err(evaluator.diagnostic(path, &message).with_label("expected another value"));
+    }
+    let motion = motion(evaluator, spec, problem, name, value)?;
+    let factor = motion.velocity_factor().ok_or_else(|| {
+        let message = format!("the initial velocity changes its shape with `{name}`");
+        evaluator.diagnostic(path, &message)
+    })?;
+    if !motion.starts_at_rest_position() {
+        let message = "the body of a gradient study starts undeformed";
+        return Err(evaluator.diagnostic_at_key(&Path::top("exact").then("displacement"), message));
+    }
+    let growth = factor * value;
+    let other = value * (1.0 + CHANGE);
+    let is_set = sets(parameter, &problem.scene, value, growth)
+        && with_value(source, spec, (name, other), |evaluator| {
+            let scene = scene::scene(evaluator, &spec.scene)?;
+            Ok(sets(parameter, &scene, other, growth))
+        })?;
+    if !is_set {
+        let key = parameter.name();
+        let message = format!("`{name}` does not set the parameter `{key}` of the problem");
+        let help = match parameter {
+            GradientParameter::InitialVelocity => {
+                format!("the initial velocity must be proportional to `{name}`")
+            }
+            _ => format!("write `{key}: {name}` in the scene"),
+        };
+        return Err(evaluator.diagnostic(path, &message).with_help(&help));
+    }
+    let solver =
+        MethodSpec::External { name: "solver".to_owned(), formal_order: None, precision: None };
+    let check = |evaluator: &Evaluator<'_>| {
+        convergence_plan(evaluator, &spec.convergence(vec![solver])).map(|_| ())
+    };
+    with_value(source, spec, (name, other), check).map_err(|error| {
+        let reason = error.message();
+        let message = format!("the suite does not hold for {name} = {}: {reason}", shown(other));
+        evaluator.diagnostic(path, &message)
+    })?;
+    Ok(Differentiated { parameter, name: name.clone(), motion, velocity_factor: factor })
+}
+
+/// Whether `value` is that of the parameter in `scene`. An initial velocity is set by a parameter
+/// to which it is proportional: `growth`, its relative growth, is 1.
+fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) -> bool {
+    let of_material = || {
+        let parameters = scene.material.keyed_parameters();
+        parameters.into_iter().find(|(key, _)| *key == parameter.name()).map(|(_, value)| value)
+    };
+    match parameter {
+        GradientParameter::InitialVelocity => (growth - 1.0).abs() <= 1e-12,
+        GradientParameter::Density => scene.density == value,
+        GradientParameter::Friction => scene
+            .faces
+            .iter()
+            .any(|face| face.hold.numbers().constants.contains(&("coefficient", value))),
+        _ => of_material() == Some(value),
+    }
+}
+
+/// The result of `check` with another value of a parameter of the suite.
+fn with_value<T>(
+    source: &Source,
+    spec: &GradientSpec,
+    (name, value): (&str, f64),
+    check: impl FnOnce(&Evaluator<'_>) -> Result<T, Diagnostic>,
+) -> Result<T, Diagnostic> {
+    let number = ParameterSpec::Number(NumberText::Number(value));
+    let parameters = spec.parameters.clone().with(name, number);
+    let (evaluator, _) = Evaluator::new(source, &parameters, &spec.functions)?;
+    check(&evaluator)
+}
+
+/// The exact motion as a function of the parameter `name`.
+fn motion(
+    evaluator: &Evaluator<'_>,
+    spec: &GradientSpec,
+    problem: &ConvergencePlan,
+    name: &str,
+    value: f64,
+) -> Result<ParametricMotion, Diagnostic> {
+    let free = evaluator.with_free(name, &spec.parameters, &spec.functions)?;
+    let path = Path::top("exact").then("displacement");
+    let mut variables = coordinates_and_time(problem.scene.dimension());
+    variables.push(name);
+    let texts = spec.exact.displacement.iter().flatten().enumerate();
+    let formulas = texts.map(|(i, text)| free.formula(&path.then(i), text, &variables));
+    Ok(ParametricMotion {
+        from: problem.scene.from.clone(),
+        to: problem.scene.to.clone(),
+        displacement: formulas.collect::<Result<_, _>>()?,
+        value,
+    })
+}
+
+/// Index of the level on which parameters are perturbed.
+fn level(
+    evaluator: &Evaluator<'_>,
+    spec: &GradientSpec,
+    problem: &ConvergencePlan,
+) -> Result<usize, Diagnostic> {
+    let levels = &problem.refine.levels[..problem.refine.usual];
+    let Some(text) = &spec.gradient.cells else { return Ok(levels.len().saturating_sub(1)) };
+    let path = Path::top("gradient").then("cells");
+    let cells = evaluator.count(&path, text, "the number of cells")?;
+    levels.iter().position(|level| level.cells == cells).ok_or_else(|| {
+        let known: Vec<String> = levels.iter().map(|level| level.cells.to_string()).collect();
+        let diagnostic = evaluator.diagnostic(&path, &format!("no level has {cells} cells"));
+        diagnostic.with_label(&format!("expected one of {}", known.join(", ")))
+    })
+}
+
+fn sweep(
+    evaluator: &Evaluator<'_>,
+    spec: &GradientSpec,
+    parameters: &[Differentiated],
+) -> Result<Option<SweepPlan>, Diagnostic> {
+    let Some(sweep) = &spec.gradient.sweep else { return Ok(None) };
+    let path = Path::top("gradient").then("sweep");
+    let found = parameters.iter().find(|one| one.parameter.name() == sweep.parameter);
+    let Some(parameter) = found.map(|one| one.parameter) else {
+        let known: Vec<&str> = parameters.iter().map(|one| one.parameter.name()).collect();
+        let message = format!("`{}` is not among `with_respect_to`", sweep.parameter);
+        let diagnostic = evaluator.diagnostic(&path.then("parameter"), &message);
+        return Err(diagnostic.with_help(&suggestion("parameters", &sweep.parameter, &known)));
+    };
+    let at = path.then("within");
+    let within = evaluator.positive(&at, &sweep.within, "half of the interval")?;
+    if !(within < 1.0) {
+        let message = format!("half of the interval is {} of the parameter", shown(within));
+        return Err(evaluator.diagnostic(&at, &message).with_label("expected a share below 1"));
+    }
+    let at = path.then("points");
+    let points = evaluator.count(&at, &sweep.points, "the number of points")?;
+    if !(2..=MOST_POINTS).contains(&points) {
+        let diagnostic = evaluator.diagnostic(&at, &format!("a sweep of {points} points"));
+        return Err(diagnostic.with_label(&format!("expected 2 to {MOST_POINTS}")));
+    }
+    Ok(Some(SweepPlan { parameter, within, points }))
+}
+
+fn cases(
+    evaluator: &Evaluator<'_>,
+    spec: &GradientSpec,
+    plan: &GradientPlan,
+) -> Result<Vec<GradientCase>, Diagnostic> {
+    let of_solver = |solver: &Case| plan.cases_of(&solver.name, solver);
+    let cases: Vec<GradientCase> = plan.problem.cases.iter().flat_map(of_solver).collect();
+    let names: Vec<&str> = cases.iter().map(|case| case.name.as_str()).collect();
+    let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, &selectors, &names)?;
+    let stated = spec.expect.iter().enumerate().map(|(i, spec)| terms(evaluator, i, spec));
+    let stated = stated.collect::<Result<Vec<(GradientTerms, String)>, _>>()?;
+    let with = |(case, owner): (GradientCase, Option<usize>)| GradientCase {
+        expected: owner.map(|owner| stated[owner].clone()),
+        ..case
+    };
+    Ok(cases.iter().cloned().zip(owners).map(with).collect())
+}
+
+fn terms(
+    evaluator: &Evaluator<'_>,
+    entry: usize,
+    spec: &GradientExpectSpec,
+) -> Result<(GradientTerms, String), Diagnostic> {
+    let path = Path::top("expect").then(entry);
+    let order = spec.order.as_ref().map(|pair| evaluator.interval(&path.then("order"), pair));
+    let order = order.transpose()?;
+    if spec.state.is_none() && order.is_none() {
+        let diagnostic = evaluator.diagnostic(&path, "nothing is expected");
+        return Err(diagnostic.with_label("expected `state`, `order`, or both"));
+    }
+    let because = evaluator.because(&path, "an expectation", &spec.because)?;
+    Ok((GradientTerms { state: spec.state, order, finest: None }, because))
+}

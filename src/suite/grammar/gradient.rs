@@ -1,0 +1,148 @@
+//! Keys of a gradient study.
+
+use super::convergence::RunSpec;
+use super::{
+    ConvergenceSpec, ExactSpec, MethodSpec, ParameterSpec, RefineSpec, SceneSpec, StudyName,
+};
+use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
+use crate::verify::GradientState;
+use serde::Deserialize;
+
+/// A study of the derivatives that a differentiable solver reports.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GradientSpec {
+    /// Name of the suite: lower-case letters, digits and hyphens.
+    pub(crate) suite: String,
+    /// Kind of study: `gradient`.
+    #[serde(rename = "study")]
+    pub(crate) _study: StudyName,
+    /// Headline of the report.
+    pub(crate) title: String,
+    /// Where the problem comes from.
+    pub(crate) source: String,
+    /// Remarks for a reader of the report.
+    #[serde(default)]
+    pub(crate) about: String,
+    /// Numbers, formulas of the parameters above them, or tables; each must be used.
+    #[serde(default)]
+    pub(crate) parameters: Ordered<ParameterSpec>,
+    /// Functions for formulas that need something more than once: `s(tau): "..."`.
+    #[serde(default)]
+    pub(crate) functions: Ordered<String>,
+    /// The body, its boundary conditions and its loads.
+    pub(crate) scene: SceneSpec,
+    /// The solution as formulas, checked before any solver runs.
+    pub(crate) exact: ExactSpec,
+    /// The derivatives that are verified.
+    pub(crate) gradient: DerivativeSpec,
+    /// End and time step of a run.
+    pub(crate) run: RunSpec,
+    /// Levels: cells from coarse to fine.
+    pub(crate) refine: RefineSpec,
+    /// External solvers with an expectation.
+    #[serde(default)]
+    pub(crate) methods: Vec<MethodSpec>,
+    /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
+    #[serde(default)]
+    pub(crate) expect: Vec<GradientExpectSpec>,
+}
+
+impl GradientSpec {
+    /// The convergence study with the same problem and levels, for `methods`. Only the state at the
+    /// end of a run is used.
+    pub(crate) fn convergence(&self, methods: Vec<MethodSpec>) -> ConvergenceSpec {
+        let run = RunSpec { instants: Some(NumberText::Number(1.0)), ..self.run.clone() };
+        ConvergenceSpec {
+            suite: self.suite.clone(),
+            _study: None,
+            title: self.title.clone(),
+            source: self.source.clone(),
+            about: String::new(),
+            parameters: self.parameters.clone(),
+            functions: self.functions.clone(),
+            scene: self.scene.clone(),
+            exact: Some(self.exact.clone()),
+            manufactured: None,
+            equilibrium: None,
+            reference: None,
+            run,
+            refine: self.refine.clone(),
+            particles: None,
+            methods,
+            judge: super::convergence::JudgeSpec::default(),
+            observe: None,
+            expect: Vec::new(),
+            acknowledge: Vec::new(),
+            any_method: None,
+        }
+    }
+}
+
+/// The derivatives that are verified.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DerivativeSpec {
+    /// Functional of the state at the end of the run.
+    pub(crate) of: FunctionalSpec,
+    /// Parameters of the problem (`young`, `density`, ...), each with the parameter of the suite
+    /// that sets it.
+    pub(crate) with_respect_to: Ordered<String>,
+    /// Cells of the level on which parameters are perturbed; those of the finest unless stated.
+    pub(crate) cells: Option<NumberText>,
+    /// Interval of one parameter.
+    pub(crate) sweep: Option<GradientSweepSpec>,
+}
+
+/// A functional of the state at the end of the run.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub(crate) enum FunctionalSpec {
+    /// Mean of a component of the displacement, weighted with the masses.
+    MeanDisplacement {
+        /// Axis, from 0.
+        axis: NumberText,
+    },
+    /// Mean square of the displacement, weighted with the masses.
+    MeanSquareDisplacement,
+    /// Kinetic energy.
+    KineticEnergy,
+    /// Position of one particle.
+    PositionOf {
+        /// Index of the particle, from 0.
+        particle: NumberText,
+        /// Axis, from 0.
+        axis: NumberText,
+    },
+}
+
+/// An interval of one parameter, around its value.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GradientSweepSpec {
+    /// Name of the parameter, as in `with_respect_to`.
+    pub(crate) parameter: String,
+    /// Half of the interval, as a share of the value of the parameter.
+    pub(crate) within: NumberText,
+    /// Number of points.
+    pub(crate) points: NumberText,
+}
+
+/// An expectation of a gradient study.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GradientExpectSpec {
+    /// Cases that it speaks of, `*` standing for any text; all unless stated.
+    pub(crate) case: Option<OneOrMany<String>>,
+    /// State of the derivative; any but `wrong` unless stated.
+    pub(crate) state: Option<GradientState>,
+    /// Lowest and highest order of the error of the derivative.
+    pub(crate) order: Option<Vec<NumberText>>,
+    /// The reason for expecting it.
+    pub(crate) because: String,
+}

@@ -1,0 +1,128 @@
+//! A gradient study whose keys have all been checked.
+
+use super::method::{ExternalMethod, GateTerms, Method};
+use super::study_plan::{StudyPlan, kept};
+use super::{Case, ConvergencePlan};
+use crate::exact::ParametricMotion;
+use crate::subject::{Functional, GradientParameter};
+use crate::verify::{Gating, GradientTerms};
+use std::sync::Arc;
+
+/// A study of the derivatives that a differentiable solver reports.
+#[derive(Debug, Clone)]
+pub struct GradientPlan {
+    /// The problem and its levels, with one case.
+    pub problem: ConvergencePlan,
+    /// The functional.
+    pub of: Functional,
+    /// The parameters, in the order of the file.
+    pub parameters: Vec<Differentiated>,
+    /// Index of the level on which parameters are perturbed.
+    pub level: usize,
+    /// Interval of one parameter.
+    pub sweep: Option<SweepPlan>,
+    /// The cases.
+    pub cases: Vec<GradientCase>,
+}
+
+/// A parameter with respect to which the functional is differentiated.
+#[derive(Debug, Clone)]
+pub struct Differentiated {
+    /// The parameter of the problem.
+    pub parameter: GradientParameter,
+    /// The parameter of the suite that sets it.
+    pub name: String,
+    /// The exact motion as a function of the parameter of the suite.
+    pub motion: ParametricMotion,
+    /// The factor c in `dv/dq = c v` of the suite's initial velocity v; 0 if v does not depend on
+    /// the parameter q.
+    pub velocity_factor: f64,
+}
+
+/// An interval of one parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SweepPlan {
+    /// The parameter.
+    pub parameter: GradientParameter,
+    /// Half of the interval, as a share of the value of the parameter.
+    pub within: f64,
+    /// Number of points.
+    pub points: u64,
+}
+
+/// One case: the derivative with respect to one parameter, of one solver.
+#[derive(Debug, Clone)]
+pub struct GradientCase {
+    /// Its name: that of the solver and of the parameter.
+    pub name: String,
+    /// The solver, with its formal order and precision.
+    pub solver: Case,
+    /// Index of the parameter.
+    pub parameter: usize,
+    /// Expectation, and the reason for it; `None` if the suite explores.
+    pub expected: Option<(GradientTerms, String)>,
+    /// Treatment by `run --gate`, of a solver without an expectation.
+    pub gating: Option<Gating>,
+}
+
+impl GradientPlan {
+    /// A case of `solver` for each parameter, named after the solver called `name`.
+    pub(crate) fn cases_of(&self, name: &str, solver: &Case) -> Vec<GradientCase> {
+        let case = |(parameter, one): (usize, &Differentiated)| GradientCase {
+            name: format!("{name}-{}", one.parameter.name().replace('_', "-")),
+            solver: solver.clone(),
+            parameter,
+            expected: None,
+            gating: None,
+        };
+        self.parameters.iter().enumerate().map(case).collect()
+    }
+}
+
+impl StudyPlan for GradientPlan {
+    fn case_names(&self) -> Vec<&str> {
+        self.cases.iter().map(|case| case.name.as_str()).collect()
+    }
+
+    fn expectation(&self, case: usize) -> Option<(String, &str)> {
+        let (terms, because) = self.cases[case].expected.as_ref()?;
+        Some((terms.summary(), because))
+    }
+
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
+        Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
+    }
+
+    fn of_external(
+        &self,
+        solver: ExternalMethod<'_>,
+        terms: Option<&GateTerms>,
+    ) -> Option<Arc<dyn StudyPlan>> {
+        let ExternalMethod { name, formal_order, precision } = solver;
+        let mut plan = self.clone();
+        let is_stated = |case: &GradientCase| case.solver.solver.as_deref() == Some(name);
+        if plan.cases.iter().any(is_stated) {
+            plan.cases.retain(is_stated);
+        } else {
+            let method = Method::External { formal_order, precision };
+            let template = self.problem.cases.first()?.clone();
+            let solver = Case { method, solver: Some(name.to_owned()), ..template };
+            plan.cases = self.cases_of(name, &solver);
+        }
+        for case in plan.cases.iter_mut().filter(|case| case.expected.is_none()) {
+            let Some(terms) = terms else { continue };
+            if let Some(reason) = &terms.skip {
+                case.gating = Some(Gating::Excepted(reason.clone()));
+                continue;
+            }
+            let order = terms.order.or(terms.formal_order).unwrap_or(formal_order);
+            let because = if terms.because.is_empty() {
+                "the derivative of an accurate state has the order of the state".to_owned()
+            } else {
+                terms.because.clone()
+            };
+            case.expected = Some((GradientTerms::of_gate(order), because));
+        }
+        Some(Arc::new(plan))
+    }
+}

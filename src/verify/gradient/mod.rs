@@ -1,0 +1,33 @@
+//! Judging of the derivatives that a differentiable solver reports.
+//!
+//! ```text
+//! taylor   the remainder of a derivative at one value of the parameter
+//! sweep    the derivative over an interval of the parameter
+//! study    all checks of one parameter, and the state of its derivative
+//! ```
+
+mod study;
+mod sweep;
+mod taylor;
+
+pub use study::{GradientLevel, GradientStudy, GradientTerms, ValueCheck};
+pub use sweep::{Sweep, SweepPoint};
+pub use taylor::{FIRST_LEVEL, LAST_LEVEL, Perturbed, Taylor};
+
+use crate::named::named;
+
+named! {
+    /// GradientState of a reported derivative.
+    pub enum GradientState {
+        /// The derivative is correct, and the function has no jumps nearby.
+        Smooth = "smooth",
+        /// The derivative is correct at the point, and the function has jumps nearby.
+        Jumps = "jumps",
+        /// The derivative is correct, and the function is linear in the parameter.
+        Linear = "linear",
+        /// Rounding hides the remainder: no verdict.
+        AtRounding = "at_rounding",
+        /// The derivative is not that of the function.
+        Wrong = "wrong",
+    }
+}

@@ -1,0 +1,232 @@
+//! All checks of the derivative with respect to one parameter.
+
+use super::{GradientState, Sweep, SweepPoint, Taylor};
+use crate::verify::StudyResults;
+use crate::verify::order::format_number::format_number;
+
+/// Allowed difference between the order of the derivative and the formal order.
+const ORDER: f64 = 0.15;
+
+/// Allowed difference between the order of the finest pair of levels and the formal order.
+const FINEST: f64 = 0.25;
+
+/// Value of the functional as the solver reports it with the gradient, and as the harness computes
+/// it from the state of a plain run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ValueCheck {
+    /// Value reported with the gradient.
+    pub reported: f64,
+    /// Value computed from the state of a plain run.
+    pub computed: f64,
+    /// Allowed difference.
+    pub tolerance: f64,
+}
+
+impl ValueCheck {
+    /// Whether both values agree.
+    pub fn agrees(&self) -> bool {
+        (self.reported - self.computed).abs() <= self.tolerance
+    }
+}
+
+/// One level of refinement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GradientLevel {
+    /// Cells along the first axis.
+    pub cells: u64,
+    /// Cell size (m).
+    pub h: f64,
+    /// Time step (s).
+    pub dt: f64,
+    /// The reported derivative, total where the suite's initial velocity depends on the parameter.
+    pub gradient: f64,
+    /// The exact derivative.
+    pub exact: f64,
+}
+
+impl GradientLevel {
+    /// Magnitude of the error of the derivative.
+    pub fn error(&self) -> f64 {
+        (self.gradient - self.exact).abs()
+    }
+}
+
+/// Results of all checks of the derivative with respect to one parameter.
+#[derive(Debug, Clone)]
+pub struct GradientStudy {
+    /// Name of the functional.
+    pub functional: &'static str,
+    /// Name of the parameter.
+    pub parameter: &'static str,
+    /// Check 1, on the level on which the parameter is perturbed.
+    pub value: ValueCheck,
+    /// Check 2: the Taylor remainder.
+    pub taylor: Taylor,
+    /// Check 3: the derivative on all levels.
+    pub levels: Vec<GradientLevel>,
+    /// Check 4: the derivative over an interval of the parameter.
+    pub sweep: Option<Sweep>,
+    /// The points of the sweep.
+    pub points: Vec<SweepPoint>,
+}
+
+impl StudyResults for GradientStudy {
+    fn fails(&self) -> bool {
+        self.state().0 == GradientState::Wrong
+    }
+}
+
+impl GradientStudy {
+    /// The state of the derivative, and the figures that lead to it.
+    pub fn state(&self) -> (GradientState, String) {
+        if !self.value.agrees() {
+            let ValueCheck { reported, computed, .. } = self.value;
+            let reason = format!(
+                "the value {reported:e} that comes with the gradient is not that of a plain run, \
+                 {computed:e}"
+            );
+            return (GradientState::Wrong, reason);
+        }
+        let (state, reason) = self.taylor.judge();
+        match &self.sweep {
+            Some(sweep) if matches!(state, GradientState::Wrong | GradientState::AtRounding) => {
+                (state, format!("{reason}; {}", sweep.summary()))
+            }
+            Some(sweep) if !sweep.is_smooth() => {
+                (GradientState::Jumps, format!("{reason}; {}", sweep.summary()))
+            }
+            Some(sweep) => (state, format!("{reason}; {}", sweep.summary())),
+            None => (state, reason),
+        }
+    }
+
+    /// Orders of the error of the derivative between consecutive levels.
+    pub fn pairwise_orders(&self) -> Vec<f64> {
+        let order = |pair: &[GradientLevel]| {
+            libm::log(pair[0].error() / pair[1].error()) / libm::log(pair[0].h / pair[1].h)
+        };
+        self.levels.windows(2).map(order).collect()
+    }
+
+    /// Order of the error of the derivative: slope of the least-squares line of log error over
+    /// log h. NaN with fewer than two levels, and where an error is zero or not finite.
+    pub fn order(&self) -> f64 {
+        let points = self.levels.iter().map(|level| (libm::log(level.h), libm::log(level.error())));
+        let points: Vec<(f64, f64)> = points.collect();
+        let n = points.len() as f64;
+        let mean = |of: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
+        let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
+        let products = mean(&|p| (p.0 - x) * (p.1 - y));
+        products / mean(&|p| (p.0 - x) * (p.0 - x))
+    }
+}
+
+/// Requirements of a derivative.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct GradientTerms {
+    /// The state.
+    pub state: Option<GradientState>,
+    /// Lowest and highest order of the error of the derivative.
+    pub order: Option<(f64, f64)>,
+    /// Lowest and highest order of the finest pair of levels.
+    pub finest: Option<(f64, f64)>,
+}
+
+impl GradientTerms {
+    /// The requirements of a gate on a solver of this formal order: not `wrong`, and the order.
+    pub fn of_gate(formal_order: f64) -> Self {
+        let around = |width: f64| Some((formal_order - width, formal_order + width));
+        Self { state: None, order: around(ORDER), finest: around(FINEST) }
+    }
+
+    /// The requirements in one line.
+    pub fn summary(&self) -> String {
+        let range = |name: &str, (low, high): (f64, f64)| {
+            format!("{name} {} to {}", format_number(low), format_number(high))
+        };
+        let state = self.state.map_or("not wrong".to_owned(), |state| state.name().to_owned());
+        let order = self.order.map(|order| range("order", order));
+        let finest = self.finest.map(|order| range("order of the finest pair", order));
+        [Some(state), order, finest].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+
+    /// The requirements that `study` does not meet, each in one line.
+    pub fn unmet(&self, study: &GradientStudy) -> Vec<String> {
+        let (state, reason) = study.state();
+        let state_is_met = match self.state {
+            Some(expected) => state == expected,
+            None => state != GradientState::Wrong,
+        };
+        let expected = self.state.map_or("not wrong", GradientState::name);
+        let mut unmet = Vec::new();
+        if !state_is_met {
+            unmet.push(format!("state: expected {expected}, is {}: {reason}", state.name()));
+        }
+        let mut check = |name: &str, range: Option<(f64, f64)>, order: f64| {
+            let Some((low, high)) = range else { return };
+            if !(low <= order && order <= high) {
+                unmet.push(format!("{name}: expected {low:.2} to {high:.2}, is {order:.2}"));
+            }
+        };
+        check("order", self.order, study.order());
+        let finest = study.pairwise_orders().last().copied().unwrap_or(f64::NAN);
+        check("order of the finest pair", self.finest, finest);
+        unmet
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verify::gradient::Perturbed;
+
+    /// A study of J = q^2 at q = 1 on three levels, with `factor` times the derivative.
+    fn study(factor: f64, error: impl Fn(f64) -> f64) -> GradientStudy {
+        let perturbed = |level: i32| {
+            let by = libm::exp2(-f64::from(level));
+            let value = |q: f64| q * q;
+            Perturbed { level: level as u32, by, above: value(1.0 + by), below: value(1.0 - by) }
+        };
+        let level = |cells: u64| {
+            let h = 1.0 / cells as f64;
+            GradientLevel { cells, h, dt: h, gradient: 2.0 + error(h), exact: 2.0 }
+        };
+        let taylor = Taylor {
+            value: 1.0,
+            gradient: 2.0 * factor,
+            rounding: 1e-15,
+            perturbed: (4..=12).map(perturbed).collect(),
+        };
+        GradientStudy {
+            functional: "mean_displacement",
+            parameter: "young",
+            value: ValueCheck { reported: 1.0, computed: 1.0, tolerance: 1e-12 },
+            taylor,
+            levels: [8, 16, 32].map(level).to_vec(),
+            sweep: None,
+            points: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn a_correct_derivative_of_second_order_meets_the_gate() {
+        let study = study(1.0, |h| h * h);
+        assert_eq!(study.state().0, GradientState::Smooth);
+        assert_eq!(GradientTerms::of_gate(2.0).unmet(&study), [""; 0]);
+    }
+
+    #[test]
+    fn each_check_is_named_when_it_fails() {
+        let terms =
+            GradientTerms { state: Some(GradientState::Smooth), ..GradientTerms::of_gate(2.0) };
+        let first = |study: &GradientStudy| terms.unmet(study).remove(0);
+        assert!(first(&study(2.0, |h| h * h)).starts_with("state: expected smooth, is wrong"));
+        assert!(first(&study(1.0, |h| h)).starts_with("order: expected 1.85 to 2.15, is 1.00"));
+        assert!(first(&study(1.0, |_| f64::NAN)).starts_with("order: expected"));
+        let mut other = study(1.0, |h| h * h);
+        other.value.reported = 1.0 + 1e-11;
+        assert!(first(&other).contains("is not that of a plain run"));
+        other.value.reported = f64::NAN;
+        assert_eq!(other.state().0, GradientState::Wrong);
+    }
+}
