@@ -56,6 +56,10 @@ pub(crate) enum MethodSpec {
     /// An external solver, which the command line starts.
     External {
         /// Its name, a part of the case's.
+        #[cfg_attr(
+            feature = "schemas",
+            schemars(extend("type" = ["string", "number", "boolean"]))
+        )]
         name: String,
         /// Theoretical order of its displacements; default 2.
         formal_order: Option<NumberText>,
