@@ -51,7 +51,11 @@ fn a_missing_key_is_shown_with_a_line_that_can_be_pasted() {
     let more = Source::from_text("more.yaml", MORE).expect("a text");
     let texts = embedded::names().filter_map(embedded::source).map(|text| text.expect("a text"));
     let (mut tried, mut missing) = (BTreeSet::new(), BTreeSet::new());
-    for source in texts.chain([more]) {
+    let gradient = embedded::source("gradient-bar").expect("a suite").expect("a text");
+    let of = "position_of: {particle: 0, axis: 0}";
+    let gradient = gradient.text().replace("mean_displacement: {axis: 0}", of);
+    let gradient = Source::from_text("gradient.yaml", &gradient).expect("a text");
+    for source in texts.chain([more, gradient]) {
         let suite: Value = yaml::read(&source).expect("a map");
         grammatical(&suite).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
         let study = suite.get("study").map(Value::to_string);
