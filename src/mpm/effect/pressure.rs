@@ -42,11 +42,7 @@ impl<const D: usize> Pressure<D> {
     }
 
     /// A pressure on a circular rim of a body in the plane, filled with `particles`.
-    pub fn on_rim(
-        particles: &Particles<D>,
-        circle: &RimCircle,
-        value: PressureField<D>,
-    ) -> Self {
+    pub fn on_rim(particles: &Particles<D>, circle: &RimCircle, value: PressureField<D>) -> Self {
         Self { value, site: PressedSurface::Rim(facets(particles, circle)) }
     }
 }
