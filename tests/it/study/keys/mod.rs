@@ -23,8 +23,8 @@ use std::sync::LazyLock;
 /// For each key of the grammar, whether it is a number, and its allowed names.
 type Keys = BTreeMap<String, (bool, Vec<String>)>;
 
-/// Every key that takes a number or one of several names, in all kinds of study that run a method of
-/// this crate. Keys of gradient studies are tested in `external::differentiate`.
+/// Every key that takes a number or one of several names, in all kinds of study that run a method
+/// of this crate. Keys of gradient studies are tested in `external::differentiate`.
 fn keys(grammars: &[(&str, Node)]) -> Keys {
     let mut keys = Keys::new();
     for (study, grammar) in grammars.iter().filter(|(study, _)| *study != "gradient") {
