@@ -55,19 +55,15 @@ fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
     let expected = case.expected.map(ForceExpectation::summary);
     let said = expected.as_deref().unwrap_or_default();
     let unmet = if met { Vec::new() } else { vec![format!("expected: {said}; {reason}")] };
+    let settings = vec![("basis".to_owned(), case.basis.name().to_owned())];
     CaseOutcome {
-        case: case.name.clone(),
-        subject: "mpm",
-        settings: vec![("basis".to_owned(), case.basis.name().to_owned())],
-        profile: None,
         expected,
         because: case.because.clone(),
         verdict: verdict.to_owned(),
         reason,
         unmet,
-        lacks: Vec::new(),
-        exemption: None,
         study: Some(Arc::new(InternalForce { rows })),
+        ..CaseOutcome::new(&case.name, "mpm", settings)
     }
 }
 

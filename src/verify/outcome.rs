@@ -83,6 +83,24 @@ impl SuiteOutcome {
 }
 
 impl CaseOutcome {
+    /// A case that has not run, without an expectation.
+    pub fn new(case: &str, subject: &'static str, settings: Vec<(String, String)>) -> Self {
+        Self {
+            case: case.to_owned(),
+            subject,
+            settings,
+            profile: None,
+            expected: None,
+            because: String::new(),
+            verdict: String::new(),
+            reason: String::new(),
+            unmet: Vec::new(),
+            lacks: Vec::new(),
+            exemption: None,
+            study: None,
+        }
+    }
+
     /// Whether all expectations are met.
     pub fn passed(&self) -> bool {
         self.unmet.is_empty()

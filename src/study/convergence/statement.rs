@@ -172,18 +172,10 @@ pub(crate) fn described(
         });
     let (expected, because) = expected.unzip();
     CaseOutcome {
-        case: case.name.clone(),
-        subject: case.method.subject(),
-        settings: settings(plan, case),
         profile: profiles::of(plan, case),
         expected,
         because: because.unwrap_or_default(),
-        verdict: String::new(),
-        reason: String::new(),
-        unmet: Vec::new(),
-        lacks: Vec::new(),
-        exemption: None,
-        study: None,
+        ..CaseOutcome::new(&case.name, case.method.subject(), settings(plan, case))
     }
 }
 

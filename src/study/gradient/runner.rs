@@ -107,18 +107,9 @@ fn described(
     let (expected, because) =
         case.expected.as_ref().map(|(terms, because)| (terms.summary(), because.clone())).unzip();
     CaseOutcome {
-        case: case.name.clone(),
-        subject: case.solver.method.subject(),
-        settings,
-        profile: None,
         expected,
         because: because.unwrap_or_default(),
-        verdict: String::new(),
-        reason: String::new(),
-        unmet: Vec::new(),
-        lacks: Vec::new(),
-        exemption: None,
-        study: None,
+        ..CaseOutcome::new(&case.name, case.solver.method.subject(), settings)
     }
 }
 

@@ -92,18 +92,9 @@ fn described(run: &CaseRun<'_>) -> CaseOutcome {
     let mut all = run.context.solver.map_or(Vec::new(), SolverFactory::settings);
     all.extend(settings);
     CaseOutcome {
-        case: case.name.clone(),
-        subject: case.method.subject(),
-        settings: all,
-        profile: None,
         expected: case.summary.clone(),
         because: case.because.clone(),
-        verdict: String::new(),
-        reason: String::new(),
-        unmet: Vec::new(),
-        lacks: Vec::new(),
-        exemption: None,
-        study: None,
+        ..CaseOutcome::new(&case.name, case.method.subject(), all)
     }
 }
 
