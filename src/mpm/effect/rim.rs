@@ -6,7 +6,8 @@
 //! wherever linear fields are reproduced. The vectors of area are exact, so that a uniform pressure
 //! has no resultant.
 
-use crate::mpm::foundation::algebra::{Vector, cofactor, dyad};
+use super::surface::put_at_surface;
+use crate::mpm::foundation::algebra::{Vector, cofactor};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
@@ -88,15 +89,11 @@ pub(super) fn press<const D: usize>(
     grid: &mut Grid<D>,
     pressure: impl Fn(&Vector<D>) -> f64,
 ) -> u64 {
-    let is_current = particles.current_position.is_empty();
     for Facet { particle, label, area } in facets {
         let (p, f) = (*particle, &particles.def_grad[*particle]);
         let across = particles.across.get(p).copied().unwrap_or(1.0);
         let force = cofactor(f) * area * (-pressure(label) * across);
-        kernel.p2g_point_force(particles, p, &force, grid);
-        let arm = label - particles.x0[p];
-        let arm = if is_current { f * arm } else { arm };
-        kernel.p2g_point_moment(particles, p, &dyad(&force, &arm), grid);
+        put_at_surface(particles, kernel, grid, p, &force, label - particles.x0[p]);
     }
     2 * facets.len() as u64 * kernel.support()
 }

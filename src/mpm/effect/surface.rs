@@ -152,10 +152,11 @@ impl Surface {
     ) -> u64 {
         for &p in &self.layer {
             let force = traction(p) * self.area(particles, p);
-            kernel.p2g_point_force(particles, p, &force, grid);
-            if self.placement == Placement::Surface {
-                let arm = self.arm(particles, p);
-                kernel.p2g_point_moment(particles, p, &dyad(&force, &arm), grid);
+            match self.placement {
+                Placement::Particles => kernel.p2g_point_force(particles, p, &force, grid),
+                Placement::Surface => {
+                    put_at_surface(particles, kernel, grid, p, &force, self.to_face(particles, p));
+                }
             }
         }
         let passes = match self.placement {
@@ -164,15 +165,25 @@ impl Surface {
         };
         passes * self.layer.len() as u64 * kernel.support()
     }
+}
 
-    /// Vector from particle `p` to the surface, in the configuration of the basis (m).
-    fn arm<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
-        let arm = self.to_face(particles, p);
-        match particles.def_grad.get(p) {
-            Some(f) if particles.current_position.is_empty() => f * arm,
-            _ => arm,
-        }
-    }
+/// Puts `force` on particle `p` with its moment, so that it acts at the end of `arm`, from the
+/// particle to the surface in the reference configuration (m).
+pub(super) fn put_at_surface<const D: usize>(
+    particles: &Particles<D>,
+    kernel: &dyn Kernel<D>,
+    grid: &mut Grid<D>,
+    p: usize,
+    force: &Vector<D>,
+    arm: Vector<D>,
+) {
+    kernel.p2g_point_force(particles, p, force, grid);
+    // In the configuration of the basis.
+    let arm = match particles.def_grad.get(p) {
+        Some(f) if particles.current_position.is_empty() => f * arm,
+        _ => arm,
+    };
+    kernel.p2g_point_moment(particles, p, &dyad(force, &arm), grid);
 }
 
 /// Maximum distance from the face that counts as rounding error, in spacings.
