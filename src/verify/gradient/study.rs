@@ -2,7 +2,9 @@
 
 use super::{GradientState, Sweep, SweepPoint, Taylor};
 use crate::verify::StudyResults;
+use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::format_number::format_number;
+use crate::verify::order::level::{Level, observed_order};
 
 /// Allowed difference between the order of the derivative and the formal order.
 const ORDER: f64 = 0.15;
@@ -100,24 +102,23 @@ impl GradientStudy {
         }
     }
 
-    /// Orders of the error of the derivative between consecutive levels.
+    /// Orders of the error of the derivative between consecutive levels; NaN if undefined.
     pub fn pairwise_orders(&self) -> Vec<f64> {
-        let order = |pair: &[GradientLevel]| {
-            libm::log(pair[0].error() / pair[1].error()) / libm::log(pair[0].h / pair[1].h)
-        };
-        self.levels.windows(2).map(order).collect()
+        let level = |level: &GradientLevel| Level::new(level.h, level.error());
+        let order = |pair: &[GradientLevel]| observed_order(&level(&pair[0]), &level(&pair[1]));
+        self.levels.windows(2).map(|pair| order(pair).unwrap_or(f64::NAN)).collect()
     }
 
     /// Order of the error of the derivative: slope of the least-squares line of log error over
-    /// log h. NaN with fewer than two levels, and where an error is zero or not finite.
+    /// log h. NaN with fewer than two levels, and if an error is zero or not finite.
     pub fn order(&self) -> f64 {
-        let points = self.levels.iter().map(|level| (libm::log(level.h), libm::log(level.error())));
-        let points: Vec<(f64, f64)> = points.collect();
-        let n = points.len() as f64;
-        let mean = |of: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
-        let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
-        let products = mean(&|p| (p.0 - x) * (p.1 - y));
-        products / mean(&|p| (p.0 - x) * (p.0 - x))
+        let point = |(index, level): (usize, &GradientLevel)| LogPoint {
+            level: index,
+            x: libm::log(level.h),
+            y: libm::log(level.error()),
+        };
+        let points: Vec<LogPoint> = self.levels.iter().enumerate().map(point).collect();
+        FittedLine::through(&points).map_or(f64::NAN, |line| line.slope)
     }
 }
 
