@@ -16,7 +16,7 @@ use rayon::prelude::*;
 /// Rounding of a value, in units of the rounding of its largest term.
 const ROUNDING: f64 = 4.0;
 
-/// One case on its way.
+/// Runs of one case.
 pub(super) struct GradientRun<'a> {
     pub(super) suite: &'a str,
     pub(super) plan: &'a GradientPlan,

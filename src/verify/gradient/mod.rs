@@ -17,7 +17,7 @@ pub use taylor::{FIRST_LEVEL, LAST_LEVEL, Perturbed, Taylor};
 use crate::named::named;
 
 named! {
-    /// GradientState of a reported derivative.
+    /// State of a reported derivative.
     pub enum GradientState {
         /// The derivative is correct, and the function has no jumps nearby.
         Smooth = "smooth",
