@@ -171,7 +171,7 @@ fn explained(suite: &Suite, without: Option<Dispensable>) -> Value {
 }
 
 fn line(key: &str, value: &str) -> String {
-    format!("  {key:18}{value}\n")
+    format!("  {key:17} {value}\n")
 }
 
 /// Cost of a step of the case, and its difference without an effect.

@@ -77,7 +77,7 @@ pub fn timed(timed: &TimedSuite) -> String {
 const SECONDS: &str = "of the steps alone, one thread, median of repeats that take turns";
 
 fn row(key: &str, value: &str) -> String {
-    format!("  {key:18}{value}\n")
+    format!("  {key:17} {value}\n")
 }
 
 fn lines(lines: &[String]) -> String {
