@@ -29,7 +29,7 @@ impl Event {
         Err(self.violation(condition, Some(expected), found, Some(allowed), unit))
     }
 
-    /// Whether `found` exceeds `most` by at most `allowed`.
+    /// Whether `found` is a number of at most `most + allowed`.
     pub(crate) fn judge_most(
         &self,
         allowed: f64,
