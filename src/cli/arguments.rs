@@ -4,6 +4,7 @@ use anstream::ColorChoice;
 use clap::{Args, ValueEnum};
 use std::borrow::Cow;
 use std::path::PathBuf;
+use std::str::FromStr;
 use thiserror::Error;
 
 #[derive(Debug, Args)]
@@ -23,6 +24,50 @@ pub(super) struct SolverArgs {
     pub(super) solver: Option<String>,
     #[command(flatten)]
     pub(super) limits: SolverLimitArgs,
+}
+
+/// Solvers, each with a name if there are several, and whether the methods of suites run too.
+#[derive(Debug, Args)]
+pub(super) struct SolversArgs {
+    /// Run the suites with this program in place of their methods: a command with its arguments
+    /// that speaks the protocol of docs/protocol.md. With a name in front (`'mine=python mpm.py'`)
+    /// it can be given repeatedly: the solvers are then in one report
+    #[arg(long, value_name = "[NAME=]COMMAND")]
+    pub(super) solver: Vec<SolverCommand>,
+    /// Run the methods of the suites too, in the same report
+    #[arg(long, requires = "solver")]
+    pub(super) with_methods: bool,
+    #[command(flatten)]
+    pub(super) limits: SolverLimitArgs,
+}
+
+/// A value of `--solver`.
+#[derive(Debug, Clone)]
+pub(super) struct SolverCommand {
+    /// Name in reports; the solver's own if there is none.
+    pub(super) name: Option<String>,
+    pub(super) command: String,
+}
+
+impl FromStr for SolverCommand {
+    type Err = Expected;
+
+    /// Reads `NAME=COMMAND` or `COMMAND`. A name has letters, digits, `-`, `_` and `.` only.
+    fn from_str(text: &str) -> Result<Self, Expected> {
+        let is_name = |name: &str| {
+            !name.is_empty()
+                && name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.'))
+        };
+        match text.split_once('=').filter(|(name, _)| is_name(name)) {
+            Some((_, command)) if command.trim().is_empty() => {
+                Err(Expected("a command after `=`".into()))
+            }
+            Some((name, command)) => {
+                Ok(Self { name: Some(name.to_owned()), command: command.to_owned() })
+            }
+            None => Ok(Self { name: None, command: text.to_owned() }),
+        }
+    }
 }
 
 /// Limits of each process of a solver.

@@ -1,13 +1,14 @@
 //! `mpm-verify cost`: measures the cost of accuracy on this machine.
 
-use super::arguments::{FormatArgs, SolverArgs, Targets, seconds};
+use super::arguments::{FormatArgs, SolversArgs, Targets, seconds};
 use super::status::{CommandError, Status};
+use super::suite_runs::{self, SuiteRuns};
 use super::{output, select, solver};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::external::{SolverFactory, SolverProgram};
 use mpm_verify::report;
-use mpm_verify::study::cost::{best_candidate, price};
+use mpm_verify::study::cost::{TimedPart, best_candidate, price};
 use mpm_verify::suite::{ConvergencePlan, Extent, Suite};
 use mpm_verify::verify::{BestCandidate, TimedSuite};
 use std::path::{Path, PathBuf};
@@ -30,7 +31,7 @@ pub(super) struct CostArgs {
     #[arg(long)]
     full: bool,
     #[command(flatten)]
-    program: SolverArgs,
+    programs: SolversArgs,
 }
 
 /// Measures suites one after the other; nothing else runs during a measurement.
@@ -40,14 +41,10 @@ pub(super) fn cost(args: &CostArgs) -> Result<Status, CommandError> {
     }
     let (suites, refused): (Vec<_>, Vec<_>) =
         select::suites(&args.targets.targets).into_iter().partition(Result::is_ok);
-    let mut suites: Vec<Suite> = suites.into_iter().filter_map(Result::ok).collect();
-    let solver = solver::greeted(&args.program)?;
-    if let Some(solver) = &solver {
-        (suites, _) = solver::suites_of_solver(suites, solver, |_| None);
-    }
+    let suites: Vec<Suite> = suites.into_iter().filter_map(Result::ok).collect();
     let found = match args.budget {
         Some(budget) => best_candidates(&suites, budget, args),
-        None => prices(&suites, solver.as_ref(), args),
+        None => prices(suites, args)?,
     };
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
         output::diagnose(diagnostic);
@@ -80,11 +77,20 @@ fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> Status {
 }
 
 /// Errors and seconds of every level of each convergence suite; other suites have no error.
-fn prices(suites: &[Suite], solver: Option<&SolverProgram>, args: &CostArgs) -> Status {
+fn prices(suites: Vec<Suite>, args: &CostArgs) -> Result<Status, CommandError> {
+    let solvers = solver::greet_all(&args.programs)?;
+    let runs = if solvers.is_empty() {
+        SuiteRuns::of_methods(suites)
+    } else {
+        let judged = |solver| solver::suites_of_solver(suites.clone(), solver, |_| None).0;
+        let of_each = solvers.iter().map(judged).collect();
+        SuiteRuns::of_solvers(&suites, of_each, args.programs.with_methods)
+    };
+    suite_runs::check_names(&runs)?;
     let mut all: Vec<TimedSuite> = Vec::new();
     let mut code = Status::Passed;
-    for suite in suites.iter().filter(|suite| suite.plan::<ConvergencePlan>().is_some()) {
-        let timed = one(suite, solver, args);
+    let has_levels = |runs: &&SuiteRuns| runs.suite().plan::<ConvergencePlan>().is_some();
+    for timed in runs.iter().filter(has_levels).filter_map(|runs| one(runs, &solvers, args)) {
         if !args.format.is_json() {
             output::print(&format!("{}\n", report::timed(&timed)));
         }
@@ -97,22 +103,28 @@ fn prices(suites: &[Suite], solver: Option<&SolverProgram>, args: &CostArgs) -> 
     if args.format.is_json() {
         output::print(&report::timed_json(&all, &[]));
     }
-    code
+    Ok(code)
 }
 
-fn one(suite: &Suite, solver: Option<&SolverProgram>, args: &CostArgs) -> TimedSuite {
+fn one(runs: &SuiteRuns, solvers: &[SolverProgram], args: &CostArgs) -> Option<TimedSuite> {
     let extent = if args.full { Extent::Full } else { Extent::Usual };
-    let levels = suite
-        .plan::<ConvergencePlan>()
-        .map_or(0, |plan| plan.cases.len() * plan.refine.levels(extent).len());
+    let levels = |suite: &Suite| {
+        let plan = suite.plan::<ConvergencePlan>();
+        plan.map_or(0, |plan| plan.cases.len() * plan.refine.levels(extent).len())
+    };
+    let levels: usize = runs.parts().iter().map(|part| levels(&part.suite)).sum();
     // Each is run for its error, and timed.
     let bar = ProgressBar::with_draw_target(Some(2 * levels as u64), ProgressDrawTarget::stderr());
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} levels  {msg}") {
         bar.set_style(style);
     }
-    bar.set_message(suite.name.clone());
-    let solver = solver.map(|solver| solver as &dyn SolverFactory);
-    let timed = price(suite, extent, solver, &|| bar.inc(1));
+    bar.set_message(runs.suite().name.clone());
+    let factory = |number: usize| &solvers[number] as &dyn SolverFactory;
+    let parts = runs.parts().iter();
+    let parts: Vec<TimedPart<'_>> = parts
+        .map(|part| TimedPart { suite: &part.suite, solver: part.solver.map(factory) })
+        .collect();
+    let timed = price(&parts, extent, &|| bar.inc(1));
     bar.finish_and_clear();
     timed
 }

@@ -19,6 +19,7 @@ mod select;
 mod show;
 mod solver;
 mod status;
+mod suite_runs;
 
 use arguments::ColorArgs;
 use clap::error::ContextKind;

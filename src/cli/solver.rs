@@ -1,12 +1,13 @@
 //! Suites with an external solver.
 
-use super::arguments::{SolverArgs, SolverLimitArgs};
+use super::arguments::{SolverArgs, SolverCommand, SolverLimitArgs, SolversArgs};
 use super::output;
 use super::status::CommandError;
 use mpm_verify::external::{ProgramLimits, SolverFactory, SolverProgram};
 use mpm_verify::study::under_on;
 use mpm_verify::suite::{GateTerms, Suite};
 use mpm_verify::verify::SuiteOutcome;
+use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// The solver that the command line names, if it does.
@@ -15,6 +16,30 @@ use std::time::Duration;
 /// The solver cannot be used.
 pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, CommandError> {
     args.solver.as_deref().map(|command| greet(command, &args.limits)).transpose()
+}
+
+/// Starts all solvers of the command line, each under its name.
+///
+/// # Errors
+/// If a solver cannot be used, or if their names are not unique.
+pub(super) fn greet_all(args: &SolversArgs) -> Result<Vec<SolverProgram>, CommandError> {
+    let mut names = BTreeSet::new();
+    for one in &args.solver {
+        let (value, reason) = match &one.name {
+            None if args.solver.len() > 1 => {
+                (&one.command, "several solvers need a name each: `NAME=COMMAND`")
+            }
+            Some(name) if !names.insert(name) => (name, "another solver has this name"),
+            _ => continue,
+        };
+        return Err(CommandError::option("--solver", value, reason));
+    }
+    let greet = |one: &SolverCommand| -> Result<SolverProgram, CommandError> {
+        let program = greet(&one.command, &args.limits)?;
+        let Some(name) = &one.name else { return Ok(program) };
+        program.called(name).map_err(|error| CommandError::option("--solver", name, error))
+    };
+    args.solver.iter().map(greet).collect()
 }
 
 /// Starts a solver and requests its capabilities.

@@ -183,7 +183,7 @@ impl CaseOutcome {
         match &self.expected {
             _ if self.exemption.is_some() => format!("nothing: {}", self.reason),
             Some(expected) => format!("{expected}, because {}", self.because),
-            None => "nothing: the suite has no `expect`, and is no gate".to_owned(),
+            None => "nothing: neither the suite nor a gate has an expectation for it".to_owned(),
         }
     }
 

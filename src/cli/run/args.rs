@@ -1,6 +1,6 @@
 //! Arguments of `run` and `merge`.
 
-use crate::cli::arguments::{Expected, SolverLimitArgs, Targets, count, whole};
+use crate::cli::arguments::{Expected, SolversArgs, Targets, count, whole};
 use clap::{Args, ValueEnum};
 use mpm_verify::study::Shard;
 use std::path::PathBuf;
@@ -109,16 +109,8 @@ pub(in crate::cli) struct MergeArgs {
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct JudgedSolverArgs {
-    /// Run the suites with this program in place of their methods: a command with its arguments
-    /// that speaks the protocol of docs/protocol.md. With a name in front (`'mine=python mpm.py'`)
-    /// it can be given repeatedly: the solvers are then in one report
-    #[arg(long, value_name = "[NAME=]COMMAND")]
-    pub(super) solver: Vec<SolverCommand>,
-    /// Run the methods of the suites too, in the same report
-    #[arg(long, requires = "solver")]
-    pub(super) with_methods: bool,
     #[command(flatten)]
-    pub(super) limits: SolverLimitArgs,
+    pub(super) programs: SolversArgs,
     /// Require the theoretical order, or errors within the bounds of the suite, of each case of the
     /// solver of `--solver`; exit status 1 unless every case passes or is excepted
     #[arg(long, requires = "solver")]
@@ -130,35 +122,6 @@ pub(in crate::cli) struct JudgedSolverArgs {
     /// not gated
     #[arg(long, requires = "gate")]
     pub(super) allow_not_applicable: bool,
-}
-
-/// A value of `--solver`.
-#[derive(Debug, Clone)]
-pub(super) struct SolverCommand {
-    /// Name in reports; the solver's own if there is none.
-    pub(super) name: Option<String>,
-    pub(super) command: String,
-}
-
-impl FromStr for SolverCommand {
-    type Err = Expected;
-
-    /// Reads `NAME=COMMAND` or `COMMAND`. A name has letters, digits, `-`, `_` and `.` only.
-    fn from_str(text: &str) -> Result<Self, Expected> {
-        let is_name = |name: &str| {
-            !name.is_empty()
-                && name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.'))
-        };
-        match text.split_once('=').filter(|(name, _)| is_name(name)) {
-            Some((_, command)) if command.trim().is_empty() => {
-                Err(Expected("a command after `=`".into()))
-            }
-            Some((name, command)) => {
-                Ok(Self { name: Some(name.to_owned()), command: command.to_owned() })
-            }
-            None => Ok(Self { name: None, command: text.to_owned() }),
-        }
-    }
 }
 
 /// A value of `--label`.

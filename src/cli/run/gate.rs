@@ -11,6 +11,12 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::Path;
 
+/// A started solver, and its requirements.
+pub(super) struct JudgedSolver {
+    pub(super) program: SolverProgram,
+    pub(super) gate: Option<SolverGate>,
+}
+
 /// The gate of a run.
 pub(super) struct SolverGate {
     /// Suites that the command line names individually.

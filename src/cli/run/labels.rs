@@ -1,8 +1,8 @@
 //! `--title` and `--label`: texts of figures and LaTeX tables.
 
 use super::args::{CaseLabel, ReportArgs};
-use super::solvers::SuiteRuns;
 use crate::cli::status::CommandError;
+use crate::cli::suite_runs::SuiteRuns;
 use mpm_verify::nearest;
 use mpm_verify::verify::SuiteOutcome;
 use std::collections::BTreeSet;

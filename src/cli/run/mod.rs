@@ -6,21 +6,20 @@ mod gate;
 mod labels;
 mod printing;
 mod progress;
-mod solvers;
 
 use super::status::{CommandError, Status};
+use super::suite_runs::{self, SuitePart, SuiteRuns};
 use super::{output, select, solver};
 use args::ReportArgs;
 pub(super) use args::{MergeArgs, RunArgs};
 use files::Series;
-use gate::SolverGate;
+use gate::{JudgedSolver, SolverGate};
 use mpm_verify::study::{ResultCache, Runner, StepWarning};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::SuiteOutcome;
 use printing::Printing;
 use progress::RunProgress;
-use solvers::{JudgedSolver, SuitePart, SuiteRuns};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -44,17 +43,20 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
     let kept = args.resume.as_deref().map(open).transpose()?;
     let all = args.case.is_some();
     let series = args.vtu.as_deref().map(|folder| Series::prepare(folder, all)).transpose()?;
-    let mut solvers = solvers::greeted(&args.judged)?;
+    let mut solvers = Vec::new();
+    let mut of_each = Vec::new();
+    let named = select::named_singly(&args.report.targets.targets, &suites);
+    for program in solver::greet_all(&args.judged.programs)? {
+        let (judged, gate) = gate::prepare(suites.clone(), &program, &args.judged, &named)?;
+        solvers.push(JudgedSolver { program, gate });
+        of_each.push(judged);
+    }
     let mut runs = if solvers.is_empty() {
         SuiteRuns::of_methods(suites)
     } else {
-        let named = select::named_singly(&args.report.targets.targets, &suites);
-        SuiteRuns::of_solvers(&suites, &mut solvers, &args.judged, &named)?
+        SuiteRuns::of_solvers(&suites, of_each, args.judged.programs.with_methods)
     };
-    if let Some((name, suite)) = runs.iter().find_map(|runs| Some((runs.twice()?, runs.suite()))) {
-        let reason = format!("a case of the suite `{}` has this name", suite.name);
-        return Err(CommandError::option("--solver", name, reason));
-    }
+    suite_runs::check_names(&runs)?;
     if let Some(text) = &args.case {
         runs = runs.into_iter().filter_map(|runs| runs.only(|case| case.contains(text))).collect();
         if runs.is_empty() {
@@ -62,7 +64,7 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
         }
     }
     if let Some(shard) = args.shard {
-        if args.judged.with_methods || solvers.len() > 1 {
+        if args.judged.programs.with_methods || solvers.len() > 1 {
             return Err(CommandError::about("--shard", "parts have one solver, or methods only"));
         }
         runs = SuiteRuns::shard(runs, shard, extent(&args.report));

@@ -133,7 +133,9 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
         }),
         LevelColumn::new("steps", "steps", "steps taken", |row| Cell::plain(row.level.run.steps)),
         LevelColumn::new("transfers", "transfers", "particle-node pairs of P2G and G2P", |row| {
-            Cell::plain(row.level.run.counters.transfers)
+            // An external solver does not count them.
+            let transfers = row.level.run.counters.transfers;
+            Cell { json: transfers.into(), ..Cell::text(Some(transfers).filter(|n| *n > 0)) }
         }),
         LevelColumn::new("crossings", "crossings", "changes of cell (MPM)", |row| {
             Cell::plain(row.level.run.counters.crossings)

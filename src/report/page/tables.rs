@@ -223,7 +223,7 @@ pub(super) fn figure_cells(case: &CaseOutcome) -> [Html; 3] {
         let text = if failed { "failed".to_owned() } else { scientific(level.error) };
         (if failed { f64::INFINITY } else { level.error }, text)
     });
-    let transfers = finest.map(|level| level.run.counters.transfers);
+    let transfers = finest.map(|level| level.run.counters.transfers).filter(|count| *count > 0);
     let transfers = transfers.map(|count| (count as f64, count.to_string()));
     [order, error, transfers].map(number)
 }

@@ -14,7 +14,7 @@ use crate::subject::Subject;
 use crate::suite::compile::check::size::nodes;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
-use crate::verify::{LevelOutcome, TimedSuite, Timing, Workload};
+use crate::verify::{LevelOutcome, SuiteOutcome, TimedSuite, Timing, Workload};
 
 /// Minimum number of repeats.
 const FEWEST: usize = 5;
@@ -85,30 +85,49 @@ fn seconds_of(
     })
 }
 
-/// Runs `suite` and times every level; calls `progress` after each level that ran and after each
-/// that was timed. `solver` runs cases of an external method. Only convergence studies have levels.
+/// A suite, and what runs it.
+#[derive(Clone, Copy)]
+pub struct TimedPart<'a> {
+    /// The suite.
+    pub suite: &'a Suite,
+    /// The solver of its cases, if their method is external.
+    pub solver: Option<&'a dyn SolverFactory>,
+}
+
+/// Runs the parts of one suite and times every level of all of them in turn; calls `progress` after
+/// each level that ran and after each that was timed. `None` without a part. Only convergence
+/// studies have levels.
 pub fn price(
-    suite: &Suite,
+    parts: &[TimedPart<'_>],
     extent: Extent,
-    solver: Option<&dyn SolverFactory>,
     progress: &(dyn Fn() + Sync),
-) -> TimedSuite {
+) -> Option<TimedSuite> {
     let mut jobs: Vec<TimingJob<'_>> = Vec::new();
-    if let Some(plan) = suite.plan::<ConvergencePlan>() {
-        for (index, case) in plan.cases.iter().enumerate() {
-            let levels = plan.refine.levels(extent).iter().enumerate();
-            jobs.extend(levels.map(|(k, level)| {
-                let (suite, level, seconds) = (suite.name.as_str(), *level, Vec::new());
-                TimingJob { suite, plan, case, level, solver, at: (index, k), seconds }
-            }));
+    let mut outcome: Option<SuiteOutcome> = None;
+    for TimedPart { suite, solver } in parts.iter().copied() {
+        let before = outcome.as_ref().map_or(0, |outcome| outcome.cases.len());
+        if let Some(plan) = suite.plan::<ConvergencePlan>() {
+            for (index, case) in plan.cases.iter().enumerate() {
+                let levels = plan.refine.levels(extent).iter().enumerate();
+                jobs.extend(levels.map(|(k, level)| {
+                    let (suite, level, seconds) = (suite.name.as_str(), *level, Vec::new());
+                    let at = (before + index, k);
+                    TimingJob { suite, plan, case, level, solver, at, seconds }
+                }));
+            }
+        }
+        let runner = Runner::over(suite, extent);
+        let runner = match solver {
+            Some(solver) => runner.judging(solver),
+            None => runner,
+        };
+        let ran = runner.run(progress);
+        match &mut outcome {
+            None => outcome = Some(ran),
+            Some(outcome) => outcome.cases.extend(ran.cases),
         }
     }
-    let runner = Runner::over(suite, extent);
-    let runner = match solver {
-        Some(solver) => runner.judging(solver),
-        None => runner,
-    };
-    let outcome = runner.run(progress);
+    let outcome = outcome?;
     let observed = alone(|| {
         let mut observed = Observed::new();
         time(&mut jobs, &mut observed, progress);
@@ -122,7 +141,7 @@ pub fn price(
             levels[case].push((load(job.plan, outcome), Timing::of(&job.seconds)));
         }
     }
-    TimedSuite { outcome, levels, machine: observed.seen() }
+    Some(TimedSuite { outcome, levels, machine: observed.seen() })
 }
 
 /// Round after round until every level has been timed often enough.

@@ -11,4 +11,4 @@ pub(crate) mod measure;
 
 pub use budget::best_candidate;
 pub use goal::{Goal, goals};
-pub use measure::price;
+pub use measure::{TimedPart, price};

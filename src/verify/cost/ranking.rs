@@ -123,8 +123,8 @@ fn order(a: &[Reach], b: &[Reach]) -> Ordering {
 /// Rankings of the comparable cases of a suite, one per problem; `work` returns the work of a
 /// level. Excludes cases without exact solution or reference, problems without an error scale, and
 /// cases with fewer than three levels.
-pub fn rankings(
-    cases: &[CaseOutcome],
+pub fn rankings<'a>(
+    cases: impl IntoIterator<Item = &'a CaseOutcome>,
     work: impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,
 ) -> Vec<Ranking> {
     let mut problems: Vec<(&str, f64, Vec<MethodCost>)> = Vec::new();
@@ -150,9 +150,14 @@ pub fn rankings(
     problems.into_iter().map(rank).collect()
 }
 
-/// Rankings of the cases of a suite by transfers, which are the same on every machine.
+/// Rankings of the cases of a suite by transfers, which are the same on every machine. Excludes
+/// external solvers, which do not count them.
 pub fn by_transfers(cases: &[CaseOutcome]) -> Vec<Ranking> {
-    rankings(cases, |_, _, level| level.run.counters.transfers as f64)
+    let is_counted = |case: &&CaseOutcome| {
+        let levels = case.convergence().map(|study| study.levels.as_slice());
+        levels.unwrap_or_default().iter().any(|level| level.run.counters.transfers > 0)
+    };
+    rankings(cases.iter().filter(is_counted), |_, _, level| level.run.counters.transfers as f64)
 }
 
 fn method(

@@ -17,7 +17,7 @@ fn a_suite_without_expectations_says_what_it_sees_and_is_no_gate() {
         &found.out,
         &[
             "explored  short-bar::mpm-linear-flip-musl",
-            "  a   nothing: the suite has no `expect`, and is no gate",
+            "  a   nothing: neither the suite nor a gate has an expectation for it",
             "result        2 cases without an expectation",
             "relative drift, the largest of all levels\n",
         ],

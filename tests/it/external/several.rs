@@ -39,8 +39,61 @@ fn solvers_and_methods_are_cases_of_one_suite(folder: Folder) {
     assert_eq!(names, ["mpm-linear-flip-musl", "fem-linear-lumped", "first", "second"]);
     let error = |case: usize| cases[case]["levels"][0]["judged"].as_f64().unwrap();
     assert!((error(3) / error(2) - 2.0).abs() <= 1e-3, "{} {}", error(3), error(2));
-    // One ranking has all of them.
-    assert_eq!(suites[0]["cost"][0]["methods"].as_array().map(Vec::len), Some(4));
+    // An external solver counts no transfers, so the ranking by transfers has the methods only.
+    assert_eq!(suites[0]["cost"][0]["methods"].as_array().map(Vec::len), Some(2));
+}
+
+#[rstest]
+fn a_report_shows_no_transfers_of_solvers_that_count_none(folder: Folder) {
+    let answer = folder.call(&["run", "bar.yaml", "--with-methods", "--solver", "mine=sh one.sh"]);
+    assert_eq!(answer.code, SOUND, "{}", answer.errors);
+    let (_, finest) = answer.out.split_once("on the finest level").expect("a table");
+    let transfers = |case: &str| {
+        let mut lines = finest.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+        let head = lines.find(|cells| cells.first() == Some(&"case")).expect("heads");
+        // `linf order` is one head.
+        let column = head.iter().position(|cell| *cell == "transfers").expect("a column") - 1;
+        lines.find(|cells| cells.first() == Some(&case)).expect("a row")[column].to_owned()
+    };
+    assert_eq!(transfers("mine"), "-");
+    assert!(transfers("fem-linear-lumped").parse::<u64>().is_ok_and(|count| count > 0));
+}
+
+#[rstest]
+fn one_ranking_by_seconds_has_methods_and_solvers(folder: Folder) {
+    let solvers = ["--solver", "first=sh one.sh", "--solver", "second=sh two.sh"];
+    let answer = folder.call(
+        &[&["cost", "bar.yaml", "--with-methods", "--format", "json"], &solvers[..]].concat(),
+    );
+    assert_eq!(answer.code, SOUND, "{}", answer.errors);
+    let document: Value = serde_json::from_str(&answer.out).unwrap();
+    let suite = &document["suites"][0];
+    let names = |list: &Value| -> Vec<String> {
+        let names = list.as_array().into_iter().flatten().map(|one| one["case"].as_str());
+        names.flatten().map(str::to_owned).collect()
+    };
+    let all = ["fem-linear-lumped", "first", "mpm-linear-flip-musl", "second"];
+    let mut ranked = names(&suite["cost"][0]["methods"]);
+    ranked.sort();
+    assert_eq!(
+        (suite["cost"][0]["work"].as_str(), ranked),
+        (Some("seconds"), all.map(str::to_owned).to_vec())
+    );
+    for case in suite["cases"].as_array().unwrap() {
+        for level in case["levels"].as_array().unwrap() {
+            assert!(level["seconds"]["median"].as_f64() > Some(0.0), "{case}");
+        }
+    }
+}
+
+#[rstest]
+#[case::a_second_solver_without_a_name("--solver|a=sh one.sh|--solver|sh two.sh")]
+#[case::a_name_of_a_method("--with-methods|--solver|fem-linear-lumped=sh one.sh")]
+#[case::methods_of_no_solver("--with-methods")]
+#[case::a_budget("--budget|1s|--solver|a=sh one.sh")]
+fn cost_refuses_what_run_refuses(folder: Folder, #[case] options: &str) {
+    let options: Vec<&str> = options.split('|').collect();
+    assert_eq!(folder.call(&[&["cost", "bar.yaml"], &options[..]].concat()).code, BAD_INPUT);
 }
 
 #[rstest]

@@ -1,46 +1,9 @@
-//! The solvers of a run, and the suites as each of them runs them.
+//! Suites with their own methods, with external solvers, or both in one report.
 
-use super::args::{JudgedSolverArgs, SolverCommand};
-use super::gate::{self, SolverGate};
-use crate::cli::solver;
-use crate::cli::status::CommandError;
-use mpm_verify::external::SolverProgram;
+use super::status::CommandError;
 use mpm_verify::study::Shard;
 use mpm_verify::suite::{Extent, Suite};
 use std::collections::BTreeSet;
-
-/// A started solver, and its requirements.
-pub(super) struct JudgedSolver {
-    pub(super) program: SolverProgram,
-    pub(super) gate: Option<SolverGate>,
-}
-
-/// Starts all solvers of the command line.
-///
-/// # Errors
-/// If a solver cannot be used, or if their names are not unique.
-pub(super) fn greeted(args: &JudgedSolverArgs) -> Result<Vec<JudgedSolver>, CommandError> {
-    let mut names = BTreeSet::new();
-    for one in &args.solver {
-        let (value, reason) = match &one.name {
-            None if args.solver.len() > 1 => {
-                (&one.command, "several solvers need a name each: `NAME=COMMAND`")
-            }
-            Some(name) if !names.insert(name) => (name, "another solver has this name"),
-            _ => continue,
-        };
-        return Err(CommandError::option("--solver", value, reason));
-    }
-    let greet = |one: &SolverCommand| -> Result<JudgedSolver, CommandError> {
-        let mut program = solver::greet(&one.command, &args.limits)?;
-        if let Some(name) = &one.name {
-            let error = |error| CommandError::option("--solver", name, error);
-            program = program.called(name).map_err(error)?;
-        }
-        Ok(JudgedSolver { program, gate: None })
-    };
-    args.solver.iter().map(greet).collect()
-}
 
 /// A suite as it runs: with its own methods, with each solver, or both.
 pub(super) struct SuiteRuns {
@@ -62,16 +25,13 @@ impl SuiteRuns {
         suites.into_iter().map(|suite| Self { parts: vec![part(suite)] }).collect()
     }
 
-    /// The suites with each solver, gated if requested. Suites that no solver can run are skipped.
-    ///
-    /// # Errors
-    /// An error in the configuration of the gate.
+    /// The suites as each solver runs them (`of_each`), after their own methods if `with_methods`.
+    /// Suites that nothing runs are skipped.
     pub(super) fn of_solvers(
         suites: &[Suite],
-        solvers: &mut [JudgedSolver],
-        args: &JudgedSolverArgs,
-        named: &BTreeSet<String>,
-    ) -> Result<Vec<Self>, CommandError> {
+        of_each: Vec<Vec<Suite>>,
+        with_methods: bool,
+    ) -> Vec<Self> {
         let mut all: Vec<(String, Vec<SuitePart>)> =
             suites.iter().map(|suite| (suite.name.clone(), Vec::new())).collect();
         let mut put = |suite: Suite, solver: Option<usize>| {
@@ -83,20 +43,18 @@ impl SuiteRuns {
                 parts.push(SuitePart { suite, solver });
             }
         };
-        if args.with_methods {
+        if with_methods {
             for suite in suites {
                 put(suite.clone(), None);
             }
         }
-        for (number, solver) in solvers.iter_mut().enumerate() {
-            let (judged, gate) = gate::prepare(suites.to_vec(), &solver.program, args, named)?;
-            solver.gate = gate;
-            for suite in judged {
+        for (number, suites) in of_each.into_iter().enumerate() {
+            for suite in suites {
                 put(suite, Some(number));
             }
         }
         let has_parts = |(_, parts): &(String, Vec<SuitePart>)| !parts.is_empty();
-        Ok(all.into_iter().filter(has_parts).map(|(_, parts)| Self { parts }).collect())
+        all.into_iter().filter(has_parts).map(|(_, parts)| Self { parts }).collect()
     }
 
     /// The cases with a name for which `is_chosen` returns true; `None` if there is no such case.
@@ -129,9 +87,21 @@ impl SuiteRuns {
     }
 
     /// The first name that two cases have.
-    pub(super) fn twice(&self) -> Option<String> {
+    fn twice(&self) -> Option<String> {
         let mut names = BTreeSet::new();
         let all = self.parts.iter().flat_map(|part| part.suite.case_names());
         all.into_iter().find(|name| !names.insert(*name)).map(str::to_owned)
     }
+}
+
+/// Refuses solvers with the name of another case.
+///
+/// # Errors
+/// The first such name.
+pub(super) fn check_names(runs: &[SuiteRuns]) -> Result<(), CommandError> {
+    let Some((name, suite)) = runs.iter().find_map(|runs| Some((runs.twice()?, runs.suite()))) else {
+        return Ok(());
+    };
+    let reason = format!("a case of the suite `{}` has this name", suite.name);
+    Err(CommandError::option("--solver", name, reason))
 }
