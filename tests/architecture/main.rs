@@ -369,6 +369,13 @@ fn pages_of_exercises_show_the_compiled_members() {
 }
 
 #[test]
+fn a_new_member_of_a_family_touches_few_files() {
+    let pages = documents().into_iter().filter(|page| page.file.starts_with("docs/exercises/"));
+    let wrong = exercises::touching_too_much(&pages.collect::<Vec<_>>());
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+#[test]
 fn seeded_defects_apply_to_the_present_sources() {
     let files = source::texts("tests/defects", ".txt");
     let parsed = files.iter().map(|(file, text)| defects::parse(file, text));

@@ -57,6 +57,11 @@ impl Document {
         document
     }
 
+    /// The text outside of fenced blocks, without its line breaks.
+    pub(crate) fn prose(&self) -> String {
+        self.lines.iter().map(|(_, line)| line.trim()).collect::<Vec<_>>().join(" ")
+    }
+
     /// Targets of links, `](target)`.
     pub(crate) fn links(&self) -> Vec<Span> {
         self.spans(|text| {

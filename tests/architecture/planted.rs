@@ -186,3 +186,18 @@ fn exercise_that_differs_from_the_compiled_member_is_found() {
     assert!(stale.iter().any(|line| line.contains("spin.rs differs")), "{stale:?}");
     assert!(stale.iter().any(|line| line.contains("no page shows")), "{stale:?}");
 }
+
+#[test]
+fn exercise_that_touches_too_many_files_is_found() {
+    let text =
+        "A permanent figure belongs in `src/verify`.\n\nIn `src/lib.rs`:\n\nIn\n`src/no.rs`:\n";
+    let wrong = exercises::touching_too_much(&[Document::new("docs/exercises/figure.md", text)]);
+    let expected = [
+        "docs/exercises/basis.md is missing",
+        "docs/exercises/figure.md: there is no src/no.rs",
+        "docs/exercises/figure.md: 3 files, not 1 to 1: src/lib.rs, src/no.rs, src/verify",
+    ];
+    for line in expected {
+        assert!(wrong.iter().any(|found| found == line), "{line}: {wrong:?}");
+    }
+}
