@@ -112,8 +112,8 @@ pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
         Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),
         Method::Fem { start, .. } => (start, false),
-        // Forward Euler.
-        Method::Heat { .. } => return 1.0,
+        // Load steps are not refined, and heat is integrated by forward Euler.
+        Method::QuasiStatic { .. } | Method::Heat { .. } => return 1.0,
         // An external solver claims an order in space only; the same value is used here.
         Method::External { formal_order, .. } => return formal_order,
     };

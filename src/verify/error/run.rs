@@ -26,6 +26,8 @@ pub struct Comparison<'a> {
     /// If the exact solution is a state of rest: the speed (m/s) that residual speeds are divided
     /// by. Errors are then measured at the end only.
     pub at_rest: Option<f64>,
+    /// Whether the steps are load steps, without time.
+    pub by_load_steps: bool,
     /// Whether the errors over the body are stored.
     pub keeps_field: bool,
 }
@@ -211,7 +213,10 @@ impl<'a> RunMonitor<'a> {
             account: self.account,
             counters: subject.counters(),
             steps: step,
-            failure: Some(format!("{failure} (step {step}, t = {t:.4} s)")),
+            failure: Some(match self.comparison.by_load_steps {
+                true => format!("{failure} (load step {step})"),
+                false => format!("{failure} (step {step}, t = {t:.4} s)"),
+            }),
             history: None,
             displacement: None,
             observed_error: None,
