@@ -77,27 +77,52 @@ impl ColumnCase {
         (0..self.load_steps).map(step).collect()
     }
 
-    /// Height (m) of a material point in equilibrium, for Hencky's law without Poisson effect:
-    /// `x = (E/G) (f(G l/E) - f(G (l - Y)/E))` with Lambert's function W and `f = W + W^2/2`.
-    fn hencky_height(self, y: f64) -> f64 {
-        let weight = self.density * self.gravity / 1e6;
-        let f = |x: f64| {
-            let w = lambert(x);
-            w + 0.5 * w * w
-        };
-        (f(weight * self.height) - f(weight * (self.height - y))) / weight
+    /// Modulus of compression (Pa) up to yield and beyond, and the logarithmic strain at yield.
+    fn bilinear(self) -> [f64; 3] {
+        match self.material {
+            MaterialPlan::DruckerPrager { friction, dilation, strength, .. } => {
+                let (bulk, mu) = (1e4, 6e3);
+                let axial = 2.0 * mu / 3.0_f64.sqrt();
+                let modulus = bulk + 4.0 / 3.0 * mu;
+                let plastic = (bulk * friction - axial) * (bulk * dilation - axial)
+                    / (mu + bulk * friction * dilation);
+                [modulus, modulus - plastic, strength / (axial - friction * bulk)]
+            }
+            _ => [1e6, 1e6, 1.0],
+        }
     }
 
-    /// RMS of the displacement error (m) after the last load step.
-    fn hencky_error(self, basis: BasisName) -> f64 {
+    /// Height (m) of a material point in equilibrium: the axial Kirchhoff stress is bilinear in the
+    /// logarithmic strain, and equal to minus the weight above times the stretch. With Lambert's
+    /// function W and `k(w) = w + w^2/2`, the integral of the stretch over the weight is `M k(W)`.
+    fn exact_height(self, y: f64) -> f64 {
+        let ([modulus, plastic, strain], weight) = (self.bilinear(), self.density * self.gravity);
+        let at_yield = modulus * strain * libm::exp(strain);
+        let offset = strain * (1.0 - modulus / plastic);
+        let k = |w: f64| w + 0.5 * w * w;
+        let beyond = |q: f64| plastic * k(lambert(q * libm::exp(-offset) / plastic));
+        let integral = |q: f64| {
+            let elastic = modulus * k(lambert(q.min(at_yield) / modulus));
+            if q > at_yield { elastic + beyond(q) - beyond(at_yield) } else { elastic }
+        };
+        (integral(weight * self.height) - integral(weight * (self.height - y))) / weight
+    }
+
+    /// RMS of the displacement error (m) after the last load step, and mean error of the stress over
+    /// the weight of the column.
+    fn errors(self, basis: BasisName) -> [f64; 2] {
         let mut solver = self.build::<1>(basis);
         self.run(&mut solver);
-        let Particles { x, x0, .. } = solver.particles();
-        let square = |(x, x0): (&Vector<1>, &Vector<1>)| {
-            let error = x[0] - self.hencky_height(x0[0]);
-            error * error
-        };
-        (x.iter().zip(x0).map(square).sum::<f64>() / x.len() as f64).sqrt()
+        let (Particles { x, x0, sigma, .. }, total) = (solver.particles(), self.cells as f64 * 2.0);
+        let (mut square, mut stress) = (0.0, 0.0);
+        for ((x, x0), sigma) in x.iter().zip(x0).zip(sigma) {
+            let error = x[0] - self.exact_height(x0[0]);
+            square += error * error / total;
+            // The Cauchy stress is the weight above, for any law.
+            let weight = self.density * self.gravity;
+            stress += (sigma[(0, 0)] / weight + self.height - x0[0]).abs() / self.height / total;
+        }
+        [square.sqrt(), stress]
     }
 }
 
@@ -140,20 +165,69 @@ fn newton_converges_quadratically(#[case] case: ColumnCase, #[case] is_smooth: b
 
 #[rstest]
 fn error_does_not_grow_with_the_number_of_load_steps(#[values(20, 40)] cells: usize) {
-    let error = |steps| ColumnCase::hencky(cells, steps).hencky_error(BasisName::ContiguousGimp);
+    let error = |steps| ColumnCase::hencky(cells, steps).errors(BasisName::ContiguousGimp)[0];
     let errors = [20, 40, 80].map(error);
     assert!(errors[1] <= 1.05 * errors[0] && errors[2] <= 1.05 * errors[0], "{errors:?}");
 }
 
-#[test]
-fn error_falls_with_second_order_in_one_load_step() {
-    for basis in [BasisName::Linear, BasisName::ContiguousGimp] {
-        let errors = [10, 20, 40].map(|cells| ColumnCase::hencky(cells, 1).hencky_error(basis));
-        for pair in errors.windows(2) {
-            let order = libm::log2(pair[0] / pair[1]);
-            assert!((order - 2.0).abs() <= 0.15, "{errors:?}");
+/// Orders between neighbouring levels of 10, 20, 40 and 80 cells, which an independent program has
+/// given: of the displacement within 0.15 and of the stress within 0.3. In one step a cell carries
+/// its mean stress at two quarter points: order 2, and 1 in the stress.
+#[rstest]
+#[case::hencky_at_once(
+    ColumnCase::hencky,
+    1,
+    &[BasisName::Linear, BasisName::ContiguousGimp],
+    [2.00, 2.00, 2.00],
+    [1.00, 1.00, 1.00]
+)]
+#[case::hencky(
+    ColumnCase::hencky,
+    20,
+    &[BasisName::ContiguousGimp],
+    [2.11, 2.46, 2.38],
+    [1.55, 1.89, 1.73]
+)]
+#[case::drucker_prager_at_once(
+    ColumnCase::drucker_prager,
+    1,
+    &[BasisName::Linear, BasisName::ContiguousGimp],
+    [1.99, 1.98, 1.91],
+    [1.00, 1.00, 1.00]
+)]
+#[case::drucker_prager(
+    ColumnCase::drucker_prager,
+    20,
+    &[BasisName::ContiguousGimp],
+    [2.35, 2.52, 2.10],
+    [1.09, 1.21, 1.54]
+)]
+fn orders_between_levels_are_those_of_theory(
+    #[case] case: fn(usize, u64) -> ColumnCase,
+    #[case] load_steps: u64,
+    #[case] bases: &[BasisName],
+    #[case] displacement: [f64; 3],
+    #[case] stress: [f64; 3],
+) {
+    for basis in bases {
+        let errors = [10, 20, 40, 80].map(|cells| case(cells, load_steps).errors(*basis));
+        println!("{} {load_steps} {errors:?}", basis.name());
+        for k in 0..3 {
+            let order = |of: usize| libm::log2(errors[k][of] / errors[k + 1][of]);
+            assert!((order(0) - displacement[k]).abs() <= 0.15, "{k}: {errors:?}");
+            assert!((order(1) - stress[k]).abs() <= 0.3, "{k}: {errors:?}");
         }
     }
+}
+
+/// Particles that have left the quarter points of fixed cells integrate linear functions wrongly.
+#[rstest]
+#[case::hencky(ColumnCase::hencky)]
+#[case::drucker_prager(ColumnCase::drucker_prager)]
+fn error_of_linear_functions_grows_in_many_load_steps(#[case] case: fn(usize, u64) -> ColumnCase) {
+    let errors = [10, 20, 40, 80].map(|cells| case(cells, 20).errors(BasisName::Linear));
+    println!("linear 20 {errors:?}");
+    assert!(errors.windows(2).all(|pair| pair[1][0] > pair[0][0]), "{errors:?}");
 }
 
 /// A column between rollers has one and the same equilibrium in one, two and three dimensions.

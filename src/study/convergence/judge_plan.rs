@@ -27,6 +27,7 @@ pub(super) fn judge_plan<'a>(
         scale: plan.scale,
         error_scale: error_scale(plan, case, truth),
         is_compared: case.against != Against::Nothing,
+        by_load_steps: plan.by_load_steps,
         excludes_crossings: plan.crossing_levels == CrossingLevels::Excluded,
         position_spacing: position_spacing(plan, case),
         observed_at: plan.observe.as_deref(),
@@ -161,7 +162,10 @@ const COARSE: usize = 8;
 /// The error scale of `case`, whose errors are measured against `truth`.
 pub(crate) fn error_scale(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
     ErrorScale {
-        problem: format!("until t = {} s, against {}", case.until, case.against.words()),
+        problem: match case.load_steps(plan) {
+            Some(count) => format!("in {count} load steps, against {}", case.against.words()),
+            None => format!("until t = {} s, against {}", case.until, case.against.words()),
+        },
         size: size(plan, case, truth),
         growth: growth(plan),
     }
