@@ -20,6 +20,7 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::material::{Material, StressResponse};
 use crate::subject::{Failure, Site};
+use std::array;
 
 /// Sum of the functions of a node over the particles below which the node has no unknown: its row
 /// of the tangent would be singular.
@@ -212,13 +213,20 @@ impl<const D: usize> Balance<D> {
         let functions = self.functions_of(p);
         let gradients: Vec<Vector<D>> =
             functions.iter().map(|function| push * function.gradient).collect();
+        // Changes of the stress by each component of the displacement gradient.
+        let changes: [[Matrix<D>; D]; D] = array::from_fn(|b| {
+            array::from_fn(|d| {
+                let mut direction = Matrix::<D>::zeros();
+                direction[(b, d)] = 1.0;
+                response.tangent(&direction)
+            })
+        });
         for (j, of_j) in functions.iter().zip(&gradients) {
             let pull = response.kirchhoff * of_j;
             for b in 0..D {
                 let Some(column) = self.unknowns[j.node][b] else { continue };
-                let mut direction = Matrix::<D>::zeros();
-                direction.row_mut(b).copy_from(&of_j.transpose());
-                let change = response.tangent(&direction);
+                let change =
+                    (1..D).fold(changes[b][0] * of_j[0], |sum, d| sum + changes[b][d] * of_j[d]);
                 for (i, of_i) in functions.iter().zip(&gradients) {
                     let force = (change * of_i - pull * of_i[b]) * vol0;
                     for a in 0..D {
@@ -252,7 +260,7 @@ fn number<const D: usize>(
     grid: &Grid<D>,
     free: &[Vector<D>],
 ) -> (Vec<[Option<usize>; D]>, Vec<usize>) {
-    let mut axes: [usize; D] = std::array::from_fn(|axis| axis);
+    let mut axes: [usize; D] = array::from_fn(|axis| axis);
     axes.sort_by_key(|axis| std::cmp::Reverse(grid.counts[*axis]));
     let mut order: Vec<usize> = (0..free.len()).collect();
     order.sort_by_key(|node| axes.map(|axis| grid.index_on_axis(*node, axis)));

@@ -49,12 +49,12 @@ pub(crate) fn convergence_plan(
     spec: &ConvergenceSpec,
 ) -> Result<ConvergencePlan, Diagnostic> {
     let scene = scene::scene(evaluator, &spec.scene)?;
-    let (refine, levels) = refine::plan(evaluator, spec, &scene)?;
     load_steps::refuse_time(evaluator, spec)?;
+    let until = run::ends(evaluator, &spec.run)?;
+    let (refine, levels) = refine::plan(evaluator, spec, &scene)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
         evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
     })?;
-    let until = run::ends(evaluator, &spec.run)?;
     let latest = until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
     let conduction = conduction::conduction(evaluator, spec, &scene, latest)?;
     let exact = match &conduction {

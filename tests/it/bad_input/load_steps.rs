@@ -66,7 +66,7 @@ fn a_run_has_load_steps_or_time(#[case] edits: Edits<'_>, #[case] words: &[&str]
 #[case::misspelt(&[("scheme: quasi_static", "scheme: ▸quasistatic")], &["`quasi_static`"])]
 #[case::an_explicit_one_without_transfer(
     &[(RUN, "run: {until: 1, dt: 0.1}"), (METHOD, "- ▸mpm: {basis: linear, scheme: musl}")],
-    &["missing key `transfer` in `mpm`", "add `transfer: flip`"]
+    &["a scheme in time needs a `transfer`", "add `transfer: flip`"]
 )]
 fn a_method_has_the_keys_of_its_scheme(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(STEPS, edits, words);
@@ -75,7 +75,7 @@ fn a_method_has_the_keys_of_its_scheme(#[case] edits: Edits<'_>, #[case] words: 
 #[rstest]
 #[case::a_load_in_time(&[(LOAD, "    - gravity: ▸[\"-g*t\"]")], &["`gravity` in load steps: it depends on t"])]
 #[case::a_force_of_the_displacement(
-    &[(LOAD, "    - gravity: [\"-g\"]\n    - body_force: ▸[\"-u_X\"]")], &["it depends on the displacement"]
+    &[(LOAD, "    - gravity: [\"-g\"]\n    - body_force: ▸[\"-ux\"]")], &["it depends on the displacement"]
 )]
 #[case::damping(&[(LOAD, "    - gravity: [\"-g\"]\n    - damping: ▸0.1")], &["there is no velocity to damp"])]
 #[case::local_damping(
@@ -96,11 +96,12 @@ fn a_method_has_the_keys_of_its_scheme(#[case] edits: Edits<'_>, #[case] words: 
 )]
 #[case::a_law_without_tangent(
     &[
-        ("hencky: {young: E, poisson: 0, density: rho0}", "▸linear_elastic: {young: E, poisson: 0, density: rho0}"),
+        ("hencky: {young: E, poisson: 0, density: rho0}", "linear_elastic: {young: E, poisson: 0, density: rho0}"),
         ("equation: hencky", "equation: small_strain"),
         ("displacement: [\"E/(rho0*g)*(K(lambert_w(q(0))) - K(lambert_w(q(X)))) - X\"]", "displacement: [\"-rho0*g/E*(l0*X - X^2/2)\"]"),
         ("  q(Y): \"rho0*g*(l0 - Y)/E\"\n  K(w): \"w + w^2/2\"\n", ""),
-        ("functions:\n", "")
+        ("functions:\n", ""),
+        ("material: {", "material: ▸{")
     ],
     &["`quasi_static` does not support `linear_elastic`", "hencky"]
 )]

@@ -82,7 +82,7 @@ pub(crate) fn methods(
             let Some(transfer) = transfer else {
                 let path = Path::top("methods").then(entry).then("mpm");
                 let diagnostic =
-                    evaluator.diagnostic_at_key(&path, "missing key `transfer` in `mpm`");
+                    evaluator.diagnostic_at_key(&path, "a scheme in time needs a `transfer`");
                 return Err(diagnostic.with_help("add `transfer: flip` in `mpm`"));
             };
             let scheme: Vec<SchemeName> =
