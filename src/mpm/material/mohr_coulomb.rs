@@ -13,6 +13,7 @@
 use super::contract::Contradiction;
 use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use std::ops::{Div, Mul, Sub};
 
 /// Mohr-Coulomb elastoplasticity at finite strain, without hardening.
 pub type MohrCoulomb = ElastoPlastic<Pyramid>;
@@ -85,15 +86,23 @@ impl Pyramid {
         trial - self.relief(plane) * flow
     }
 
-    /// The stress on the edge of two planes; `None` if a flow is negative beyond rounding, as it is
-    /// away from the edge.
-    fn on_edge(&self, [a, b]: [YieldPlane; 2], trial: &Vector<3>) -> Option<Vector<3>> {
-        let (f_a, f_b) = (self.excess(a, trial), self.excess(b, trial));
+    /// Flow on each of two planes that takes away the values `excess` of both yield functions, or
+    /// the derivatives of these flows for derivatives of the values.
+    fn flows<T>(&self, [a, b]: [YieldPlane; 2], [f_a, f_b]: [T; 2]) -> [T; 2]
+    where
+        T: Copy + Mul<f64, Output = T> + Sub<Output = T> + Div<f64, Output = T>,
+    {
         let (aa, ab) = (self.slope(a, a), self.slope(a, b));
         let (ba, bb) = (self.slope(b, a), self.slope(b, b));
         let determinant = aa * bb - ab * ba;
-        let flow_a = (f_a * bb - ab * f_b) / determinant;
-        let flow_b = (aa * f_b - f_a * ba) / determinant;
+        [(f_a * bb - f_b * ab) / determinant, (f_b * aa - f_a * ba) / determinant]
+    }
+
+    /// The stress on the edge of two planes; `None` if a flow is negative beyond rounding, as it is
+    /// away from the edge.
+    fn on_edge(&self, [a, b]: [YieldPlane; 2], trial: &Vector<3>) -> Option<Vector<3>> {
+        let excess = [self.excess(a, trial), self.excess(b, trial)];
+        let [flow_a, flow_b] = self.flows([a, b], excess);
         let least = -ROUNDING * (flow_a.abs() + flow_b.abs());
         (flow_a >= least && flow_b >= least)
             .then(|| trial - self.relief(a) * flow_a - self.relief(b) * flow_b)
@@ -109,14 +118,14 @@ impl Pyramid {
         }
         // On an edge two stresses are equal: only the third one can be out of order.
         let high_edge = || {
-            let edge = [plane, [middle, low]];
-            let stress = self.on_edge(edge, trial)?;
-            (stress[middle] >= stress[low]).then_some((stress, Landing::Edge(edge)))
+            let stress = self.on_edge([plane, [middle, low]], trial)?;
+            let landing = Landing::Edge([plane, [middle, low]]);
+            (stress[middle] >= stress[low]).then_some((stress, landing))
         };
         let low_edge = || {
-            let edge = [plane, [high, middle]];
-            let stress = self.on_edge(edge, trial)?;
-            (stress[high] >= stress[middle]).then_some((stress, Landing::Edge(edge)))
+            let stress = self.on_edge([plane, [high, middle]], trial)?;
+            let landing = Landing::Edge([plane, [high, middle]]);
+            (stress[high] >= stress[middle]).then_some((stress, landing))
         };
         let edge = if stress[middle] > stress[high] {
             high_edge().or_else(low_edge)
@@ -182,12 +191,8 @@ impl YieldSurface for Pyramid {
                 elastic - dyad(&self.relief(plane), &flow)
             }
             Landing::Edge([a, b]) => {
-                let (aa, ab) = (self.slope(a, a), self.slope(a, b));
-                let (ba, bb) = (self.slope(b, a), self.slope(b, b));
-                let determinant = aa * bb - ab * ba;
-                let (of_a, of_b) = (self.excess_slope(a), self.excess_slope(b));
-                let flow_a = (of_a * bb - of_b * ab) / determinant;
-                let flow_b = (of_b * aa - of_a * ba) / determinant;
+                let slopes = [self.excess_slope(a), self.excess_slope(b)];
+                let [flow_a, flow_b] = self.flows([a, b], slopes);
                 elastic - dyad(&self.relief(a), &flow_a) - dyad(&self.relief(b), &flow_b)
             }
             Landing::Apex => Matrix::zeros(),

@@ -1,8 +1,9 @@
 //! Balance of forces of one load step: basis functions at the start of the step, unknowns,
 //! residual and consistent tangent.
 //!
-//! With nodal displacement increments u, the gradient `grad u` at a particle with respect to
-//! positions at the start of the step, `F' = (I + grad u) F` and `grad' N = (I + grad u)^-T grad N`,
+//! With nodal displacement increments u and their gradient `grad u` at a particle, with respect to
+//! positions at the start of the step, and with `F' = (I + grad u) F` and
+//! `grad' N = (I + grad u)^-T grad N`,
 //!
 //! ```text
 //! r_i          = sum_p V0 tau(F') grad' N_i - f_ext_i
@@ -39,7 +40,7 @@ pub(super) struct NodeFunction<const D: usize> {
 }
 
 /// Basis functions of all particles at the start of a step, and the unknowns of the step.
-pub(super) struct Balance<const D: usize> {
+pub(super) struct StepEquations<const D: usize> {
     /// Functions of all particles, one after the other.
     functions: Vec<NodeFunction<D>>,
     /// End of the functions of each particle.
@@ -65,7 +66,7 @@ pub(super) struct Iterate<const D: usize> {
     push: Vec<Matrix<D>>,
 }
 
-impl<const D: usize> Balance<D> {
+impl<const D: usize> StepEquations<D> {
     /// For `particles` at the start of a step.
     ///
     /// # Errors
@@ -77,13 +78,24 @@ impl<const D: usize> Balance<D> {
         boundary: &[Box<dyn Boundary<D>>],
     ) -> Result<Self, Failure> {
         let (mut functions, mut ends) = (Vec::new(), Vec::with_capacity(particles.len()));
-        let mut sums = vec![0.0; grid.nodes()];
         for p in 0..particles.len() {
             kernel.functions(grid, particles, p, &mut |node, weight, gradient| {
-                sums[node] += weight;
                 functions.push(NodeFunction { node, weight, gradient: *gradient });
             });
             ends.push(functions.len());
+        }
+        Self::of_functions(grid, (functions, ends), boundary)
+    }
+
+    /// For the functions of all particles, one after the other, and their end for each particle.
+    fn of_functions(
+        grid: &Grid<D>,
+        (functions, ends): (Vec<NodeFunction<D>>, Vec<usize>),
+        boundary: &[Box<dyn Boundary<D>>],
+    ) -> Result<Self, Failure> {
+        let mut sums = vec![0.0; grid.nodes()];
+        for function in &functions {
+            sums[function.node] += function.weight;
         }
         let is_used = |sum: &f64| f64::from(u8::from(*sum >= LEAST_WEIGHT));
         let mut free: Vec<Vector<D>> =
@@ -274,4 +286,78 @@ fn number<const D: usize>(
         }
     }
     (unknowns, nodes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::boundary::{Fixed, Side};
+    use crate::mpm::foundation::particles::Block;
+    use crate::mpm::material::{DruckerPrager, Hencky, StressUpdate};
+    use rstest::rstest;
+
+    /// Bilinear functions of four cells at a particle.
+    fn bilinear(grid: &Grid<2>, x: &Vector<2>) -> Vec<NodeFunction<2>> {
+        let hat = |axis: usize, i: usize| {
+            let s = (x[axis] - grid.origin[axis]) / grid.h - i as f64;
+            let slope = if s < 0.0 { 1.0 } else { -1.0 };
+            if s.abs() < 1.0 { (1.0 - s.abs(), slope / grid.h) } else { (0.0, 0.0) }
+        };
+        let function = |node: usize| {
+            let [(along, slope), (across, slope_across)] =
+                [0, 1].map(|axis| hat(axis, grid.index_on_axis(node, axis)));
+            let gradient = Vector::<2>::new(slope * across, along * slope_across);
+            NodeFunction { node, weight: along * across, gradient }
+        };
+        (0..grid.nodes()).map(function).filter(|function| function.weight > 0.0).collect()
+    }
+
+    /// At an increment without symmetry; with plasticity, some particles yield and others do not.
+    #[rstest]
+    #[case::elastic(Box::new(Hencky::new(100.0, 0.3)))]
+    #[case::plastic(Box::new(DruckerPrager::new(100.0, 0.3, 0.3, 0.1, 4.0)))]
+    fn tangent_agrees_with_central_differences(#[case] mut law: Box<dyn Material<2>>) {
+        let grid = Grid::<2>::new(Vector::zeros(), 0.5, [2, 2], [false; 2], [3, 3]);
+        let block = Block { from: Vector::zeros(), to: Vector::from_element(1.0), density: 1.0 };
+        let mut particles = Particles::fill(&block, 0.5, 2);
+        particles.track_deformation();
+        for (p, f) in particles.def_grad.iter_mut().enumerate() {
+            f[(0, 1)] = 0.05 * libm::sin(p as f64);
+        }
+        law.update(&mut StressUpdate::new(0.0, &mut particles));
+        let (mut functions, mut ends) = (Vec::new(), Vec::new());
+        for x in &particles.x {
+            functions.extend(bilinear(&grid, x));
+            ends.push(functions.len());
+        }
+        let boundary: Vec<Box<dyn Boundary<2>>> = vec![Box::new(Fixed::face(&grid, 0, Side::Low))];
+        let equations = StepEquations::of_functions(&grid, (functions, ends), &boundary).unwrap();
+        let noise = |i: usize, axis: usize| 0.05 * libm::sin(1.0 + 3.0 * i as f64 + axis as f64);
+        let mut increment: Vec<Vector<2>> =
+            (0..grid.nodes()).map(|i| Vector::from_fn(|axis, _| noise(i, axis))).collect();
+        boundary[0].clear(&mut increment);
+        let load = vec![Vector::from_element(0.3); grid.nodes()];
+        let iterate = |increment: Vec<Vector<2>>| {
+            equations.iterate(&particles, law.as_ref(), &load, increment).unwrap()
+        };
+        let at = iterate(increment.clone());
+        // K d = -r, so that the residual changes by -r along d.
+        let direction = equations.correction(&particles, &at).unwrap();
+        let length = direction.iter().map(Vector::norm).fold(0.0, f64::max);
+        let step = 1e-5 / length;
+        let moved = |share: f64| {
+            let moved = increment.iter().zip(&direction).map(|(u, d)| u + d * (share * step));
+            iterate(moved.collect()).residual
+        };
+        let [low, high, lowest, highest] = [-1.0, 1.0, -2.0, 2.0].map(moved);
+        let difference: Vec<Vector<2>> = (0..grid.nodes())
+            .map(|i| {
+                let narrow = (high[i] - low[i]) / (2.0 * step);
+                let wide = (highest[i] - lowest[i]) / (4.0 * step);
+                (narrow * 4.0 - wide) / 3.0 + at.residual[i]
+            })
+            .collect();
+        let error = equations.norm(&difference) / at.norm;
+        assert!(error <= 1e-7, "{error:.1e}");
+    }
 }

@@ -17,8 +17,6 @@
 mod balance;
 mod banded;
 mod newton;
-#[cfg(test)]
-mod tests;
 
 use super::basis::Domain;
 use super::boundary::{Boundary, Side};
@@ -36,7 +34,7 @@ use crate::subject::{
     BodyFields, Checkpoint, Column, Failure, Profile, Reaction, RunCounters, Samples, Site,
     Subject, Totals,
 };
-use balance::{Balance, NO_TANGENT};
+use balance::{NO_TANGENT, StepEquations};
 
 /// Parts of a quasi-static solver of one body.
 pub struct QuasiStaticSetup<const D: usize> {
@@ -131,7 +129,11 @@ impl<const D: usize> QuasiStatic<D> {
 
     /// Moves the particles by the increments of a load step (m), and updates F, the state of the
     /// law, volumes, stresses and domains.
-    fn advance(&mut self, balance: &Balance<D>, increment: &[Vector<D>]) -> Result<(), Failure> {
+    fn advance(
+        &mut self,
+        balance: &StepEquations<D>,
+        increment: &[Vector<D>],
+    ) -> Result<(), Failure> {
         let QuasiStaticSetup { grid, particles, kernel, material, .. } = &mut self.setup;
         for p in 0..particles.len() {
             particles.def_grad[p] = balance.stretch(p, increment) * particles.def_grad[p];
@@ -164,7 +166,7 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         let share = self.steps as f64 / self.setup.load_steps as f64;
         let QuasiStaticSetup { grid, particles, kernel, material, boundary, .. } = &mut self.setup;
         let load: Vec<Vector<D>> = grid.force.iter().map(|force| force * share).collect();
-        let balance = Balance::new(grid, particles, kernel.as_ref(), boundary)?;
+        let balance = StepEquations::new(grid, particles, kernel.as_ref(), boundary)?;
         let solution = newton::solve(&balance, particles, material.as_ref(), &load);
         self.residuals = solution.residuals;
         // Each iterate visits the nodes of all particles for its stress, and again for its tangent.

@@ -8,7 +8,7 @@
 //! Lemarechal & Pedersen 1982, Math. Program. Study 16). A step that inverts a particle is halved
 //! in any case.
 
-use super::balance::{Balance, Iterate};
+use super::balance::{Iterate, StepEquations};
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::Material;
@@ -40,7 +40,7 @@ pub(super) struct Solution<const D: usize> {
 
 /// Data of a load step.
 struct LoadStep<'a, const D: usize> {
-    balance: &'a Balance<D>,
+    balance: &'a StepEquations<D>,
     particles: &'a Particles<D>,
     material: &'a dyn Material<D>,
     /// External forces (N).
@@ -49,7 +49,7 @@ struct LoadStep<'a, const D: usize> {
 
 /// Solves a load step with the external forces `load` (N).
 pub(super) fn solve<const D: usize>(
-    balance: &Balance<D>,
+    balance: &StepEquations<D>,
     particles: &Particles<D>,
     material: &dyn Material<D>,
     load: &[Vector<D>],

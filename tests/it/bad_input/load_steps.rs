@@ -6,12 +6,12 @@ use rstest::rstest;
 const STEPS: &str = include_str!("../../../verification/equilibrium/load-steps-hencky.yaml");
 
 const RUN: &str = "run: {load_steps: [1, 20]}";
-const METHOD: &str = "- mpm: {basis: [linear, cpgimp], scheme: quasi_static}";
+const METHOD: &str = "- mpm: {basis: [linear, ugimp, cpgimp], scheme: quasi_static}";
 const LOAD: &str = "    - gravity: [\"-g\"]";
 
 #[rstest]
 #[case::with_an_end(&[(RUN, "run: {load_steps: 20, ▸until: 1}")], &["load steps have no time", "keep one of them"])]
-#[case::without_either(&[(RUN, "▸run: {}")], &["a run needs an end", "load_steps"])]
+#[case::without_either(&[(RUN, "run: ▸{dt: 1}"), (METHOD, "- external: {name: mine}")], &["a run needs an end", "load_steps"])]
 #[case::with_a_time_step(&[(RUN, "run: {load_steps: 20, ▸dt: 0.1}")], &["load steps have no length in time"])]
 #[case::with_refined_time_steps(
     &[("ppc: 2}", "ppc: 2, ▸dt: [4, 3, 2, 1]}")], &["load steps have no length in time"]

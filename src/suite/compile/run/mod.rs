@@ -37,7 +37,7 @@ pub(crate) fn ends(
         }
         (None, None) => {
             let message = "a run needs an end";
-            let diagnostic = evaluator.diagnostic_at_key(&Path::top("run"), message);
+            let diagnostic = evaluator.diagnostic(&Path::top("run"), message);
             Err(diagnostic.with_help("add `until`, or `load_steps` for `scheme: quasi_static`"))
         }
     }
