@@ -168,9 +168,9 @@ pub trait Material<const D: usize>: Send {
         Ok(())
     }
 
-    /// Kirchhoff stress and consistent tangent of particle `p` at the deformation gradient `f`. They
-    /// start from the state of the law at the start of the step, which does not change. `None` if
-    /// the law has no tangent.
+    /// Kirchhoff stress and consistent tangent of particle `p` at the deformation gradient `f`.
+    /// Both belong to a step from the state of the law at its start, which does not change. `None`
+    /// if the law has no tangent.
     fn response(&self, _p: usize, _f: &Matrix<D>) -> Option<StressResponse<D>> {
         None
     }

@@ -70,7 +70,7 @@ impl<const D: usize> LoadStep<'_, D> {
         let mut now = self.iterate(vec![Vector::zeros(); self.load.len()])?;
         residuals.push(now.norm / scale);
         let (mut best, mut waited, mut searches) = (now.increment.clone(), 0, false);
-        let mut best_norm = now.norm;
+        let mut best_norm = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
             if now.norm / scale < CONVERGED {
                 return Ok(now);

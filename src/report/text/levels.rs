@@ -61,7 +61,13 @@ fn setting(study: &Convergence) -> String {
             .map(|dt| format!("dt = {dt} s")),
         of_axis(Axis::Particles, count("per cell", &|level| level.ppc.map(|ppc| ppc.to_string()))),
         count("particles", &|level| level.run.counters.particles.map(|count| count.to_string())),
-        count(if study.by_load_steps { "load steps" } else { "steps" }, &|level| Some(level.run.steps.to_string())),
+        span(&|level| Some(level.run.steps.to_string())).map(|steps| {
+            if study.by_load_steps {
+                format!("load steps: {steps}")
+            } else {
+                format!("{steps} steps")
+            }
+        }),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
 }

@@ -84,6 +84,9 @@ fn a_method_has_the_keys_of_its_scheme(#[case] edits: Edits<'_>, #[case] words: 
 #[case::a_pressure(
     &[(LOAD, "    - gravity: [\"-g\"]\n    - pressure: ▸{on: right, value: 1}")], &["it follows the face"]
 )]
+#[case::a_free_body(
+    &[("boundary: {left: fixed}", "boundary: {}"), ("  body:", "  ▸body:")], &["nothing holds the body along X"]
+)]
 #[case::no_load(&[("  loads:\n    - gravity: [\"-g\"]\n", ""), ("  material:", "  ▸material:")], &["the scene has none"])]
 #[case::a_start_in_motion(
     &[("  loads:", "  ▸initial_velocity: [1]\n  loads:")], &["load steps have no velocity"]

@@ -250,6 +250,15 @@ fn reaction_is_the_weight() {
     assert_relative_eq!(reaction.force[0], weight, max_relative = 1e-9);
 }
 
+/// A full correction of Newton's method would turn the column inside out: its strain at the bottom
+/// is the weight over the modulus, and that of the solution is its logarithm.
+#[test]
+fn corrections_that_invert_particles_are_shortened() {
+    let case = ColumnCase { gravity: 750.0, ..ColumnCase::hencky(20, 1) };
+    let [displacement, stress] = case.errors(BasisName::Linear);
+    assert!(displacement < 0.05 && stress < 0.03, "{displacement}, {stress}");
+}
+
 /// Soil that hangs from its wall: the weight exceeds the tensile strength of the cone.
 #[test]
 fn load_without_equilibrium_is_reported_with_residual_and_node() {
@@ -278,8 +287,9 @@ fn resumed_run_has_equal_bits() {
     assert!(goes_on(|| case.build::<1>(BasisName::ContiguousGimp), 1.0, "load steps"));
 }
 
-/// The tangent of the whole body, in two dimensions with a soil that yields under its own weight
-/// next to a rough wall.
+/// The whole tangent in two dimensions, next to a rough wall. The soil yields under its own weight,
+/// so that quadratic convergence begins when no particle changes between elastic and plastic any
+/// more: it shows in three residuals in a row, above rounding.
 #[rstest]
 fn newton_converges_quadratically_in_two_dimensions(
     #[values(BasisName::Linear, BasisName::ContiguousGimp, BasisName::QuadraticBSpline)]
@@ -291,6 +301,11 @@ fn newton_converges_quadratically_in_two_dimensions(
     let mut solver = QuasiStatic::new(setup).unwrap();
     solver.step(1.0).unwrap();
     let residuals = solver.residuals();
-    assert!(residuals.len() <= 7, "{residuals:?}");
-    assert!(newton_exponent(residuals).is_none_or(|exponent| exponent >= 1.8), "{residuals:?}");
+    let exponent = |three: &[f64]| {
+        let [a, b, c] = *three else { return 0.0 };
+        let is_falling = a > b && b > c && c > 1e-12;
+        if is_falling { libm::log(c / b) / libm::log(b / a) } else { 0.0 }
+    };
+    let largest = residuals.windows(3).map(exponent).fold(0.0, f64::max);
+    assert!(residuals.len() <= 15 && largest >= 1.8, "{largest}: {residuals:?}");
 }

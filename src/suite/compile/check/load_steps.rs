@@ -2,7 +2,7 @@
 //! laws that the quasi-static solver does not support.
 
 use crate::subject::PlaneState;
-use crate::suite::evaluator::Evaluator;
+use crate::suite::evaluator::{COORDINATES, Evaluator};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::EffectName;
@@ -125,6 +125,11 @@ pub(crate) fn refuse_unfit(
         let at = top.then("boundary").then(face.name);
         return Err(evaluator.diagnostic_at_key(&at, &message).with_help(help));
     }
+    if let Some(axis) = (0..scene.dimension()).find(|axis| !is_held(scene, *axis)) {
+        let message = format!("nothing holds the body along {}", COORDINATES[axis]);
+        let diagnostic = evaluator.diagnostic_at_key(&top.then("body"), &message);
+        return Err(diagnostic.with_help("fix a face, or add a roller with this normal"));
+    }
     let is_built_in = spec.methods.iter().any(MethodSpec::is_quasi_static);
     match scene.material.properties().has_tangent() {
         Err(reason) if is_built_in => {
@@ -135,6 +140,14 @@ pub(crate) fn refuse_unfit(
         }
         _ => Ok(()),
     }
+}
+
+/// Whether a face holds the body along an axis.
+fn is_held(scene: &Scene, axis: usize) -> bool {
+    let holds = |face: &SceneFace| {
+        face.hold.holds_all_components() || (face.hold.is_held() && face.axis == axis)
+    };
+    scene.faces.iter().any(holds)
 }
 
 /// Conditions on faces that neither move nor depend on the motion.
