@@ -119,12 +119,17 @@ fn levels(suite: &Suite) -> String {
     for (cases, levels) in &groups {
         let whose = if groups.len() == 1 { "all cases".to_owned() } else { cases.join(", ") };
         page += &line("levels", &whose);
-        page += &line("", "  cells      h (m)  particles     dt (s)    steps  Courant number");
+        let by_load_steps = levels.iter().all(|level| level.courant.is_none());
+        let time =
+            if by_load_steps { "  load steps" } else { "     dt (s)    steps  Courant number" };
+        page += &line("", &format!("  cells      h (m)  particles{time}"));
         for level in *levels {
             let PlannedLevel { cells, h, particles, dt, steps, courant } = level;
-            let text = format!(
-                "{cells:>7} {h:>10.4e} {particles:>10.0} {dt:>10.4e} {steps:>8} {courant:>8.4}"
-            );
+            let mut text = format!("{cells:>7} {h:>10.4e} {particles:>10.0} ");
+            text += &match courant {
+                Some(courant) => format!("{dt:>10.4e} {steps:>8} {courant:>8.4}"),
+                None => format!("{steps:>11}"),
+            };
             page += &line("", &text);
         }
     }

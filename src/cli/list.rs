@@ -7,7 +7,7 @@ use super::status::Status;
 use clap::Args;
 use mpm_verify::study::{Estimate, TimeStep, estimates, time_steps};
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Extent, Suite};
+use mpm_verify::suite::{ConvergencePlan, Extent, Suite};
 use mpm_verify::verify::STEP_TOLERANCE;
 use serde_json::{Value, json};
 use std::cell::Cell;
@@ -75,6 +75,9 @@ pub(super) fn steps(args: &StepsArgs) -> Status {
         })
     } else {
         show::each(targets, |suite| {
+            let plan = suite.plan::<ConvergencePlan>();
+            let by_load_steps = plan.is_some_and(|plan| plan.by_load_steps);
+            let row = if by_load_steps { load_steps_row } else { row };
             let rows: String = of_suite(suite).iter().map(row).collect();
             format!("{}\n{rows}", suite.name)
         })
@@ -97,6 +100,11 @@ fn row(step: &TimeStep) -> String {
         step.ratio(),
         clock.instants,
     )
+}
+
+fn load_steps_row(step: &TimeStep) -> String {
+    let TimeStep { case, level, clock, .. } = step;
+    format!("  {case}, {} cells: {} load steps\n", level.cells, clock.steps)
 }
 
 fn level(step: &TimeStep) -> Value {

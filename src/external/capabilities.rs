@@ -40,6 +40,8 @@ pub struct Capabilities {
     pub displacement_force: bool,
     /// Whether loads may act on the rims of disks and annuli.
     pub loaded_rims: bool,
+    /// Whether the load may be applied in quasi-static load steps, without time.
+    pub load_steps: bool,
     /// Whether columns may be raw bytes.
     pub binary: bool,
 }
@@ -79,6 +81,8 @@ pub struct ProblemNeeds {
     pub displacement_force: bool,
     /// Whether a load acts on the rim of a disk or an annulus.
     pub loaded_rims: bool,
+    /// Whether the load is applied in load steps.
+    pub load_steps: bool,
     /// Parts of the scene that the protocol cannot represent yet.
     pub beyond: Vec<&'static str>,
 }
@@ -130,7 +134,7 @@ impl Capabilities {
 
 impl Capabilities {
     /// Boolean capabilities, in the order of [`ProblemNeeds::flags`].
-    fn flags(&self) -> [bool; 9] {
+    fn flags(&self) -> [bool; 10] {
         [
             self.manufactured,
             self.initial_deformation,
@@ -141,6 +145,7 @@ impl Capabilities {
             self.initial_stress,
             self.displacement_force,
             self.loaded_rims,
+            self.load_steps,
         ]
     }
 }
@@ -176,7 +181,7 @@ impl Capabilities {
 
 impl ProblemNeeds {
     /// Boolean requirements, with the names of the capabilities.
-    fn flags(&self) -> [(&'static str, bool); 9] {
+    fn flags(&self) -> [(&'static str, bool); 10] {
         [
             ("manufactured", self.manufactured),
             ("initial_deformation", self.initial_deformation),
@@ -187,6 +192,7 @@ impl ProblemNeeds {
             ("initial_stress", self.initial_stress),
             ("displacement_force", self.displacement_force),
             ("loaded_rims", self.loaded_rims),
+            ("load_steps", self.load_steps),
         ]
     }
 
@@ -261,6 +267,7 @@ const KEYS: &[&str] = &[
     "initial_stress",
     "displacement_force",
     "loaded_rims",
+    "load_steps",
     "binary",
 ];
 
@@ -313,6 +320,7 @@ mod tests {
             initial_stress: true,
             displacement_force: true,
             loaded_rims: true,
+            load_steps: true,
             beyond: vec!["heat"],
         };
         let all = [
@@ -332,6 +340,7 @@ mod tests {
             "initial_stress",
             "displacement_force",
             "loaded_rims",
+            "load_steps",
             "heat, which the protocol does not hand over",
         ];
         assert_eq!(Capabilities::default().lacking(&needs), all);
@@ -348,9 +357,10 @@ mod tests {
             initial_stress: true,
             displacement_force: true,
             loaded_rims: true,
+            load_steps: true,
             ..Capabilities::of(&[1, 2], &["neo_hookean"], &conditions, &["gravity"])
         };
-        assert_eq!(able.lacking(&needs), all[16..]);
+        assert_eq!(able.lacking(&needs), all[17..]);
     }
 
     #[test]

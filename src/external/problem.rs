@@ -31,6 +31,10 @@ pub struct LevelProblem {
     pub loads: Vec<ProblemLoad>,
     /// Particles per cell.
     pub particles_per_cell: Option<u64>,
+    /// Number of load steps, if the load grows in quasi-static steps without time. Each is then a
+    /// step of length 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_steps: Option<u64>,
     /// Number of steps.
     pub steps: u64,
     /// Length of a step (s).

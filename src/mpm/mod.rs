@@ -20,7 +20,8 @@
 //! kernel        the loops over particles and nodes, compiled for each basis
 //! families      boundary, mass, material, transfer, effect
 //! step          set-up, schedule and passes of a solver
-//! multibody, analysis    several solvers on one grid; questions to a solver
+//! multibody, quasi_static    several solvers on one grid; a solver without dynamics
+//! analysis      questions to a solver
 //! ```
 
 mod analysis;
@@ -32,6 +33,7 @@ mod kernel;
 mod mass;
 pub mod material;
 mod multibody;
+mod quasi_static;
 mod scheme;
 mod seeding;
 mod step;
@@ -56,9 +58,10 @@ pub use material::{
     CamClay, Contradiction, DruckerPrager, ElastoPlastic, GreenNaghdi, Hencky, J2, Jaumann,
     LinearElastic, LinearFluid, Material, MaterialParameter, MaterialPlan, MaterialProperties,
     MaterialSpec, MohrCoulomb, NeoHookean, Newtonian, Prestressed, Range, Rigid, StressBlock,
-    StressUpdate,
+    StressResponse, StressUpdate,
 };
 pub use multibody::Bodies;
+pub use quasi_static::{QuasiStatic, QuasiStaticSetup};
 pub use scheme::{SchemeName, Stage};
 pub use seeding::Fragment;
 pub use seeding::quadrilateral::Quadrilateral;

@@ -238,6 +238,17 @@ pub enum Failure {
         /// Its position, D numbers (m).
         position: Vec<f64>,
     },
+    /// Newton's method did not converge in a load step.
+    #[error(
+        "Newton's method did not converge: the largest residual is {residual:.1e} of the load, at \
+         node {node}"
+    )]
+    NotConverged {
+        /// Largest residual of a node, over the norm of the load.
+        residual: f64,
+        /// Number of the node.
+        node: usize,
+    },
     /// A linear system could not be solved.
     #[error("{0}")]
     Solve(String),

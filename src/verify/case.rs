@@ -120,6 +120,7 @@ impl JudgePlan<'_> {
             scale: self.scale,
             error_scale: self.error_scale.clone(),
             compared: self.is_compared,
+            by_load_steps: self.by_load_steps,
             bounded: self.expectation.is_some_and(|expectation| expectation.verdict.is_none())
                 || accepted.is_some_and(|accepted| accepted != Acceptance::Order)
                 || gate.is_some_and(|gate| gate.remark.is_some()),

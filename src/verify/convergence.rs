@@ -34,6 +34,8 @@ pub struct Convergence {
     pub error_scale: ErrorScale,
     /// Whether errors are measured against an exact solution or a reference.
     pub compared: bool,
+    /// Whether the steps are load steps, without time.
+    pub by_load_steps: bool,
     /// Whether the case has bounds on figures only: then it has no expected order, and every usable
     /// level counts.
     pub bounded: bool,
@@ -207,6 +209,7 @@ pub(in crate::verify) mod tests {
             scale: None,
             error_scale: ErrorScale { problem: String::new(), size: 1.0, growth: 2.0 },
             compared: true,
+            by_load_steps: false,
             bounded: false,
             accepted: None,
             drifts: Vec::new(),

@@ -30,6 +30,8 @@ pub struct JudgePlan<'a> {
     pub error_scale: ErrorScale,
     /// Whether errors are measured against an exact solution or a reference.
     pub is_compared: bool,
+    /// Whether the steps are load steps, without time.
+    pub by_load_steps: bool,
     /// Whether levels on which particles change their cell are excluded.
     pub excludes_crossings: bool,
     /// Distance (m) of neighbouring positions of a solver in single precision, if its displacement

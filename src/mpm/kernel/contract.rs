@@ -94,6 +94,16 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         entry: &mut dyn FnMut(usize, usize, f64),
     );
 
+    /// Calls `entry` with the node, the weight N_i and the gradient (1/m) of every function at
+    /// particle `p`. A node may appear several times: its function is the sum.
+    fn functions(
+        &self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        p: usize,
+        entry: &mut dyn FnMut(usize, f64, &Vector<D>),
+    );
+
     /// Adds the forces of a moment, `moment grad N_i(x_p)`, to the nodes of particle `p`. Their sum
     /// is zero: `moment = f (x) d` (N m) moves the force f from the particle by d (m).
     fn p2g_point_moment(
@@ -315,7 +325,7 @@ impl Default for LoopSettings {
 #[derive(Debug, Default)]
 pub struct Tally(OnceLock<[AtomicU64; NAMES.len()]>);
 
-const NAMES: [&str; 18] = [
+const NAMES: [&str; 19] = [
     "p2g mass",
     "p2g momentum",
     "p2g internal force",
@@ -327,6 +337,7 @@ const NAMES: [&str; 18] = [
     "g2p moment",
     "weight moments",
     "mass matrix",
+    "basis functions",
     "g2p position",
     "p2g mass gradient",
     "p2g scalar",

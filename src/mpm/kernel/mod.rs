@@ -202,6 +202,17 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         }
     }
 
+    fn functions(
+        &self,
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        p: usize,
+        entry: &mut dyn FnMut(usize, f64, &Vector<D>),
+    ) {
+        self.tally.add("basis functions", 1);
+        B::visit(grid, particles, p, |i| entry(i.node, i.weight, i.gradient));
+    }
+
     fn p2g_point_moment(
         &self,
         particles: &Particles<D>,

@@ -1,7 +1,7 @@
 //! Interface of materials to the solver and to the compiler of suites.
 
 use super::stress_update::StressUpdate;
-#[cfg(test)]
+use super::tangent::StressResponse;
 use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
@@ -42,6 +42,14 @@ pub trait MaterialProperties {
     /// Why it may not.
     fn takes_averaged_volume(&self) -> Result<(), &'static str> {
         self.depends_on_deformation_alone()
+    }
+
+    /// Whether the law has a consistent tangent ([`Material::response`]), as implicit solvers need.
+    ///
+    /// # Errors
+    /// Why it has none.
+    fn has_tangent(&self) -> Result<(), &'static str> {
+        Err("the derivative of its stress by the deformation is not implemented")
     }
 
     /// Whether the law is elastic: only then is its thermal expansion defined.
@@ -158,6 +166,13 @@ pub trait Material<const D: usize>: Send {
         }
         self.update(&mut StressUpdate::new(0.0, particles));
         Ok(())
+    }
+
+    /// Kirchhoff stress and consistent tangent of particle `p` at the deformation gradient `f`.
+    /// Both belong to a step from the state of the law at its start, which does not change. `None`
+    /// if the law has no tangent.
+    fn response(&self, _p: usize, _f: &Matrix<D>) -> Option<StressResponse<D>> {
+        None
     }
 
     /// New stresses and volumes of all particles from F, where it exists, and from their velocity

@@ -9,8 +9,10 @@
 //! a tension cut-off, which is not part of the flow rule.
 
 use super::contract::Contradiction;
-use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
-use crate::mpm::foundation::algebra::Vector;
+use super::plastic_flow::{
+    ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface, modulus_of_invariants,
+};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
 
 /// Drucker-Prager elastoplasticity at finite strain, without hardening.
 pub type DruckerPrager = ElastoPlastic<Cone>;
@@ -68,6 +70,25 @@ impl YieldSurface for Cone {
             }
         };
         Some((after, trial.distance(&after)))
+    }
+
+    /// With the flow `g = (sqrt(J2) + eta p - k)/(mu + K eta etab)`, `dp = K (tr deps - etab dg)`
+    /// and `d sqrt(J2) = mu (sqrt(2) n : deps - dg)` (de Souza Neto et al. 2008, section 8.3).
+    fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>> {
+        let Self { elasticity: LogElasticity { bulk, mu, .. }, friction, dilation, .. } = *self;
+        let (after, _) = self.return_from(trial, flowed)?;
+        let (size, length) = (trial.deviator.norm(), 2.0 * mu * after.deviator.norm());
+        if length == 0.0 {
+            // The apex is one stress.
+            return Some(Matrix::zeros());
+        }
+        let one = Vector::<3>::from_element(1.0);
+        let shear_slope = trial.deviator * (2.0_f64.sqrt() * mu / size);
+        let flow_slope =
+            (shear_slope + one * (friction * bulk)) / (mu + bulk * friction * dilation);
+        let mean_slope = one * bulk - flow_slope * (bulk * dilation);
+        let length_slope = (shear_slope - flow_slope * mu) * 2.0_f64.sqrt();
+        Some(modulus_of_invariants(trial, &mean_slope, (length, &length_slope)))
     }
 
     /// de Souza Neto et al. (2008), eq. 8.113: both invariants are linear in the strain.

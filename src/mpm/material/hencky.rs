@@ -10,6 +10,7 @@ use super::linear_elastic::LinearElastic;
 use super::plane_stress::{FreeAcross, PlaneStress, lambda_of_plate, thinning};
 use super::spectral::{assembled, half_log, half_log_batch, spectral};
 use super::stress_update::StressUpdate;
+use super::tangent::{StressResponse, isotropic_modulus};
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::Particles;
 
@@ -78,6 +79,10 @@ impl MaterialProperties for Hencky {
     fn is_elastic(&self) -> bool {
         true
     }
+
+    fn has_tangent(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
 }
 
 impl<const D: usize> Material<D> for Hencky {
@@ -93,6 +98,11 @@ impl<const D: usize> Material<D> for Hencky {
 
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         Some(stored_energy(particles, |f| self.density(f)))
+    }
+
+    fn response(&self, _: usize, f: &Matrix<D>) -> Option<StressResponse<D>> {
+        let modulus = isotropic_modulus(self.lambda, self.mu);
+        Some(StressResponse::new(f, &Matrix::identity(), |strain| (modulus * strain, modulus)))
     }
 
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {

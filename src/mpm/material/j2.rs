@@ -3,7 +3,10 @@
 //! Yield if `sqrt(3/2) |dev tau| > Y + H alpha`; the return is radial (de Souza Neto, Peric & Owen
 //! 2008, chapters 7 and 14). The integration is that of [`plastic_flow`](super::plastic_flow).
 
-use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
+use super::plastic_flow::{
+    ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface, modulus_of_invariants,
+};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
 
 /// J2 elastoplasticity at finite strain with isotropic hardening.
 pub type J2 = ElastoPlastic<VonMises>;
@@ -40,6 +43,18 @@ impl YieldSurface for VonMises {
         let flow = excess / (3.0 * mu + self.hardening);
         let deviator = trial.deviator * (1.0 - 3.0 * mu * flow / mises);
         Some((PrincipalStrain { deviator, ..*trial }, flow))
+    }
+
+    /// The deviator of the stress has the length `sqrt(2/3) (Y + H (alpha + flow))`, whose slope is
+    /// `2 mu H/(3 mu + H)` along the deviator of the strain.
+    fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>> {
+        let (mu, hardening) = (self.elasticity.mu, self.hardening);
+        let (_, flow) = self.return_from(trial, flowed)?;
+        let size = trial.deviator.norm();
+        let length = 2.0 * mu * size - 6.0_f64.sqrt() * mu * flow;
+        let slope = trial.deviator * (2.0 * mu * hardening / (3.0 * mu + hardening) / size);
+        let mean = Vector::from_element(self.elasticity.bulk);
+        Some(modulus_of_invariants(trial, &mean, (length, &slope)))
     }
 
     /// The deviator ends on the yield surface.

@@ -20,6 +20,7 @@ mod soil_paths;
 mod specimen;
 mod spectral;
 mod stress_update;
+mod tangent;
 
 use crate::members::{each_material, key};
 use crate::subject::PlaneState;
@@ -31,6 +32,7 @@ pub use plastic_flow::ElastoPlastic;
 pub use prestressed::Prestressed;
 use registry::materials;
 pub use stress_update::{StressBlock, StressUpdate};
+pub use tangent::StressResponse;
 
 each_material!(materials);
 

@@ -12,7 +12,8 @@
 
 use super::contract::Contradiction;
 use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use std::ops::{Div, Mul, Sub};
 
 /// Mohr-Coulomb elastoplasticity at finite strain, without hardening.
 pub type MohrCoulomb = ElastoPlastic<Pyramid>;
@@ -32,6 +33,14 @@ const ROUNDING: f64 = 1e-9;
 
 /// A plane of the pyramid, by the places of the largest and the smallest stress.
 type YieldPlane = [usize; 2];
+
+/// Part of the pyramid on which a return ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Landing {
+    Plane(YieldPlane),
+    Edge([YieldPlane; 2]),
+    Apex,
+}
 
 impl MohrCoulomb {
     /// From Young's modulus (Pa), Poisson's ratio, the angles of friction and of dilation
@@ -77,36 +86,46 @@ impl Pyramid {
         trial - self.relief(plane) * flow
     }
 
-    /// The stress on the edge of two planes; `None` if a flow is negative beyond rounding, as it is
-    /// away from the edge.
-    fn on_edge(&self, [a, b]: [YieldPlane; 2], trial: &Vector<3>) -> Option<Vector<3>> {
-        let (f_a, f_b) = (self.excess(a, trial), self.excess(b, trial));
+    /// Flow on each of two planes that takes away the values `excess` of both yield functions, or
+    /// the derivatives of these flows for derivatives of the values.
+    fn flows<T>(&self, [a, b]: [YieldPlane; 2], [f_a, f_b]: [T; 2]) -> [T; 2]
+    where
+        T: Copy + Mul<f64, Output = T> + Sub<Output = T> + Div<f64, Output = T>,
+    {
         let (aa, ab) = (self.slope(a, a), self.slope(a, b));
         let (ba, bb) = (self.slope(b, a), self.slope(b, b));
         let determinant = aa * bb - ab * ba;
-        let flow_a = (f_a * bb - ab * f_b) / determinant;
-        let flow_b = (aa * f_b - f_a * ba) / determinant;
+        [(f_a * bb - f_b * ab) / determinant, (f_b * aa - f_a * ba) / determinant]
+    }
+
+    /// The stress on the edge of two planes; `None` if a flow is negative beyond rounding, as it is
+    /// away from the edge.
+    fn on_edge(&self, [a, b]: [YieldPlane; 2], trial: &Vector<3>) -> Option<Vector<3>> {
+        let excess = [self.excess(a, trial), self.excess(b, trial)];
+        let [flow_a, flow_b] = self.flows([a, b], excess);
         let least = -ROUNDING * (flow_a.abs() + flow_b.abs());
         (flow_a >= least && flow_b >= least)
             .then(|| trial - self.relief(a) * flow_a - self.relief(b) * flow_b)
     }
 
     /// The stress after the return from a trial stress outside, whose largest, middle and smallest
-    /// values are at the places `order`.
-    fn returned(&self, [high, middle, low]: [usize; 3], trial: &Vector<3>) -> Vector<3> {
+    /// values are at the places `order`, and the part of the pyramid that it is on.
+    fn returned(&self, [high, middle, low]: [usize; 3], trial: &Vector<3>) -> (Vector<3>, Landing) {
         let plane = [high, low];
         let stress = self.on_plane(plane, trial);
         if stress[high] >= stress[middle] && stress[middle] >= stress[low] {
-            return stress;
+            return (stress, Landing::Plane(plane));
         }
         // On an edge two stresses are equal: only the third one can be out of order.
         let high_edge = || {
             let stress = self.on_edge([plane, [middle, low]], trial)?;
-            (stress[middle] >= stress[low]).then_some(stress)
+            let landing = Landing::Edge([plane, [middle, low]]);
+            (stress[middle] >= stress[low]).then_some((stress, landing))
         };
         let low_edge = || {
             let stress = self.on_edge([plane, [high, middle]], trial)?;
-            (stress[high] >= stress[middle]).then_some(stress)
+            let landing = Landing::Edge([plane, [high, middle]]);
+            (stress[high] >= stress[middle]).then_some((stress, landing))
         };
         let edge = if stress[middle] > stress[high] {
             high_edge().or_else(low_edge)
@@ -114,7 +133,26 @@ impl Pyramid {
             low_edge().or_else(high_edge)
         };
         // The edges of Tresca's prism never meet: the sine is above zero here.
-        edge.unwrap_or_else(|| Vector::<3>::from_element(self.strength / (2.0 * self.sines[0])))
+        let apex = || Vector::<3>::from_element(self.strength / (2.0 * self.sines[0]));
+        edge.unwrap_or_else(|| (apex(), Landing::Apex))
+    }
+
+    /// The trial stress with the places of its largest, middle and smallest value; `None` if it is
+    /// inside.
+    fn outside(&self, trial: &PrincipalStrain) -> Option<(Vector<3>, [usize; 3])> {
+        let stress = self.elasticity.stress(trial);
+        let mut order = [0, 1, 2];
+        order.sort_by(|i, j| stress[*j].total_cmp(&stress[*i]));
+        (self.excess([order[0], order[2]], &stress) > 0.0).then_some((stress, order))
+    }
+
+    /// Derivatives of a plane's yield function (Pa) by the principal trial strains.
+    fn excess_slope(&self, [high, low]: YieldPlane) -> Vector<3> {
+        let sine = self.sines[0];
+        let mut normal = Vector::<3>::zeros();
+        normal[high] += 1.0 + sine;
+        normal[low] -= 1.0 - sine;
+        self.elasticity.modulus() * normal
     }
 }
 
@@ -133,19 +171,32 @@ impl YieldSurface for Pyramid {
 
     fn return_from(&self, trial: &PrincipalStrain, _: f64) -> Option<(PrincipalStrain, f64)> {
         let LogElasticity { bulk, mu, .. } = self.elasticity;
-        let stress = self.elasticity.stress(trial);
-        let mut order = [0, 1, 2];
-        order.sort_by(|i, j| stress[*j].total_cmp(&stress[*i]));
-        if !(self.excess([order[0], order[2]], &stress) > 0.0) {
-            return None;
-        }
-        let stress = self.returned(order, &stress);
+        let (stress, order) = self.outside(trial)?;
+        let (stress, _) = self.returned(order, &stress);
         let pressure = stress.sum() / 3.0;
         let after = PrincipalStrain {
             mean: pressure / (3.0 * bulk),
             deviator: stress.add_scalar(-pressure) / (2.0 * mu),
         };
         Some((after, trial.distance(&after)))
+    }
+
+    /// The return is linear in the trial stress on each part of the pyramid.
+    fn modulus_of_return(&self, trial: &PrincipalStrain, _: f64) -> Option<Matrix<3>> {
+        let (stress, order) = self.outside(trial)?;
+        let elastic = self.elasticity.modulus();
+        Some(match self.returned(order, &stress).1 {
+            Landing::Plane(plane) => {
+                let flow = self.excess_slope(plane) / self.slope(plane, plane);
+                elastic - dyad(&self.relief(plane), &flow)
+            }
+            Landing::Edge([a, b]) => {
+                let slopes = [self.excess_slope(a), self.excess_slope(b)];
+                let [flow_a, flow_b] = self.flows([a, b], slopes);
+                elastic - dyad(&self.relief(a), &flow_a) - dyad(&self.relief(b), &flow_b)
+            }
+            Landing::Apex => Matrix::zeros(),
+        })
     }
 
     /// Yield on one plane, as long as the third stress is between the others.
@@ -246,7 +297,7 @@ mod tests {
             let high = (law.strength + (1.0 - sine) * low) / (1.0 + sine);
             let edge = Vector::<3>::new(high, if is_high { high } else { low }, low);
             let trial = edge + law.relief([0, 2]) * flow;
-            let back = law.returned([0, 1, 2], &trial);
+            let (back, _) = law.returned([0, 1, 2], &trial);
             assert_abs_diff_eq!(back, edge, epsilon = 1e-9);
         }
     }

@@ -8,7 +8,8 @@ use super::hyperelastic::{set_stress_by_batch, stored_energy};
 use super::linear_elastic::LinearElastic;
 use super::plane_stress::{FreeAcross, PlaneStress, thinning};
 use super::stress_update::StressUpdate;
-use crate::mpm::foundation::algebra::{Matrix, det};
+use super::tangent::{StressResponse, isotropic_modulus};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
 
@@ -112,6 +113,10 @@ impl MaterialProperties for NeoHookean {
     fn is_elastic(&self) -> bool {
         true
     }
+
+    fn has_tangent(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
 }
 
 impl<const D: usize> Material<D> for NeoHookean {
@@ -125,6 +130,18 @@ impl<const D: usize> Material<D> for NeoHookean {
 
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         Some(stored_energy(particles, |f| self.density(f)))
+    }
+
+    /// `tau_A = lambda ln J + mu (b_A - 1)`.
+    fn response(&self, _: usize, f: &Matrix<D>) -> Option<StressResponse<D>> {
+        let Self { lambda, mu } = *self;
+        let principal = |strain: &Vector<3>| {
+            let squares = strain.map(|strain| libm::exp(2.0 * strain));
+            let stress = squares.map(|square| lambda * strain.sum() + mu * (square - 1.0));
+            let modulus = isotropic_modulus(lambda, 0.0);
+            (stress, modulus + Matrix::<3>::from_diagonal(&(squares * (2.0 * mu))))
+        };
+        Some(StressResponse::new(f, &Matrix::identity(), principal))
     }
 
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {

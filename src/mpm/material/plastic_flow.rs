@@ -17,7 +17,8 @@ use super::spectral::{
     MatrixBatch, VectorBatch, assembled, half_log, half_log_batch, spectral, spectral_batch,
 };
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::foundation::algebra::{Matrix, Vector, det, product};
+use super::tangent::{StressResponse, in_space, isotropic_modulus};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, product};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Memory};
@@ -40,6 +41,11 @@ impl LogElasticity {
     /// Principal Kirchhoff stresses (Pa).
     pub(super) fn stress(&self, strain: &PrincipalStrain) -> Vector<3> {
         strain.deviator.map(|eps| 3.0 * self.bulk * strain.mean + 2.0 * self.mu * eps)
+    }
+
+    /// Derivatives of the principal Kirchhoff stresses by the principal strains (Pa).
+    pub(super) fn modulus(&self) -> Matrix<3> {
+        isotropic_modulus(self.lambda, self.mu)
     }
 
     /// Energy per reference volume (J/m3), `K/2 tr(eps)^2 + mu |dev eps|^2`.
@@ -70,6 +76,22 @@ impl PrincipalStrain {
     }
 }
 
+/// Derivatives of `mean 1 + length n` by the strains, for the direction `n` of the deviator of the
+/// strain: those of the mean and of the length are given as rows. The direction turns by
+/// `(I - 1 (x) 1/3 - n (x) n) deps / |dev eps|`.
+pub(super) fn modulus_of_invariants(
+    strain: &PrincipalStrain,
+    mean_slope: &Vector<3>,
+    (length, length_slope): (f64, &Vector<3>),
+) -> Matrix<3> {
+    let size = strain.deviator.norm();
+    let direction = strain.deviator / size;
+    let turn =
+        Matrix::<3>::identity() - Matrix::from_element(1.0 / 3.0) - dyad(&direction, &direction);
+    let one = Vector::from_element(1.0);
+    dyad(&one, mean_slope) + dyad(&direction, length_slope) + turn * (length / size)
+}
+
 /// A yield surface with its flow rule.
 pub trait YieldSurface: Send + Sync {
     /// The elasticity inside the surface.
@@ -84,6 +106,11 @@ pub trait YieldSurface: Send + Sync {
     /// strain that the return adds to the accumulated one, `flowed`; `None` if the trial state is
     /// inside.
     fn return_from(&self, trial: &PrincipalStrain, flowed: f64) -> Option<(PrincipalStrain, f64)>;
+
+    /// Derivatives of the principal Kirchhoff stresses after the return (rows) by the principal
+    /// trial strains (Pa): the consistent tangent of [`return_from`](Self::return_from). `None` if
+    /// the trial state is inside.
+    fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>>;
 
     /// The closed form of the principal Kirchhoff stresses (Pa) in the plane at the strain
     /// `(e, -e, 0)`, beyond yield.
@@ -178,6 +205,10 @@ impl<S: YieldSurface> MaterialProperties for ElastoPlastic<S> {
         Err("plastic flow depends on the whole history of the motion")
     }
 
+    fn has_tangent(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+
     /// F-bar of elastoplasticity: trial strains of Fbar (de Souza Neto et al. 1996, IJSS 33).
     fn takes_averaged_volume(&self) -> Result<(), &'static str> {
         Ok(())
@@ -211,6 +242,19 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
         };
         let all = particles.def_grad.iter().zip(&particles.vol0).enumerate();
         Some(all.map(|(p, (f, vol0))| vol0 * density(p, f)).sum())
+    }
+
+    fn response(&self, p: usize, f: &Matrix<D>) -> Option<StressResponse<D>> {
+        let Flowed { inverse_metric, strain: flowed } = *self.flowed.get(p).unwrap_or(&Flowed::NOT);
+        let elasticity = self.surface.elasticity();
+        let principal = |strain: &Vector<3>| {
+            let trial = PrincipalStrain::new(strain);
+            let after = self.surface.return_from(&trial, flowed);
+            let elastic = after.map_or(trial, |(elastic, _)| elastic);
+            let modulus = self.surface.modulus_of_return(&trial, flowed);
+            (elasticity.stress(&elastic), modulus.unwrap_or_else(|| elasticity.modulus()))
+        };
+        Some(StressResponse::new(f, &inverse_metric, principal))
     }
 
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {
@@ -257,11 +301,6 @@ fn trial<const D: usize>(
             (squares.map(half_log_batch), axes)
         },
     )
-}
-
-/// F in three dimensions, without stretch along the missing axes.
-fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
-    Matrix::from_fn(|i, k| if i < D && k < D { f[(i, k)] } else { f64::from(u8::from(i == k)) })
 }
 
 #[cfg(test)]

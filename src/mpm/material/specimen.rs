@@ -1,6 +1,7 @@
 //! One particle of each registered material, for the tests of the family.
 
 use super::stress_update::StressUpdate;
+use super::tangent::StressResponse;
 use super::{
     COHESION, COMPRESSION, CRITICAL_SLOPE, DILATION, DILATION_ANGLE, FRICTION, FRICTION_ANGLE,
     Material, MaterialPlan, POISSON, PRECONSOLIDATION, STRENGTH, SWELLING, VISCOSITY, YIELD, YOUNG,
@@ -97,6 +98,11 @@ impl<const D: usize> Specimen<D> {
         checkpoint.visit(&mut other.1);
         assert!(checkpoint.is_used_up());
         other
+    }
+
+    /// The response at this F, from the present state.
+    pub(super) fn response(&self, f: &Matrix<D>) -> Option<StressResponse<D>> {
+        self.0.response(0, f)
     }
 
     /// The stored energy (J) of a unit volume.

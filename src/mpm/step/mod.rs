@@ -5,7 +5,7 @@ pub(in crate::mpm) mod cell_tracker;
 pub(in crate::mpm) mod combination;
 pub(in crate::mpm) mod heat_solver;
 pub(in crate::mpm) mod initial;
-mod observables;
+pub(in crate::mpm) mod observables;
 pub(in crate::mpm) mod schedule;
 pub(in crate::mpm) mod setup;
 pub(in crate::mpm) mod solver;

@@ -8,7 +8,7 @@
 //! the limit of small cells the reaction is the integral of the traction.
 
 use super::solver::Solver;
-use crate::mpm::boundary::Side;
+use crate::mpm::boundary::{Boundary, Side};
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Reaction, Samples, Totals};
@@ -68,19 +68,29 @@ impl<const D: usize> Solver<D> {
     /// Reaction at the beginning of the last step, of all fixed walls, or of that on one face of
     /// the grid (axis of the normal, and its end).
     pub fn reaction(&self, of: Option<(usize, Side)>) -> Reaction {
-        let force = &self.setup.grid.force;
-        let mut unheld = force.clone();
-        for wall in &self.setup.boundary {
-            if wall.standing_face().is_some_and(|face| of.is_none_or(|of| of == face)) {
-                wall.clear(&mut unheld);
-            }
-        }
-        let differences = unheld.iter().zip(force).map(|(unheld, force)| unheld - force);
-        let sum = differences.fold(Vector::<D>::zeros(), |sum, each| sum + each);
-        let mut reaction = [0.0; 3];
-        reaction[..D].copy_from_slice(sum.as_slice());
-        Reaction { time: self.advance.to - 0.5 * self.advance.dt, force: reaction }
+        let force = wall_reaction(&self.setup.grid.force, &self.setup.boundary, of);
+        Reaction { time: self.advance.to - 0.5 * self.advance.dt, force }
     }
+}
+
+/// Reaction (N) of all fixed walls, or of that on one face of the grid, to the nodal forces `force`
+/// (N), internal and external together.
+pub(in crate::mpm) fn wall_reaction<const D: usize>(
+    force: &[Vector<D>],
+    boundary: &[Box<dyn Boundary<D>>],
+    of: Option<(usize, Side)>,
+) -> [f64; 3] {
+    let mut unheld = force.to_vec();
+    for wall in boundary {
+        if wall.standing_face().is_some_and(|face| of.is_none_or(|of| of == face)) {
+            wall.clear(&mut unheld);
+        }
+    }
+    let differences = unheld.iter().zip(force).map(|(unheld, force)| unheld - force);
+    let sum = differences.fold(Vector::<D>::zeros(), |sum, each| sum + each);
+    let mut reaction = [0.0; 3];
+    reaction[..D].copy_from_slice(sum.as_slice());
+    reaction
 }
 
 #[cfg(test)]

@@ -57,10 +57,17 @@ fn setting(study: &Convergence) -> String {
         of_axis(Axis::Space, count("cells", &|level| Some(level.cells.to_string()))),
         span(&|level| Some(format_number(level.h))).map(|h| format!("h = {h} m")),
         of_axis(Axis::Time, span(&|level| Some(format_number(level.dt))))
+            .filter(|_| !study.by_load_steps)
             .map(|dt| format!("dt = {dt} s")),
         of_axis(Axis::Particles, count("per cell", &|level| level.ppc.map(|ppc| ppc.to_string()))),
         count("particles", &|level| level.run.counters.particles.map(|count| count.to_string())),
-        count("steps", &|level| Some(level.run.steps.to_string())),
+        span(&|level| Some(level.run.steps.to_string())).map(|steps| {
+            if study.by_load_steps {
+                format!("load steps: {steps}")
+            } else {
+                format!("{steps} steps")
+            }
+        }),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
 }

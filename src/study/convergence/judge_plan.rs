@@ -27,6 +27,7 @@ pub(super) fn judge_plan<'a>(
         scale: plan.scale,
         error_scale: error_scale(plan, case, truth),
         is_compared: case.against != Against::Nothing,
+        by_load_steps: plan.by_load_steps,
         excludes_crossings: plan.crossing_levels == CrossingLevels::Excluded,
         position_spacing: position_spacing(plan, case),
         observed_at: plan.observe.as_deref(),
@@ -112,8 +113,8 @@ pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
         Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),
         Method::Fem { start, .. } => (start, false),
-        // Forward Euler.
-        Method::Heat { .. } => return 1.0,
+        // Load steps are not refined, and heat is integrated by forward Euler.
+        Method::QuasiStatic { .. } | Method::Heat { .. } => return 1.0,
         // An external solver claims an order in space only; the same value is used here.
         Method::External { formal_order, .. } => return formal_order,
     };
@@ -161,7 +162,10 @@ const COARSE: usize = 8;
 /// The error scale of `case`, whose errors are measured against `truth`.
 pub(crate) fn error_scale(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
     ErrorScale {
-        problem: format!("until t = {} s, against {}", case.until, case.against.words()),
+        problem: match case.load_steps(plan) {
+            Some(count) => format!("in {count} load steps, against {}", case.against.words()),
+            None => format!("until t = {} s, against {}", case.until, case.against.words()),
+        },
         size: size(plan, case, truth),
         growth: growth(plan),
     }

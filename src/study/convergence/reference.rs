@@ -272,7 +272,7 @@ fn compare(a: &[f64], b: &[f64]) -> Ordering {
 fn second_order(mut method: Method) -> Method {
     match &mut method {
         Method::Mpm { start, .. } | Method::Fem { start, .. } => *start = Start::HalfStepBack,
-        Method::Heat { .. } | Method::External { .. } => {}
+        Method::QuasiStatic { .. } | Method::Heat { .. } | Method::External { .. } => {}
     }
     method
 }

@@ -117,8 +117,10 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
         let share = shown(share);
         format!("{share} of the stable time step, case by case and level by level")
     });
-    push(rows, "dt", &format!("{dt}, adjusted to a whole number of steps"));
-    push(rows, "instants", &format!("{instants}"));
+    if !study.by_load_steps {
+        push(rows, "dt", &format!("{dt}, adjusted to a whole number of steps"));
+        push(rows, "instants", &format!("{instants}"));
+    }
     if plan.has_particles() {
         let placed = placed(&study.scatter);
         push(rows, "particles", &format!("{} per cell, {placed}", ppc(usual)));
@@ -151,7 +153,10 @@ pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
     let mut rows = case.method.settings();
     let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());
     rows.retain(|(key, _)| has_walls || key != "walls");
-    push(&mut rows, "until", &format!("t = {} s", stated(case.until)));
+    match case.load_steps(plan) {
+        Some(count) => push(&mut rows, "load steps", &count.to_string()),
+        None => push(&mut rows, "until", &format!("t = {} s", stated(case.until))),
+    }
     push(&mut rows, "against", case.against.words());
     rows
 }

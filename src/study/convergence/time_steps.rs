@@ -76,8 +76,9 @@ pub struct PlannedLevel {
     pub dt: f64,
     /// Number of steps.
     pub steps: u64,
-    /// Courant number c dt/h, with the speed c of the fastest wave in the body at rest.
-    pub courant: f64,
+    /// Courant number c dt/h, with the speed c of the fastest wave in the body at rest;
+    /// `None` for load steps, which have no time.
+    pub courant: Option<f64>,
 }
 
 /// The levels of the gate of each case, in order; empty for a study without levels.
@@ -92,7 +93,7 @@ pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
             particles: level.ppc.map_or(0.0, |_| particles(&plan.scene, level)),
             dt: clock.dt(),
             steps: clock.steps,
-            courant: waves * clock.dt() / level.h,
+            courant: (!plan.by_load_steps).then(|| waves * clock.dt() / level.h),
         };
         match all.last_mut().filter(|(known, _)| *known == case) {
             Some((_, levels)) => levels.push(planned),

@@ -181,7 +181,7 @@ pub(super) const START: ProbeKind = ProbeKind {
                 Method::Mpm { start, .. } | Method::Fem { start, .. } => {
                     *start = Start::HalfStepBack;
                 }
-                Method::Heat { .. } | Method::External { .. } => {}
+                Method::QuasiStatic { .. } | Method::Heat { .. } | Method::External { .. } => {}
             })
         }
         _ => None,
@@ -316,7 +316,10 @@ fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<C
     let combined = match after {
         Method::Mpm { basis, transfer, mass, frame, .. } => combine(basis, transfer, mass, frame)
             .and_then(|()| combine_across(plan.scene.plane, basis, transfer)),
-        Method::Fem { .. } | Method::Heat { .. } | Method::External { .. } => Ok(()),
+        Method::QuasiStatic { .. }
+        | Method::Fem { .. }
+        | Method::Heat { .. }
+        | Method::External { .. } => Ok(()),
     };
     (after != before && combined.is_ok()).then_some(changed)
 }

@@ -120,6 +120,9 @@ fn mended<'a>(known: &Known<'a>) -> Option<Vec<Mended<'a>>> {
 
 /// The step (s) above which the step of a level is in question.
 fn limit(plan: &ConvergencePlan, level: &LevelOutcome) -> Option<f64> {
+    if plan.by_load_steps {
+        return None;
+    }
     // Steps of the built-in MPM are stable unless they are predicted to be too long.
     if level.stable_time_step.is_some() || matches!(plan.cases[0].method, Method::Mpm { .. }) {
         return level.stable_time_step;

@@ -41,7 +41,7 @@ fn moving_wall(known: &Known<'_>) -> Option<KnownCause> {
     let problem = plan.exact.as_ref()?;
     let stays = match session.case.method {
         Method::Mpm { frame, .. } => frame == FrameName::Updated,
-        Method::External { .. } => true,
+        Method::QuasiStatic { .. } | Method::External { .. } => true,
         Method::Fem { .. } | Method::Heat { .. } => false,
     };
     stays.then_some(())?;

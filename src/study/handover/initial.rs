@@ -34,6 +34,7 @@ pub fn level_problem(
         plan.manufactured(),
         level,
         HandedRun {
+            load_steps: case.load_steps(plan),
             steps: clock.steps,
             dt: clock.dt(),
             until: clock.until,
@@ -47,6 +48,8 @@ pub fn level_problem(
 
 /// The steps of a run and the particles that it starts from.
 pub(crate) struct HandedRun {
+    /// Number of load steps, for a run without time.
+    pub(crate) load_steps: Option<u64>,
     pub(crate) steps: u64,
     /// Length of a step (s).
     pub(crate) dt: f64,
@@ -69,7 +72,8 @@ pub(crate) fn problem(
     level: LevelPlan,
     run: HandedRun,
 ) -> LevelProblem {
-    let HandedRun { steps, dt, until, instants, particles, initial, is_perturbed } = run;
+    let HandedRun { load_steps, steps, dt, until, instants, particles, initial, is_perturbed } =
+        run;
     let force = SceneForce { terms: forces(scene), made: made.cloned() };
     LevelProblem {
         suite: suite.to_owned(),
@@ -82,6 +86,7 @@ pub(crate) fn problem(
         contact: scene.contact.map(|coefficient| ProblemContact { law: "coulomb", coefficient }),
         loads: scene.loads.iter().map(|listed| load(scene, listed)).collect(),
         particles_per_cell: level.ppc,
+        load_steps,
         steps,
         dt,
         until,

@@ -21,6 +21,7 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
         column: column(plan.of),
         manufactured: plan.manufactured().is_some(),
         initial_deformation: starts_deformed(plan),
+        load_steps: plan.by_load_steps,
         ..of_scene(&plan.scene)
     };
     let energy_or_wall = [SumNeed::StoredEnergy, SumNeed::Wall];

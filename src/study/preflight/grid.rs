@@ -92,7 +92,13 @@ pub(crate) fn leaves_grid(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
 /// Warns of a box that ends with a row of particles on nodes before the last ones of the grid.
 pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
-    let is_linear = |method| matches!(method, Method::Mpm { basis: BasisName::Linear, .. });
+    let is_linear = |method| {
+        use BasisName::Linear;
+        matches!(
+            method,
+            Method::Mpm { basis: Linear, .. } | Method::QuasiStatic { basis: Linear, .. }
+        )
+    };
     let is_box = plan.scene.outline.is_none() && plan.scene.bodies.is_empty();
     let stays = plan.scene.initial_displacement.is_empty() && plan.scatter.perturb == 0.0;
     if !is_box || !stays || !plan.cases.iter().any(|case| is_linear(case.method)) {

@@ -94,5 +94,6 @@ impl<'a> Preflight<'a> {
 
 /// Whether the particles of a case move through the grid.
 pub(crate) fn moves_on_grid(case: &Case) -> bool {
-    matches!(case.method, Method::Mpm { frame: FrameName::Updated, .. })
+    let is_updated = matches!(case.method, Method::Mpm { frame: FrameName::Updated, .. });
+    is_updated || matches!(case.method, Method::QuasiStatic { .. })
 }

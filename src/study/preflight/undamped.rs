@@ -46,7 +46,7 @@ pub(crate) const HELP: &str = "list `damping` or `local_damping` in `loads`, and
 /// dissipation. An external solver is assumed to have no dissipation.
 pub(crate) fn oscillates(plan: &ConvergencePlan, case: &Case) -> bool {
     let Some(problem) = plan.exact.as_ref().filter(|exact| exact.at_rest) else { return false };
-    !removes_energy(&plan.scene, case) && starts_away(plan, case, problem)
+    !plan.by_load_steps && !removes_energy(&plan.scene, case) && starts_away(plan, case, problem)
 }
 
 /// Whether a load, a viscous material, friction or the transfer of velocities dissipates energy.

@@ -5,8 +5,8 @@ use super::seeding;
 use crate::exact::heat::Conduction;
 use crate::exact::{Forcing, Problem};
 use crate::mpm::{
-    BasisName, BodyForce, Boundary, Effect, Grid, HeatSolver, Hoop, Kernel, Particles, Setup, Side,
-    Vector, kernel,
+    BasisName, BodyForce, Boundary, Effect, Grid, HeatSolver, Hoop, Kernel, Particles, QuasiStatic,
+    QuasiStaticSetup, Setup, Side, Vector, kernel,
 };
 use crate::subject::PlaneState;
 use crate::suite::model::method::Method;
@@ -62,12 +62,7 @@ pub(crate) fn setup<const D: usize>(
         return Err("not an MPM method".to_owned());
     };
     let scene = body.scene;
-    let h = cell_size(scene, level.cells);
-    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
-    let kernel = kernel::<D>(basis);
-    let grid = grid(scene, h, kernel.as_ref());
-    let mut particles = seeding::particles(body.own, &grid.origin, h, per_axis);
-    body.lattice.apply(&mut particles);
+    let (kernel, grid, mut particles) = discretisation::<D>(body, basis, level)?;
     if scene.plane == PlaneState::Axisymmetric {
         particles.revolve();
     }
@@ -94,6 +89,48 @@ pub(crate) fn setup<const D: usize>(
         scheme,
         start,
     })
+}
+
+/// The kernel, the grid and the particles of `body` on the cells of `level`.
+fn discretisation<const D: usize>(
+    body: &Body<'_>,
+    basis: BasisName,
+    level: LevelPlan,
+) -> Result<(Box<dyn Kernel<D>>, Grid<D>, Particles<D>), String> {
+    let h = cell_size(body.scene, level.cells);
+    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
+    let kernel = kernel::<D>(basis);
+    let grid = grid(body.scene, h, kernel.as_ref());
+    let mut particles = seeding::particles(body.own, &grid.origin, h, per_axis);
+    body.lattice.apply(&mut particles);
+    Ok((kernel, grid, particles))
+}
+
+/// The body of `plan`, with its load in `load_steps` steps.
+///
+/// # Errors
+/// One line with the reason why there is no such solver.
+pub(crate) fn quasi_static<const D: usize>(
+    plan: &ConvergencePlan,
+    basis: BasisName,
+    level: LevelPlan,
+    load_steps: u64,
+) -> Result<QuasiStatic<D>, String> {
+    let body = Body::of(plan, &plan.scene);
+    let (kernel, grid, mut particles) = discretisation::<D>(&body, basis, level)?;
+    let effects = effects_of(&body, (&grid, basis), &mut particles)?;
+    let boundary = boundary(&plan.scene, &grid, basis);
+    let material = plan.scene.material.build();
+    QuasiStatic::new(QuasiStaticSetup {
+        grid,
+        particles,
+        kernel,
+        material,
+        effects,
+        boundary,
+        load_steps,
+    })
+    .map_err(|failure| failure.to_string())
 }
 
 /// The effects that the scene of `suite` lists, on `particles` and a `grid` of the caller's.

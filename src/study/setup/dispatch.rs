@@ -1,7 +1,7 @@
 //! Conversion of names to types: the only file that uses every family.
 
 use super::bar::bar;
-use super::body::{Body, conductor, setup};
+use super::body::{Body, conductor, quasi_static, setup};
 use crate::dimension::with_dimension;
 use crate::mpm::{BasisName, Bodies, Setup, Solver, Vector};
 use crate::subject::{Failure, Perturbable, Profile, Subject};
@@ -23,6 +23,9 @@ pub fn subject(
         (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D")),
         (Method::External { .. }, _) => Err("no solver was named on the command line".to_owned()),
         (Method::Mpm { .. }, d) => with_dimension!(d, D => mpm::<D>(plan, method, level)),
+        (Method::QuasiStatic { basis, load_steps }, d) => with_dimension!(d, D => {
+            Ok(Box::new(quasi_static::<D>(plan, basis, level, load_steps)?))
+        }),
         (Method::Heat { basis }, d) => with_dimension!(d, D => {
             Ok(Box::new(conductor::<D>(plan, basis, level)?))
         }),
@@ -57,7 +60,20 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
         let visits = body.take_visits();
         Some(Profile { passes: body.passes(), visits, ..body.profile() })
     }
+    fn of_load_steps<const D: usize>(
+        plan: &ConvergencePlan,
+        basis: BasisName,
+        level: LevelPlan,
+    ) -> Option<Profile> {
+        let mut body = quasi_static::<D>(plan, basis, level, 2).ok()?;
+        body.step(1.0).ok()?;
+        body.take_visits();
+        body.step(1.0).ok()?;
+        let visits = body.take_visits();
+        Some(Profile { passes: body.passes(), visits, ..body.profile() })
+    }
     with_dimension!(plan.scene.dimension(), D => match method {
+        Method::QuasiStatic { basis, .. } => of_load_steps::<D>(plan, basis, level),
         Method::Fem { .. } | Method::External { .. } => None,
         Method::Heat { basis } => of_heat::<D>(plan, basis, level),
         Method::Mpm { .. } => of_second_step::<D>(plan, method, level),

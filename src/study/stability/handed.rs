@@ -66,6 +66,7 @@ fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, String> {
     let steps = setup.steps;
     let instants = (1..=steps).filter(|step| is_looked_at(*step, steps)).collect();
     let run = HandedRun {
+        load_steps: None,
         steps,
         dt,
         until: steps as f64 * dt,

@@ -1,7 +1,7 @@
 //! The convergence study: computes every number, resolves every name and checks the exact solution.
 
 use super::check::size::LevelPaths;
-use super::check::{self, size, steps, sums};
+use super::check::{self, load_steps, size, steps, sums};
 use super::expect::any_method;
 use super::run::{self, places, reference, refine};
 use super::scene;
@@ -31,7 +31,8 @@ type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
 
 /// Checks of a convergence study before its expectations are read. They are independent: their
 /// order only determines which of several errors is reported.
-const CROSS_CHECKS: [CrossCheck; 8] = [
+const CROSS_CHECKS: [CrossCheck; 9] = [
+    |suite| load_steps::refuse_unfit(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| truth::refuse_violated(suite.evaluator, suite.spec, suite.plan),
     |suite| check::refuse_law_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
@@ -48,11 +49,12 @@ pub(crate) fn convergence_plan(
     spec: &ConvergenceSpec,
 ) -> Result<ConvergencePlan, Diagnostic> {
     let scene = scene::scene(evaluator, &spec.scene)?;
+    load_steps::refuse_time(evaluator, spec)?;
+    let until = run::ends(evaluator, &spec.run)?;
     let (refine, levels) = refine::plan(evaluator, spec, &scene)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
         evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
     })?;
-    let until = run::until(evaluator, &spec.run.until)?;
     let latest = until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
     let conduction = conduction::conduction(evaluator, spec, &scene, latest)?;
     let exact = match &conduction {
@@ -78,6 +80,7 @@ pub(crate) fn convergence_plan(
         same_method,
         refine,
         scatter,
+        by_load_steps: spec.run.load_steps.is_some(),
         instants,
         norm: spec.judge.norm,
         of: spec.judge.of,

@@ -76,9 +76,14 @@ fn refuse_unfit_problem(
             "the body of a gradient study starts without stress",
         ),
         (
-            spec.run.until.as_slice().len() > 1,
+            spec.run.until.as_ref().is_some_and(|until| until.as_slice().len() > 1),
             Path::top("run").then("until"),
             "a gradient study has one end of the run",
+        ),
+        (
+            spec.run.load_steps.is_some(),
+            Path::top("run").then("load_steps"),
+            "a gradient study is one of a motion in time",
         ),
         (
             spec.run.instants.is_some(),

@@ -159,8 +159,10 @@ pub(crate) struct ObserveSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RunSpec {
-    /// End of the run (s), or a list of ends.
-    pub(crate) until: OneOrMany<NumberText>,
+    /// End of the run (s), or a list of ends; `load_steps` have none.
+    pub(crate) until: Option<OneOrMany<NumberText>>,
+    /// Number of load steps to an equilibrium, or a list of numbers, in place of a time.
+    pub(crate) load_steps: Option<OneOrMany<NumberText>>,
     /// Absent if `refine` lists time steps.
     pub(crate) dt: Option<StepSpec>,
     /// Number of instants at which the error is measured.

@@ -22,10 +22,10 @@ pub(crate) enum MethodSpec {
     Mpm {
         /// Basis functions.
         basis: OneOrMany<BasisName>,
-        /// Transfer of velocity between particles and grid.
-        transfer: OneOrMany<TransferChoice>,
-        /// Time scheme: when stresses are updated.
-        scheme: OneOrMany<SchemeName>,
+        /// Transfer of velocity between particles and grid; `quasi_static` has none.
+        transfer: Option<OneOrMany<TransferChoice>>,
+        /// Time scheme: when stresses are updated, or quasi-static load steps.
+        scheme: OneOrMany<SchemeKey>,
         /// Time of the initial velocity; default `at_zero`.
         start: Option<OneOrMany<Start>>,
         /// Mass matrix; `lumped` unless stated.
@@ -66,6 +66,53 @@ pub(crate) enum MethodSpec {
         /// Precision of its numbers.
         precision: Option<Precision>,
     },
+}
+
+/// Names of time schemes in suites.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum SchemeKey {
+    /// Update stress first.
+    Usf,
+    /// Update stress last.
+    Usl,
+    /// Modified update stress last.
+    Musl,
+    /// Equilibrium after each of several load steps, without time.
+    QuasiStatic,
+}
+
+impl SchemeKey {
+    /// The explicit scheme with this name; `None` for load steps.
+    pub(crate) fn explicit(self) -> Option<SchemeName> {
+        match self {
+            Self::Usf => Some(SchemeName::Usf),
+            Self::Usl => Some(SchemeName::Usl),
+            Self::Musl => Some(SchemeName::Musl),
+            Self::QuasiStatic => None,
+        }
+    }
+}
+
+impl From<SchemeName> for SchemeKey {
+    fn from(scheme: SchemeName) -> Self {
+        match scheme {
+            SchemeName::Usf => Self::Usf,
+            SchemeName::Usl => Self::Usl,
+            SchemeName::Musl => Self::Musl,
+        }
+    }
+}
+
+impl MethodSpec {
+    /// Whether it has quasi-static load steps.
+    pub(crate) fn is_quasi_static(&self) -> bool {
+        match self {
+            Self::Mpm { scheme, .. } => scheme.as_slice().contains(&SchemeKey::QuasiStatic),
+            _ => false,
+        }
+    }
 }
 
 impl<'de> Deserialize<'de> for TransferChoice {

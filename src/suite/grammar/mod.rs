@@ -17,13 +17,13 @@ pub(crate) use super::evaluator::ParameterSpec;
 pub use crate::verify::NormName;
 pub use convergence::CrossingLevels;
 pub(crate) use convergence::{
-    ConvergenceSpec, ObserveSpec, ReferenceSpec, RefineSpec, ScatterSpec,
+    ConvergenceSpec, ObserveSpec, ReferenceSpec, RefineSpec, RunSpec, ScatterSpec,
 };
 pub use expect::WarningName;
 pub(crate) use expect::{AcknowledgeSpec, AnyMethodSpec, CrossingsName, DriftSpec, ExpectSpec};
 pub(crate) use gradient::{FunctionalSpec, GradientExpectSpec, GradientSpec};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
-pub(crate) use method::{MethodSpec, StepSpec};
+pub(crate) use method::{MethodSpec, SchemeKey, StepSpec};
 pub(crate) use scene::{
     AnnulusSpec, BodySpec, BoxSpec, OneBodySpec, QuadrilateralSpec, RoundSpec, SceneSpec, SetSpec,
     StressSpec,

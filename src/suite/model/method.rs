@@ -26,6 +26,13 @@ pub enum Method {
         /// Volume ratio at which the law computes its stress.
         volume: VolumeName,
     },
+    /// The reference MPM in quasi-static load steps.
+    QuasiStatic {
+        /// Basis functions.
+        basis: BasisName,
+        /// Number of load steps.
+        load_steps: u64,
+    },
     /// The reference MPM of a body at rest: heat, and no stage of mechanics.
     Heat {
         /// Basis functions.
@@ -57,7 +64,7 @@ impl Method {
     /// `mpm`, `fem` or `external`.
     pub fn subject(&self) -> &'static str {
         match self {
-            Self::Mpm { .. } | Self::Heat { .. } => "mpm",
+            Self::Mpm { .. } | Self::QuasiStatic { .. } | Self::Heat { .. } => "mpm",
             Self::Fem { .. } => "fem",
             Self::External { .. } => "external",
         }
@@ -79,10 +86,21 @@ impl Method {
     pub fn formal_order(&self) -> f64 {
         match self {
             Self::Mpm { basis, mass: MassName::Consistent, .. } => basis.formal_order(),
-            Self::Mpm { basis, .. } | Self::Heat { basis } => basis.formal_order().min(2.0),
+            Self::Mpm { basis, .. } | Self::QuasiStatic { basis, .. } | Self::Heat { basis } => {
+                basis.formal_order().min(2.0)
+            }
             Self::Fem { element, sampling: Sampling::Inside, .. } => element.degree() as f64 + 1.0,
             Self::Fem { element, sampling: Sampling::Nodes, .. } => 2.0 * element.degree() as f64,
             Self::External { formal_order, .. } => *formal_order,
+        }
+    }
+
+    /// The method with this number of load steps, if it has load steps.
+    #[must_use]
+    pub(crate) fn with_load_steps(self, steps: u64) -> Self {
+        match self {
+            Self::QuasiStatic { basis, .. } => Self::QuasiStatic { basis, load_steps: steps },
+            other => other,
         }
     }
 
@@ -115,6 +133,11 @@ impl Method {
                 }
                 owned(rows)
             }
+            Self::QuasiStatic { basis, .. } => owned(vec![
+                ("basis", basis.name()),
+                ("scheme", "quasi_static: Newton's method, consistent tangent"),
+                ("walls", "nodes on a fixed face are held"),
+            ]),
             Self::Heat { basis } => owned(vec![
                 ("basis", basis.name()),
                 ("temperature", "increments and gradients are mapped"),

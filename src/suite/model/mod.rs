@@ -66,6 +66,9 @@ pub struct ConvergencePlan {
     pub refine: RefinePlan,
     /// Offsets of particles from their lattice.
     pub scatter: LatticeOffsets,
+    /// Whether runs have load steps in place of time. A load step then takes one unit of time, so
+    /// that a run of N load steps ends at time N.
+    pub by_load_steps: bool,
     /// Instants at which the error is measured.
     pub instants: u64,
     /// The judged error.
@@ -174,6 +177,11 @@ impl ConvergencePlan {
 }
 
 impl Case {
+    /// Number of load steps; `None` for a run in time.
+    pub fn load_steps(&self, plan: &ConvergencePlan) -> Option<u64> {
+        plan.by_load_steps.then_some(self.until as u64)
+    }
+
     /// The steps of a run, for a requested step `dt` (s).
     pub fn clock(&self, plan: &ConvergencePlan, dt: f64) -> Option<Clock> {
         plan.clock(self.against, self.until, dt)

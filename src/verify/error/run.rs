@@ -26,6 +26,8 @@ pub struct Comparison<'a> {
     /// If the exact solution is a state of rest: the speed (m/s) that residual speeds are divided
     /// by. Errors are then measured at the end only.
     pub at_rest: Option<f64>,
+    /// Whether the steps are load steps, without time.
+    pub by_load_steps: bool,
     /// Whether the errors over the body are stored.
     pub keeps_field: bool,
 }
@@ -202,6 +204,11 @@ impl<'a> RunMonitor<'a> {
     fn failed(mut self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
         subject.sample(&mut self.samples);
         let field = self.field(t);
+        let reason = if self.comparison.by_load_steps {
+            format!("{failure} (load step {step})")
+        } else {
+            format!("{failure} (step {step}, t = {t:.4} s)")
+        };
         RunResult {
             field,
             errors: RunErrors::NONE,
@@ -211,7 +218,7 @@ impl<'a> RunMonitor<'a> {
             account: self.account,
             counters: subject.counters(),
             steps: step,
-            failure: Some(format!("{failure} (step {step}, t = {t:.4} s)")),
+            failure: Some(reason),
             history: None,
             displacement: None,
             observed_error: None,
@@ -304,6 +311,38 @@ mod tests {
         fn velocity(&self, _: &[f64], _: f64, into: &mut [f64]) {
             into.fill(0.0);
         }
+    }
+
+    /// A subject that fails in its third step.
+    struct Unbalanced(u64);
+
+    impl Subject for Unbalanced {
+        fn step(&mut self, _: f64) -> Result<(), Failure> {
+            self.0 += 1;
+            let failure = Failure::NotConverged { residual: 0.25, node: 7 };
+            if self.0 < 3 { Ok(()) } else { Err(failure) }
+        }
+
+        fn sample(&self, samples: &mut Samples) {
+            samples.restart(1);
+            samples.push(&[0.0], &[0.0], &[0.0], 1.0);
+        }
+
+        fn counters(&self) -> RunCounters {
+            RunCounters::new(0)
+        }
+    }
+
+    #[test]
+    fn failure_in_load_steps_names_the_load_step() {
+        let clock = Clock::new(5.0, 1.0, 5).unwrap();
+        let comparison = Comparison { by_load_steps: true, ..Comparison::default() };
+        let result = run(&mut Unbalanced(0), &AtRest, &clock, &comparison);
+        let expected = "Newton's method did not converge: the largest residual is 2.5e-1 of the \
+                        load, at node 7 (load step 3)";
+        assert_eq!(result.failure.as_deref(), Some(expected));
+        let in_time = run(&mut Unbalanced(0), &AtRest, &clock, &Comparison::default());
+        assert!(in_time.failure.unwrap().ends_with("(step 3, t = 3.0000 s)"));
     }
 
     /// The run ends at cos t = 0, and errors before the end do not count.

@@ -26,7 +26,7 @@ use rstest::rstest;
 )]
 #[case::a_run_without_an_end(
     &[("run: {until: 0.5, ", "run: ▸{")],
-    &["missing key `until` in `run`", "add `until: 1`"]
+    &["a run needs an end", "add `until`"]
 )]
 #[case::an_empty_list(&[("[6, 12]", "▸[]")], &["an empty list selects nothing", "at least one value"])]
 #[case::an_empty_list_of_names(&[("[musl, usl]", "▸[]")], &["an empty list selects nothing"])]

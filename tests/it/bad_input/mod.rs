@@ -17,6 +17,7 @@ mod heat;
 mod initial_stress;
 mod laws;
 mod linearised;
+mod load_steps;
 mod materials;
 mod numbers;
 mod panels;

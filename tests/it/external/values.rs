@@ -4,7 +4,7 @@
 use super::program::{HELLO, SECOND_ORDER};
 use crate::cli::{Folder, SOUND};
 use mpm_verify::external::{
-    FieldName, FieldPlaces, LevelProblem, ProgramLimits, SolverFactory, SolverProgram,
+    Capabilities, FieldName, FieldPlaces, LevelProblem, ProgramLimits, SolverFactory, SolverProgram,
 };
 use mpm_verify::study::{level_problem, needs};
 use mpm_verify::subject::Samples;
@@ -215,6 +215,28 @@ fn problem_of(name: &str) -> LevelProblem {
     let suite = Suite::load(&source.expect("a text")).expect("a sound suite");
     let plan = suite.plan::<ConvergencePlan>().expect("a study of an order");
     level_problem(name, plan, &plan.cases[0], plan.refine.levels[0]).expect("a problem")
+}
+
+/// A load step is a step of length 1, and the problem states the number of load steps.
+#[test]
+fn load_steps_are_passed_to_solvers_that_list_them() {
+    let source = embedded::source("load-steps-hencky").expect("a suite").expect("a text");
+    let suite = Suite::load(&source).expect("a sound suite");
+    let plan = suite.plan::<ConvergencePlan>().expect("a study of an order");
+    for case in &plan.cases {
+        let steps = if case.name.ends_with("-20") { 20 } else { 1 };
+        let problem = level_problem("load-steps-hencky", plan, case, plan.refine.levels[0]);
+        let problem = problem.expect("a problem");
+        assert_eq!((problem.load_steps, problem.steps, problem.dt), (Some(steps), steps, 1.0));
+        assert_eq!(problem.instants.last(), Some(&steps));
+        assert_eq!(json!(problem)["load_steps"], json!(steps));
+    }
+    let conditions = ["free", "fixed"];
+    let able = Capabilities::of(&[1], &["hencky"], &conditions, &["gravity"]);
+    assert_eq!(able.lacking(&needs(plan)), ["load_steps"]);
+    let able = Capabilities { load_steps: true, ..able };
+    assert!(able.lacking(&needs(plan)).is_empty());
+    assert!(json!(problem_of("vibrating-bar")).get("load_steps").is_none());
 }
 
 /// Fields at the particles are the columns of the particles, to the last bit.

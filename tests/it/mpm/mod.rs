@@ -6,6 +6,7 @@ mod heat;
 mod kernel;
 mod null_space;
 mod passes;
+mod quasi_static;
 mod reaction;
 mod second_opinion;
 mod stable_time_step;

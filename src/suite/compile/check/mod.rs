@@ -1,6 +1,7 @@
 //! Checks of several keys of a suite together: features that its solvers, its loads or its exact
 //! solution do not support. Sizes, time steps and judged sums have separate files.
 
+pub(crate) mod load_steps;
 pub(crate) mod size;
 pub(crate) mod steps;
 pub(crate) mod sums;
@@ -171,6 +172,7 @@ pub(crate) fn check_drift(
         return Ok(());
     }
     let message = match method {
+        Method::QuasiStatic { .. } => "load steps have no motion whose sums could drift",
         Method::Heat { .. } => "a body at rest has no motion whose sums could drift",
         _ => "the reference FEM does not give the sums whose drift is bound here",
     };

@@ -1,7 +1,7 @@
 //! The entries of `methods` become methods: the products of their lists, with names.
 
 use crate::fem::Sampling;
-use crate::mpm::{FrameName, MassName, VolumeName};
+use crate::mpm::{FrameName, MassName, SchemeName, VolumeName};
 use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, Start, is_solver_name};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{EquationName, MethodSpec};
@@ -48,6 +48,9 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
             settings.extend(rest.map(ToOwned::to_owned));
             ("mpm", settings)
         }
+        Method::QuasiStatic { basis, .. } => {
+            ("mpm", vec![basis.name().to_owned(), "quasi_static".to_owned()])
+        }
         Method::Heat { basis } => ("heat", vec![basis.name().to_owned()]),
         // It is named after its solver.
         Method::External { .. } => ("external", Vec::new()),
@@ -69,12 +72,26 @@ pub(crate) fn methods(
     let mut drafts = Vec::new();
     let mut push = |method, said| drafts.push(MethodDraft { entry, method, solver: None, said });
     match spec {
+        MethodSpec::Mpm { basis, .. } if spec.is_quasi_static() => {
+            refuse_keys_of_dynamics(evaluator, entry, spec)?;
+            for &basis in basis.as_slice() {
+                push(Method::QuasiStatic { basis, load_steps: 1 }, vec![true, true]);
+            }
+        }
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
+            let Some(transfer) = transfer else {
+                let path = Path::top("methods").then(entry).then("mpm");
+                let diagnostic =
+                    evaluator.diagnostic_at_key(&path, "a scheme in time needs a `transfer`");
+                return Err(diagnostic.with_help("add `transfer: flip` in `mpm`"));
+            };
+            let scheme: Vec<SchemeName> =
+                scheme.as_slice().iter().filter_map(|scheme| scheme.explicit()).collect();
             let (of_frame, of_volume) = (many(frame.as_ref()), many(volume.as_ref()));
             let said =
                 [true, true, true, many(start.as_ref()), many(mass.as_ref()), of_frame, of_volume];
             let settings = product(
-                &product(&product(basis.as_slice(), transfer.as_slice()), scheme.as_slice()),
+                &product(&product(basis.as_slice(), transfer.as_slice()), &scheme),
                 &product(
                     &product(
                         &choices(start.as_ref(), Start::AtZero),
@@ -128,12 +145,43 @@ pub(crate) fn methods(
     Ok(drafts)
 }
 
+/// Refuses keys of dynamics in an entry with `scheme: quasi_static`, and other schemes next to it.
+fn refuse_keys_of_dynamics(
+    evaluator: &Evaluator<'_>,
+    entry: usize,
+    spec: &MethodSpec,
+) -> Result<(), Diagnostic> {
+    let MethodSpec::Mpm { transfer, scheme, start, mass, frame, volume, .. } = spec else {
+        return Ok(());
+    };
+    let path = Path::top("methods").then(entry).then("mpm");
+    let own = "give the other schemes an entry of `methods` of their own";
+    if scheme.as_slice().len() > 1 {
+        let message = "`quasi_static` has no keys in common with schemes in time but `basis`";
+        return Err(evaluator.diagnostic_at_key(&path.then("scheme"), message).with_help(own));
+    }
+    let refused = [
+        ("transfer", transfer.is_some(), "there are no velocities to transfer"),
+        ("start", start.is_some(), "there is no initial velocity"),
+        ("mass", mass.is_some(), "there is no inertia"),
+        ("frame", frame.is_some(), "load steps are updated-Lagrangian"),
+        ("volume", volume.is_some(), "the tangent of an averaged volume is not implemented"),
+    ];
+    match refused.into_iter().find(|(_, is_stated, _)| *is_stated) {
+        Some((key, _, reason)) => {
+            let message = format!("`quasi_static` has no `{key}`: {reason}");
+            Err(evaluator.diagnostic_at_key(&path.then(key), &message).with_help("remove it"))
+        }
+        None => Ok(()),
+    }
+}
+
 /// Number of methods that an entry unfolds into.
 pub(crate) fn count(spec: &MethodSpec) -> usize {
     let lengths = match spec {
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume } => vec![
             basis.as_slice().len(),
-            transfer.as_slice().len(),
+            length(transfer.as_ref()),
             scheme.as_slice().len(),
             length(start.as_ref()),
             length(mass.as_ref()),

@@ -9,7 +9,7 @@ use crate::mpm::{FrameName, MassName, combine, combine_across, combine_bodies, c
 use crate::suite::compile::expect::expectations;
 use crate::suite::compile::truth::{conservation_only, law_of_bar};
 use crate::suite::evaluator::{Evaluator, shown};
-use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
+use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec, RunSpec};
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case, ConvergencePlan, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
@@ -19,8 +19,56 @@ use methods::{NamedMethod, count, methods, named};
 /// Maximum number of cases of a suite, after lists are multiplied.
 const MOST_CASES: usize = 1000;
 
-/// The ends of the runs: text for names, and value (s).
-pub(crate) fn until(
+/// Maximum number of load steps of a run.
+const MOST_LOAD_STEPS: u64 = 100_000;
+
+/// The ends of the runs: their part of names, and value (s, or number of load steps).
+pub(crate) fn ends(
+    evaluator: &Evaluator<'_>,
+    run: &RunSpec,
+) -> Result<Vec<(String, f64)>, Diagnostic> {
+    match (&run.until, &run.load_steps) {
+        (Some(spec), None) => until(evaluator, spec),
+        (None, Some(spec)) => load_steps(evaluator, spec),
+        (Some(_), Some(_)) => {
+            let path = Path::top("run").then("until");
+            let message = "load steps have no time: a run has an end or `load_steps`";
+            Err(evaluator.diagnostic_at_key(&path, message).with_help("keep one of them"))
+        }
+        (None, None) => {
+            let message = "a run needs an end";
+            let diagnostic = evaluator.diagnostic(&Path::top("run"), message);
+            Err(diagnostic.with_help("add `until`, or `load_steps` for `scheme: quasi_static`"))
+        }
+    }
+}
+
+/// The numbers of load steps of the runs.
+fn load_steps(
+    evaluator: &Evaluator<'_>,
+    spec: &OneOrMany<NumberText>,
+) -> Result<Vec<(String, f64)>, Diagnostic> {
+    let path = Path::top("run").then("load_steps");
+    let mut counts: Vec<(String, f64)> = Vec::new();
+    for (i, text) in spec.as_slice().iter().enumerate() {
+        let path = path.alternative(spec, i);
+        let count = evaluator.count(&path, text, "the number of load steps")?;
+        if count > MOST_LOAD_STEPS {
+            let diagnostic = evaluator.diagnostic(&path, &format!("{count} load steps"));
+            return Err(diagnostic.with_label(&format!("expected at most {MOST_LOAD_STEPS}")));
+        }
+        let name = format!("load-steps-{count}");
+        if counts.iter().any(|(known, _)| *known == name) {
+            let message = format!("{count} load steps appear twice");
+            return Err(evaluator.diagnostic(&path, &message).with_label("the second time"));
+        }
+        counts.push((name, count as f64));
+    }
+    Ok(counts)
+}
+
+/// The ends of runs in time (s).
+fn until(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
 ) -> Result<Vec<(String, f64)>, Diagnostic> {
@@ -29,9 +77,9 @@ pub(crate) fn until(
     for (i, text) in spec.as_slice().iter().enumerate() {
         let path = path.alternative(spec, i);
         let until = evaluator.positive(&path, text, "the end of the run")?;
-        let text = shown(until);
+        let text = format!("until-{}", shown(until));
         if ends.iter().any(|(known, _)| *known == text) {
-            let message = format!("the end {text} s appears twice");
+            let message = format!("the end {} s appears twice", shown(until));
             return Err(evaluator.diagnostic(&path, &message).with_label("the second time"));
         }
         ends.push((text, until));
@@ -117,13 +165,14 @@ fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)
         for (against, suffix) in truths {
             let mut name = method.name.clone();
             if until.len() > 1 {
-                name += &format!("-until-{text}");
+                name += &format!("-{text}");
             }
             if truths.len() > 1 {
                 name += suffix;
             }
             let (solver, until, against) = (method.solver.clone(), *until_value, *against);
-            drafts.push(Draft { name, method: method.method, solver, until, against });
+            let method = method.method.with_load_steps(until as u64);
+            drafts.push(Draft { name, method, solver, until, against });
         }
     }
     drafts

@@ -175,6 +175,11 @@ fn steps(
 ) -> Result<Vec<Located<Formula>>, Diagnostic> {
     let at_run = Path::top("run").then("dt");
     let at_refine = Path::top("refine").then("dt");
+    if spec.run.load_steps.is_some() {
+        // A load step takes one unit of time.
+        let value = evaluator.formula(&at_run, &NumberText::Number(1.0), &["h"])?;
+        return Ok(vec![Located { value, at: Path::top("run").then("load_steps") }]);
+    }
     let texts = match (stated, &spec.refine.dt) {
         (Some(_), Some(_)) => {
             let diagnostic =

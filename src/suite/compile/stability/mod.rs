@@ -152,6 +152,10 @@ fn drafts(
         if matches!(spec, MethodSpec::Fem { .. } | MethodSpec::External { .. }) {
             return Err(evaluator.diagnostic(&path, "stability is studied of MPM only"));
         }
+        if spec.is_quasi_static() {
+            let message = "stability is studied of steps in time, and `quasi_static` has none";
+            return Err(evaluator.diagnostic(&path.then("mpm").then("scheme"), message));
+        }
         for draft in methods(evaluator, i, spec, own)? {
             if let Method::Mpm { basis, transfer, mass, frame, volume, .. } = draft.method {
                 let across = |()| combine_across(plane, basis, transfer);

@@ -178,8 +178,8 @@ fn refuse_methods_without_heat(
                                    grid does not see";
                     return Err(evaluator.diagnostic(&path.then("mpm").then("frame"), message));
                 }
-                if transfer.as_slice().iter().any(|transfer| transfer.kind() == TransferKind::Cells)
-                {
+                let transfers = transfer.as_ref().map_or(&[][..], OneOrMany::as_slice);
+                if transfers.iter().any(|transfer| transfer.kind() == TransferKind::Cells) {
                     let message = "heat is summed over particles, and a transfer that integrates \
                                    over cells has other nodal masses";
                     return Err(evaluator.diagnostic(&path.then("mpm").then("transfer"), message));

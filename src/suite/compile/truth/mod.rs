@@ -323,8 +323,8 @@ fn refuse_equilibrium_with(
         let message = "a body in which heat flows is not at rest: state a motion under `exact`";
         return Err(evaluator.diagnostic_at_key(&path, message));
     }
-    if spec.run.until.as_slice().len() > 1 {
-        let at = Path::top("run").then("until").alternative(&spec.run.until, 1);
+    if let Some(until) = spec.run.until.as_ref().filter(|until| until.as_slice().len() > 1) {
+        let at = Path::top("run").then("until").alternative(until, 1);
         let message = "a body comes to rest once, under the loads at the end of its run";
         return Err(evaluator.diagnostic(&at, message).with_label("expected one end"));
     }

@@ -1,0 +1,212 @@
+//! Kirchhoff stress of an isotropic law with its consistent tangent, for implicit solvers.
+//!
+//! The stress of such a law is a function of `b = F G F^T`, along the axes of `b`, with a constant
+//! `G` within a load step: the identity for an elastic law, the inverse plastic metric `Cp^-1` for
+//! an elastic-plastic one. With the principal values `b_A`, the logarithmic strains `ln(b_A)/2` and
+//! the stresses `tau_A`, a change of the deformation gradient by `dF = dh F` changes the stress,
+//! in components along the axes, by
+//!
+//! ```text
+//! d tau_AA = sum_B (d tau_A / d eps_B) dh_BB
+//! d tau_AB = (tau_A - tau_B)/(b_A - b_B) (dh_AB b_B + b_A dh_BA)                      A /= B
+//! ```
+//!
+//! (de Souza Neto, Peric & Owen 2008, appendix A.5). For equal `b_A` and `b_B` the quotient has the
+//! limit `(d tau_A / d eps_A - d tau_A / d eps_B)/(2 b_A)`.
+
+use super::spectral::{assembled, half_log, spectral};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+
+/// Relative difference of two principal values below which the limit replaces the quotient: the
+/// limit has an error of the square of it, and the quotient loses as many digits.
+const EQUAL: f64 = 1e-5;
+
+/// Kirchhoff stress of a particle, with its derivative by the deformation. The state is 3-D in any
+/// dimension, and `D` is that of the body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StressResponse<const D: usize> {
+    /// Kirchhoff stress `tau = J sigma` (Pa).
+    pub kirchhoff: Matrix<D>,
+    /// Principal values of `b`.
+    squares: Vector<3>,
+    /// Axes of `b`, as columns.
+    axes: Matrix<3>,
+    /// Principal Kirchhoff stresses (Pa).
+    stresses: Vector<3>,
+    /// Derivatives of the principal stresses (rows) by the principal logarithmic strains (Pa).
+    modulus: Matrix<3>,
+}
+
+impl<const D: usize> StressResponse<D> {
+    /// The response of a law at `F` for the metric `G`. `principal` computes the principal stresses
+    /// (Pa) from the principal logarithmic strains, and their derivatives.
+    pub(super) fn new(
+        f: &Matrix<D>,
+        metric: &Matrix<3>,
+        principal: impl FnOnce(&Vector<3>) -> (Vector<3>, Matrix<3>),
+    ) -> Self {
+        let f = in_space(f);
+        let (squares, axes) = spectral(&(f * metric * f.transpose()));
+        let (stresses, modulus) = principal(&half_log(&squares));
+        let kirchhoff = in_body(&assembled(&stresses, &axes));
+        Self { kirchhoff, squares, axes, stresses, modulus }
+    }
+
+    /// Change of the Kirchhoff stress (Pa) for a change `dF = dh F` of the deformation gradient.
+    pub fn tangent(&self, dh: &Matrix<D>) -> Matrix<D> {
+        let mut space = Matrix::<3>::zeros();
+        space.fixed_view_mut::<D, D>(0, 0).copy_from(dh);
+        let dh = self.axes.transpose() * space * self.axes;
+        let along = self.modulus * dh.diagonal();
+        let change = Matrix::<3>::from_fn(|a, b| {
+            if a == b {
+                return along[a];
+            }
+            self.slope(a, b) * (dh[(a, b)] * self.squares[b] + self.squares[a] * dh[(b, a)])
+        });
+        in_body(&(self.axes * change * self.axes.transpose()))
+    }
+
+    /// `(tau_a - tau_b)/(b_a - b_b)` (Pa).
+    fn slope(&self, a: usize, b: usize) -> f64 {
+        let difference = self.squares[a] - self.squares[b];
+        if difference.abs() > EQUAL * self.squares[a].max(self.squares[b]) {
+            return (self.stresses[a] - self.stresses[b]) / difference;
+        }
+        // The mean of the limits at both values has an error of the square of their difference.
+        let limit = |a, b| (self.modulus[(a, a)] - self.modulus[(a, b)]) / (2.0 * self.squares[a]);
+        0.5 * (limit(a, b) + limit(b, a))
+    }
+}
+
+/// F in three dimensions, without stretch along the missing axes.
+pub(super) fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
+    Matrix::from_fn(|i, k| if i < D && k < D { f[(i, k)] } else { f64::from(u8::from(i == k)) })
+}
+
+/// The components in the dimensions of the body.
+fn in_body<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
+    Matrix::from_fn(|i, k| m[(i, k)])
+}
+
+/// The matrix `spherical 1 (x) 1 + 2 mu I` of moduli (Pa): `spherical` is Lamé's first constant in
+/// linear elasticity.
+pub(super) fn isotropic_modulus(spherical: f64, mu: f64) -> Matrix<3> {
+    Matrix::from_fn(|a, b| if a == b { spherical + 2.0 * mu } else { spherical })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::specimen::{SLOW, Specimen, every, scattered};
+    use super::super::{Material, MaterialPlan};
+    use super::*;
+    use crate::mpm::foundation::algebra::det;
+    use approx::assert_relative_eq;
+
+    /// Whether the law declares a tangent.
+    fn has_tangent(plan: &MaterialPlan) -> bool {
+        plan.properties().has_tangent().is_ok()
+    }
+
+    /// The largest difference of the tangent from central differences, over its size, at `f` after
+    /// the deformation `before`.
+    fn difference<const D: usize>(plan: MaterialPlan, before: &Matrix<D>, f: &Matrix<D>) -> f64 {
+        let mut specimen = Specimen::<D>::new(plan);
+        specimen.deform(before, SLOW);
+        let response = |f: &Matrix<D>| specimen.response(f).expect("a law with a tangent");
+        let (at, step) = (response(f), 1e-5);
+        // At the apex of a cone the tangent is zero.
+        let (mut largest, mut size) = (0.0_f64, 1e-3 * plan.properties().wave_modulus());
+        for k in 0..D * D {
+            let mut dh = Matrix::<D>::zeros();
+            dh[(k / D, k % D)] = 1.0;
+            let stress = |step: f64| response(&((Matrix::identity() + dh * step) * f)).kirchhoff;
+            // Fourth order: the error of second order would be 1e-10 of the modulus at this step.
+            let wide = (stress(2.0 * step) - stress(-2.0 * step)) / (4.0 * step);
+            let narrow = (stress(step) - stress(-step)) / (2.0 * step);
+            let expected = (narrow * 4.0 - wide) / 3.0;
+            let tangent = at.tangent(&dh);
+            largest = largest.max((tangent - expected).amax());
+            size = size.max(expected.amax());
+        }
+        largest / size
+    }
+
+    fn tangent_is_the_derivative<const D: usize>(plan: MaterialPlan) {
+        let identity = Matrix::<D>::identity();
+        for (size, seed) in [(0.0, 0.1), (1e-3, 0.4), (0.02, 1.3), (0.15, 2.9), (0.15, 4.2)] {
+            // The first size gives equal principal values: a pure compression.
+            let f = identity * 0.97 + scattered::<D>(size, seed);
+            let before = identity + scattered::<D>(0.5 * size, seed + 0.7);
+            let error = difference(plan, &before, &f);
+            assert!(error <= 1e-7, "{} in {D}-D, size {size}: {error:.1e}", plan.name());
+        }
+    }
+
+    #[test]
+    fn tangent_agrees_with_central_differences() {
+        let plans = every().into_iter().filter(has_tangent);
+        let mut names = Vec::new();
+        for plan in plans {
+            tangent_is_the_derivative::<1>(plan);
+            tangent_is_the_derivative::<2>(plan);
+            tangent_is_the_derivative::<3>(plan);
+            names.push(plan.name());
+        }
+        let expected = ["neo_hookean", "hencky", "j2", "drucker_prager", "mohr_coulomb"];
+        assert_eq!(names, expected);
+    }
+
+    /// On the way to yield, on a face, on edges and in the apex, with and without dilation.
+    #[test]
+    fn tangent_of_mohr_coulomb_belongs_to_its_return() {
+        let strains = [
+            [-0.03, 0.0, 0.0],
+            [0.003, 0.0, 0.0],
+            [0.02, -0.02, 0.0],
+            [0.03, -0.03, 0.0],
+            [-0.002, 0.0, 0.0],
+            [0.03, 0.02, 0.025],
+        ];
+        for (friction_angle, dilation_angle) in [(30.0, 10.0), (20.0, 0.0), (30.0, 30.0)] {
+            let (young, poisson, cohesion) = (18e3, 0.2, 10.0);
+            let plan = MaterialPlan::MohrCoulomb {
+                young,
+                poisson,
+                friction_angle,
+                dilation_angle,
+                cohesion,
+            };
+            for strain in strains {
+                let stretch = Vector::<3>::from(strain).map(libm::exp);
+                let f = Matrix::<3>::from_diagonal(&stretch) + scattered::<3>(1e-3, 0.3);
+                let error = difference(plan, &Matrix::identity(), &f);
+                assert!(error <= 1e-7, "{strain:?}, {friction_angle}: {error:.1e}");
+            }
+        }
+    }
+
+    /// The stress of the response is that of the update, and the state of the law is unchanged.
+    #[test]
+    fn response_has_the_stress_of_the_update() {
+        for plan in every().into_iter().filter(has_tangent) {
+            let mut specimen = Specimen::<3>::new(plan);
+            let before = Matrix::identity() + scattered::<3>(0.1, 0.3);
+            specimen.deform(&before, SLOW);
+            let step = Matrix::identity() + scattered::<3>(0.1, 1.9);
+            let f = step * before;
+            let response = specimen.response(&f).expect("a law with a tangent");
+            assert_eq!(Some(&response), specimen.response(&f).as_ref(), "{}", plan.name());
+            let sigma = specimen.deform(&step, SLOW);
+            assert_relative_eq!(sigma * det(&f), response.kirchhoff, epsilon = 1e-11);
+        }
+    }
+
+    #[test]
+    fn law_without_tangent_has_no_response() {
+        for plan in every().into_iter().filter(|plan| !has_tangent(plan)) {
+            let law: Box<dyn Material<2>> = plan.build();
+            assert!(law.response(0, &Matrix::identity()).is_none(), "{}", plan.name());
+        }
+    }
+}

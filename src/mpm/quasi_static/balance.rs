@@ -1,0 +1,363 @@
+//! Balance of forces of one load step: basis functions at the start of the step, unknowns,
+//! residual and consistent tangent.
+//!
+//! With nodal displacement increments u and their gradient `grad u` at a particle, with respect to
+//! positions at the start of the step, and with `F' = (I + grad u) F` and
+//! `grad' N = (I + grad u)^-T grad N`,
+//!
+//! ```text
+//! r_i          = sum_p V0 tau(F') grad' N_i - f_ext_i
+//! d r_ia/du_jb = sum_p V0 (N_i,c c_acbd N_j,d - tau_ac N_j,c N_i,b)
+//! ```
+//!
+//! where commas are derivatives with respect to positions at the end of the step, and
+//! `d tau_ac = c_acbd d(grad' u)_bd` (Charlton, Coombs & Augarde 2017, Comput. Struct. 190).
+
+use super::banded::BandedSystem;
+use crate::mpm::boundary::Boundary;
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad};
+use crate::mpm::foundation::grid::Grid;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::kernel::contract::Kernel;
+use crate::mpm::material::{Material, StressResponse};
+use crate::subject::{Failure, Site};
+use std::array;
+
+/// Sum of the functions of a node over the particles below which the node has no unknown: its row
+/// of the tangent would be singular.
+const LEAST_WEIGHT: f64 = 1e-12;
+
+/// Maximum number of stored entries of the tangent, 4 GB.
+const MOST_ENTRIES: usize = 1 << 29;
+
+/// Function of one node at a particle.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NodeFunction<const D: usize> {
+    pub(super) node: usize,
+    pub(super) weight: f64,
+    /// Gradient (1/m).
+    pub(super) gradient: Vector<D>,
+}
+
+/// Basis functions of all particles at the start of a step, and the unknowns of the step.
+pub(super) struct StepEquations<const D: usize> {
+    /// Functions of all particles, one after the other.
+    functions: Vec<NodeFunction<D>>,
+    /// End of the functions of each particle.
+    ends: Vec<usize>,
+    /// Number of the unknown of each component of each node; `None` if it is held, or no particle
+    /// has a function there.
+    unknowns: Vec<[Option<usize>; D]>,
+    /// Node of each unknown.
+    nodes: Vec<usize>,
+    band: usize,
+}
+
+/// Stresses and residual at one iterate.
+pub(super) struct Iterate<const D: usize> {
+    /// Nodal displacement increments (m).
+    pub(super) increment: Vec<Vector<D>>,
+    /// Residual of each node, held components included: internal minus external force (N).
+    pub(super) residual: Vec<Vector<D>>,
+    /// Its norm over the unknowns (N).
+    pub(super) norm: f64,
+    responses: Vec<StressResponse<D>>,
+    /// `(I + grad u)^-T` of each particle.
+    push: Vec<Matrix<D>>,
+}
+
+impl<const D: usize> StepEquations<D> {
+    /// For `particles` at the start of a step.
+    ///
+    /// # Errors
+    /// [`Failure::Solve`] if no component is free, or the tangent does not fit into memory.
+    pub(super) fn new(
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        kernel: &dyn Kernel<D>,
+        boundary: &[Box<dyn Boundary<D>>],
+    ) -> Result<Self, Failure> {
+        let (mut functions, mut ends) = (Vec::new(), Vec::with_capacity(particles.len()));
+        for p in 0..particles.len() {
+            kernel.functions(grid, particles, p, &mut |node, weight, gradient| {
+                functions.push(NodeFunction { node, weight, gradient: *gradient });
+            });
+            ends.push(functions.len());
+        }
+        Self::of_functions(grid, (functions, ends), boundary)
+    }
+
+    /// For the functions of all particles, one after the other, and their end for each particle.
+    fn of_functions(
+        grid: &Grid<D>,
+        (functions, ends): (Vec<NodeFunction<D>>, Vec<usize>),
+        boundary: &[Box<dyn Boundary<D>>],
+    ) -> Result<Self, Failure> {
+        let mut sums = vec![0.0; grid.nodes()];
+        for function in &functions {
+            sums[function.node] += function.weight;
+        }
+        let is_used = |sum: &f64| f64::from(u8::from(*sum >= LEAST_WEIGHT));
+        let mut free: Vec<Vector<D>> =
+            sums.iter().map(|sum| Vector::from_element(is_used(sum))).collect();
+        for condition in boundary {
+            condition.clear(&mut free);
+        }
+        let (unknowns, nodes) = number(grid, &free);
+        if nodes.is_empty() {
+            return Err(Failure::Solve("no node of the body is free to move".to_owned()));
+        }
+        let mut balance = Self { functions, ends, unknowns, nodes, band: 0 };
+        balance.band = balance.widest();
+        if BandedSystem::size(balance.nodes.len(), balance.band) > MOST_ENTRIES {
+            let (rows, band) = (balance.nodes.len(), balance.band);
+            let message =
+                format!("the tangent has {rows} unknowns with a band of {band}: too many to solve");
+            return Err(Failure::Solve(message));
+        }
+        Ok(balance)
+    }
+
+    /// Functions of particle `p`.
+    pub(super) fn functions_of(&self, p: usize) -> &[NodeFunction<D>] {
+        let start = if p == 0 { 0 } else { self.ends[p - 1] };
+        &self.functions[start..self.ends[p]]
+    }
+
+    /// Number of pairs of particle and node.
+    pub(super) fn pairs(&self) -> u64 {
+        self.functions.len() as u64
+    }
+
+    /// `I + grad u` at particle `p`.
+    pub(super) fn stretch(&self, p: usize, increment: &[Vector<D>]) -> Matrix<D> {
+        let gradient = |sum: Matrix<D>, function: &NodeFunction<D>| {
+            sum + dyad(&increment[function.node], &function.gradient)
+        };
+        self.functions_of(p).iter().fold(Matrix::identity(), gradient)
+    }
+
+    /// Norm of a nodal field over the unknowns.
+    pub(super) fn norm(&self, field: &[Vector<D>]) -> f64 {
+        self.of_unknowns(field).iter().fold(0.0, |sum, value| libm::hypot(sum, *value))
+    }
+
+    /// The node with the largest value of a field among the unknowns, and this value.
+    pub(super) fn largest(&self, field: &[Vector<D>]) -> (usize, f64) {
+        let values = self.of_unknowns(field).into_iter().map(f64::abs);
+        let of_nodes = self.nodes.iter().copied().zip(values);
+        of_nodes.fold((0, 0.0), |most, next| if next.1 > most.1 { next } else { most })
+    }
+
+    fn of_unknowns(&self, field: &[Vector<D>]) -> Vec<f64> {
+        let mut values = vec![0.0; self.nodes.len()];
+        for (rows, value) in self.unknowns.iter().zip(field) {
+            for (row, value) in rows.iter().zip(value) {
+                if let Some(row) = row {
+                    values[*row] = *value;
+                }
+            }
+        }
+        values
+    }
+
+    /// Stresses and residual for the increments `increment` (m) and external forces `load` (N).
+    ///
+    /// # Errors
+    /// [`Failure::Inverted`] or [`Failure::NonFinite`] for the first particle without a stress.
+    pub(super) fn iterate(
+        &self,
+        particles: &Particles<D>,
+        material: &dyn Material<D>,
+        load: &[Vector<D>],
+        increment: Vec<Vector<D>>,
+    ) -> Result<Iterate<D>, Failure> {
+        let mut residual: Vec<Vector<D>> = load.iter().map(|force| -force).collect();
+        let (mut responses, mut push) = (Vec::new(), Vec::new());
+        for (p, (f, vol0)) in particles.def_grad.iter().zip(&particles.vol0).enumerate() {
+            let (stretch, site) = (self.stretch(p, &increment), Site::Particle(p));
+            let j = det(&stretch);
+            if !j.is_finite() {
+                return Err(Failure::NonFinite { quantity: "J", site });
+            }
+            let inverse = stretch.try_inverse().filter(|_| j > 0.0);
+            let inverse = inverse.ok_or(Failure::Inverted { site, j: j * det(f) })?;
+            let response = material.response(p, &(stretch * f));
+            let response = response.ok_or_else(|| Failure::Solve(NO_TANGENT.to_owned()))?;
+            if !response.kirchhoff.iter().all(|stress| stress.is_finite()) {
+                return Err(Failure::NonFinite { quantity: "stress", site });
+            }
+            let flux = response.kirchhoff * inverse.transpose() * *vol0;
+            for function in self.functions_of(p) {
+                residual[function.node] += flux * function.gradient;
+            }
+            responses.push(response);
+            push.push(inverse.transpose());
+        }
+        let norm = self.norm(&residual);
+        Ok(Iterate { increment, residual, norm, responses, push })
+    }
+
+    /// Newton's correction of an iterate (m).
+    ///
+    /// # Errors
+    /// The node of the first row of the tangent without a pivot.
+    pub(super) fn correction(
+        &self,
+        particles: &Particles<D>,
+        iterate: &Iterate<D>,
+    ) -> Result<Vec<Vector<D>>, usize> {
+        let mut tangent = BandedSystem::zeros(self.nodes.len(), self.band);
+        for (p, vol0) in particles.vol0.iter().enumerate() {
+            self.add_stiffness(p, *vol0, iterate, &mut tangent);
+        }
+        let side = self.of_unknowns(&iterate.residual).iter().map(|value| -value).collect();
+        let solution = tangent.solve(side).map_err(|row| self.nodes[row])?;
+        let of_node = |rows: &[Option<usize>; D]| {
+            Vector::from_fn(|a, _| rows[a].map_or(0.0, |row| solution[row]))
+        };
+        Ok(self.unknowns.iter().map(of_node).collect())
+    }
+
+    /// Adds the stiffness of particle `p`.
+    fn add_stiffness(&self, p: usize, vol0: f64, iterate: &Iterate<D>, tangent: &mut BandedSystem) {
+        let (response, push) = (&iterate.responses[p], &iterate.push[p]);
+        let functions = self.functions_of(p);
+        let gradients: Vec<Vector<D>> =
+            functions.iter().map(|function| push * function.gradient).collect();
+        // Changes of the stress by each component of the displacement gradient.
+        let changes: [[Matrix<D>; D]; D] = array::from_fn(|b| {
+            array::from_fn(|d| {
+                let mut direction = Matrix::<D>::zeros();
+                direction[(b, d)] = 1.0;
+                response.tangent(&direction)
+            })
+        });
+        for (j, of_j) in functions.iter().zip(&gradients) {
+            let pull = response.kirchhoff * of_j;
+            for b in 0..D {
+                let Some(column) = self.unknowns[j.node][b] else { continue };
+                let change =
+                    (1..D).fold(changes[b][0] * of_j[0], |sum, d| sum + changes[b][d] * of_j[d]);
+                for (i, of_i) in functions.iter().zip(&gradients) {
+                    let force = (change * of_i - pull * of_i[b]) * vol0;
+                    for a in 0..D {
+                        if let Some(row) = self.unknowns[i.node][a] {
+                            tangent.add(row, column, force[a]);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Largest difference between numbers of unknowns that share a particle.
+    fn widest(&self) -> usize {
+        let width = |p: usize| {
+            let rows = self.functions_of(p).iter().flat_map(|f| self.unknowns[f.node]).flatten();
+            let (low, high) =
+                rows.fold((usize::MAX, 0), |(low, high), row| (low.min(row), high.max(row)));
+            high.saturating_sub(low)
+        };
+        (0..self.ends.len()).map(width).max().unwrap_or(0)
+    }
+}
+
+/// The reason why there is no subject for a law.
+pub(super) const NO_TANGENT: &str = "the law has no consistent tangent";
+
+/// Numbers the free components with the longest axis of the grid slowest, for a narrow band.
+/// Returns the numbers, and the node of each.
+fn number<const D: usize>(
+    grid: &Grid<D>,
+    free: &[Vector<D>],
+) -> (Vec<[Option<usize>; D]>, Vec<usize>) {
+    let mut axes: [usize; D] = array::from_fn(|axis| axis);
+    axes.sort_by_key(|axis| std::cmp::Reverse(grid.counts[*axis]));
+    let mut order: Vec<usize> = (0..free.len()).collect();
+    order.sort_by_key(|node| axes.map(|axis| grid.index_on_axis(*node, axis)));
+    let (mut unknowns, mut nodes) = (vec![[None; D]; free.len()], Vec::new());
+    for node in order {
+        for (axis, unknown) in unknowns[node].iter_mut().enumerate() {
+            if free[node][axis] > 0.0 {
+                *unknown = Some(nodes.len());
+                nodes.push(node);
+            }
+        }
+    }
+    (unknowns, nodes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::boundary::{Fixed, Side};
+    use crate::mpm::foundation::particles::Block;
+    use crate::mpm::material::{DruckerPrager, Hencky, StressUpdate};
+    use rstest::rstest;
+
+    /// Bilinear functions of four cells at a particle.
+    fn bilinear(grid: &Grid<2>, x: &Vector<2>) -> Vec<NodeFunction<2>> {
+        let hat = |axis: usize, i: usize| {
+            let s = (x[axis] - grid.origin[axis]) / grid.h - i as f64;
+            let slope = if s < 0.0 { 1.0 } else { -1.0 };
+            if s.abs() < 1.0 { (1.0 - s.abs(), slope / grid.h) } else { (0.0, 0.0) }
+        };
+        let function = |node: usize| {
+            let [(along, slope), (across, slope_across)] =
+                [0, 1].map(|axis| hat(axis, grid.index_on_axis(node, axis)));
+            let gradient = Vector::<2>::new(slope * across, along * slope_across);
+            NodeFunction { node, weight: along * across, gradient }
+        };
+        (0..grid.nodes()).map(function).filter(|function| function.weight > 0.0).collect()
+    }
+
+    /// At an increment without symmetry; with plasticity, some particles yield and others do not.
+    #[rstest]
+    #[case::elastic(Box::new(Hencky::new(100.0, 0.3)))]
+    #[case::plastic(Box::new(DruckerPrager::new(100.0, 0.3, 0.3, 0.1, 4.0)))]
+    fn tangent_agrees_with_central_differences(#[case] mut law: Box<dyn Material<2>>) {
+        let grid = Grid::<2>::new(Vector::zeros(), 0.5, [2, 2], [false; 2], [3, 3]);
+        let block = Block { from: Vector::zeros(), to: Vector::from_element(1.0), density: 1.0 };
+        let mut particles = Particles::fill(&block, 0.5, 2);
+        particles.track_deformation();
+        for (p, f) in particles.def_grad.iter_mut().enumerate() {
+            f[(0, 1)] = 0.05 * libm::sin(p as f64);
+        }
+        law.update(&mut StressUpdate::new(0.0, &mut particles));
+        let (mut functions, mut ends) = (Vec::new(), Vec::new());
+        for x in &particles.x {
+            functions.extend(bilinear(&grid, x));
+            ends.push(functions.len());
+        }
+        let boundary: Vec<Box<dyn Boundary<2>>> = vec![Box::new(Fixed::face(&grid, 0, Side::Low))];
+        let equations = StepEquations::of_functions(&grid, (functions, ends), &boundary).unwrap();
+        let noise = |i: usize, axis: usize| 0.05 * libm::sin(1.0 + 3.0 * i as f64 + axis as f64);
+        let mut increment: Vec<Vector<2>> =
+            (0..grid.nodes()).map(|i| Vector::from_fn(|axis, _| noise(i, axis))).collect();
+        boundary[0].clear(&mut increment);
+        let load = vec![Vector::from_element(0.3); grid.nodes()];
+        let iterate = |increment: Vec<Vector<2>>| {
+            equations.iterate(&particles, law.as_ref(), &load, increment).unwrap()
+        };
+        let at = iterate(increment.clone());
+        // K d = -r, so that the residual changes by -r along d.
+        let direction = equations.correction(&particles, &at).unwrap();
+        let length = direction.iter().map(Vector::norm).fold(0.0, f64::max);
+        let step = 1e-5 / length;
+        let moved = |share: f64| {
+            let moved = increment.iter().zip(&direction).map(|(u, d)| u + d * (share * step));
+            iterate(moved.collect()).residual
+        };
+        let [low, high, lowest, highest] = [-1.0, 1.0, -2.0, 2.0].map(moved);
+        let difference: Vec<Vector<2>> = (0..grid.nodes())
+            .map(|i| {
+                let narrow = (high[i] - low[i]) / (2.0 * step);
+                let wide = (highest[i] - lowest[i]) / (4.0 * step);
+                (narrow * 4.0 - wide) / 3.0 + at.residual[i]
+            })
+            .collect();
+        let error = equations.norm(&difference) / at.norm;
+        assert!(error <= 1e-7, "{error:.1e}");
+    }
+}

@@ -1,0 +1,238 @@
+//! Quasi-static MPM: the load grows in steps, and each step solves for the equilibrium at its end
+//! by Newton's method (Charlton, Coombs & Augarde 2017, Comput. Struct. 190; Coombs & Augarde 2020,
+//! Adv. Eng. Softw. 139).
+//!
+//! Load step k of N:
+//!
+//! 1. evaluate the basis functions at the particles;
+//! 2. solve `sum_p V0 tau(F') grad' N_i = (k/N) f_ext_i` for nodal displacement increments, which
+//!    start from zero ([`balance`]);
+//! 3. move the particles, `x += sum_i u_i N_i`, update F, the state of the law and the domains, and
+//!    reset the grid.
+//!
+//! Nothing but F, the state of the law and positions is kept on the particles: there is no velocity
+//! and no transfer. The load step is never divided: if Newton's method does not converge, the level
+//! fails.
+
+mod balance;
+mod banded;
+mod newton;
+
+use super::basis::Domain;
+use super::boundary::{Boundary, Side};
+use super::effect::Effect;
+use super::foundation::algebra::{Matrix, Vector};
+use super::foundation::grid::Grid;
+use super::foundation::particles::Particles;
+use super::kernel::contract::{Kernel, Tally};
+use super::material::{Material, StressUpdate};
+use super::step::cell_tracker::CellTracker;
+use super::step::initial;
+use super::step::observables::wall_reaction;
+use super::step::setup::{fields, profile};
+use crate::subject::{
+    BodyFields, Checkpoint, Column, Failure, Profile, Reaction, RunCounters, Samples, Site,
+    Subject, Totals,
+};
+use balance::{NO_TANGENT, StepEquations};
+
+/// Parts of a quasi-static solver of one body.
+pub struct QuasiStaticSetup<const D: usize> {
+    /// The background grid.
+    pub grid: Grid<D>,
+    /// The body, free of stress.
+    pub particles: Particles<D>,
+    /// Basis.
+    pub kernel: Box<dyn Kernel<D>>,
+    /// The constitutive law.
+    pub material: Box<dyn Material<D>>,
+    /// Loads that depend neither on time nor on the deformation.
+    pub effects: Vec<Box<dyn Effect<D>>>,
+    /// Walls that do not move.
+    pub boundary: Vec<Box<dyn Boundary<D>>>,
+    /// Number of load steps.
+    pub load_steps: u64,
+}
+
+/// A body whose load grows in steps, in equilibrium after each.
+pub struct QuasiStatic<const D: usize> {
+    setup: QuasiStaticSetup<D>,
+    /// Load steps so far.
+    steps: u64,
+    transfers: u64,
+    min_j: f64,
+    cell_tracker: CellTracker<D>,
+    /// Residuals of the iterates of the last load step, over its load.
+    residuals: Vec<f64>,
+}
+
+impl<const D: usize> QuasiStatic<D> {
+    /// A body without load.
+    ///
+    /// # Errors
+    /// [`Failure::NonFinite`] or [`Failure::LeftDomain`] for an invalid particle;
+    /// [`Failure::Solve`] for a law without a consistent tangent.
+    pub fn new(mut setup: QuasiStaticSetup<D>) -> Result<Self, Failure> {
+        let QuasiStaticSetup { grid, particles, kernel, material, .. } = &mut setup;
+        particles.track_deformation();
+        let min_j = initial::complete(particles, kernel.domain(), material.as_mut())?;
+        if material.response(0, &Matrix::identity()).is_none() {
+            return Err(Failure::Solve(NO_TANGENT.to_owned()));
+        }
+        let cell_tracker = CellTracker::new(grid, particles)?;
+        let (steps, transfers, residuals) = (0, 0, Vec::new());
+        Ok(Self { setup, steps, transfers, min_j, cell_tracker, residuals })
+    }
+
+    /// Residuals of the iterates of the last load step: the norm over all nodes with unknowns, over
+    /// that of the load of the step. The first belongs to zero increments.
+    pub fn residuals(&self) -> &[f64] {
+        &self.residuals
+    }
+
+    /// The particles in their current state.
+    pub fn particles(&self) -> &Particles<D> {
+        &self.setup.particles
+    }
+
+    /// The effects, and all columns for particles and nodes.
+    pub fn profile(&self) -> Profile {
+        let QuasiStaticSetup { grid, particles, effects, .. } = &self.setup;
+        profile(grid, particles, effects, &self.columns())
+    }
+
+    /// See [`Solver::take_visits`](super::Solver::take_visits).
+    pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
+        Tally::take(&[self.setup.kernel.tally()])
+    }
+
+    fn columns(&self) -> Vec<Column<'_>> {
+        let QuasiStaticSetup { grid, particles, material, effects, boundary, .. } = &self.setup;
+        let mut columns = particles.columns();
+        columns.push(self.cell_tracker.columns());
+        columns.extend(material.columns());
+        columns.extend(effects.iter().flat_map(|effect| effect.columns()));
+        columns.extend(grid.columns());
+        columns.extend(boundary.iter().flat_map(|condition| condition.columns()));
+        columns
+    }
+
+    /// The external forces of the whole load, into the forces of the grid (N).
+    fn load(&mut self) {
+        let QuasiStaticSetup { grid, particles, kernel, effects, .. } = &mut self.setup;
+        grid.force.fill(Vector::zeros());
+        kernel.p2g_mass(particles, grid);
+        for effect in effects {
+            self.transfers += effect.add_force(0.0, particles, kernel.as_ref(), grid);
+        }
+    }
+
+    /// Moves the particles by the increments of a load step (m), and updates F, the state of the
+    /// law, volumes, stresses and domains.
+    fn advance(
+        &mut self,
+        balance: &StepEquations<D>,
+        increment: &[Vector<D>],
+    ) -> Result<(), Failure> {
+        let QuasiStaticSetup { grid, particles, kernel, material, .. } = &mut self.setup;
+        for p in 0..particles.len() {
+            particles.def_grad[p] = balance.stretch(p, increment) * particles.def_grad[p];
+            for function in balance.functions_of(p) {
+                particles.x[p] += increment[function.node] * function.weight;
+            }
+        }
+        // F is already that of the end of the step.
+        material.update(&mut StressUpdate::new(0.0, particles));
+        if kernel.domain() == Domain::Follows {
+            particles.track_domains();
+        }
+        for (p, (vol, vol0)) in particles.vol.iter().zip(&particles.vol0).enumerate() {
+            let (j, site) = (vol / vol0, Site::Particle(p));
+            if !(j > 0.0) {
+                return Err(Failure::Inverted { site, j });
+            }
+            self.min_j = self.min_j.min(j);
+        }
+        particles.stressed_finite()?;
+        self.cell_tracker.track(grid, particles)
+    }
+}
+
+impl<const D: usize> Subject for QuasiStatic<D> {
+    /// One load step; its length has no effect.
+    fn step(&mut self, _: f64) -> Result<(), Failure> {
+        self.steps += 1;
+        self.load();
+        let share = self.steps as f64 / self.setup.load_steps as f64;
+        let QuasiStaticSetup { grid, particles, kernel, material, boundary, .. } = &mut self.setup;
+        let load: Vec<Vector<D>> = grid.force.iter().map(|force| force * share).collect();
+        let balance = StepEquations::new(grid, particles, kernel.as_ref(), boundary)?;
+        let solution = newton::solve(&balance, particles, material.as_ref(), &load);
+        self.residuals = solution.residuals;
+        // Each iterate visits the nodes of all particles for its stress, and again for its tangent.
+        let passes = 2 * self.residuals.len() as u64;
+        self.transfers += passes * balance.pairs();
+        let iterate = solution.last?;
+        for (force, residual) in grid.force.iter_mut().zip(&iterate.residual) {
+            *force = -residual;
+        }
+        self.advance(&balance, &iterate.increment)
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        samples.clear();
+        self.setup.particles.sample(samples);
+    }
+
+    fn counters(&self) -> RunCounters {
+        RunCounters {
+            particles: Some(self.setup.particles.len() as u64),
+            transfers: self.transfers,
+            crossings: Some(self.cell_tracker.crossings),
+            left_domain: Some(self.cell_tracker.left_domain),
+            min_j: self.min_j,
+        }
+    }
+
+    fn passes(&self) -> Vec<String> {
+        let passes = ["P2G(external force)", "Newton(stress, tangent)", "G2P(position, F)"];
+        passes.map(ToOwned::to_owned).to_vec()
+    }
+
+    fn fields(&self) -> Vec<BodyFields> {
+        vec![fields(&self.setup.grid, &self.setup.particles, &self.columns())]
+    }
+
+    fn totals(&self) -> Option<Totals> {
+        let QuasiStaticSetup { particles, material, .. } = &self.setup;
+        let strain_energy = material.energy(particles);
+        Some(Totals { strain_energy, ..particles.totals(|_| None) })
+    }
+
+    /// The time is the number of the load step.
+    fn reaction(&self, face: Option<(usize, bool)>) -> Option<Reaction> {
+        let QuasiStaticSetup { grid, boundary, .. } = &self.setup;
+        let side = |high| if high { Side::High } else { Side::Low };
+        let face = face.map(|(axis, high)| (axis, side(high)));
+        let force = wall_reaction(&grid.force, boundary, face);
+        (self.steps > 0).then_some(Reaction { time: self.steps as f64, force })
+    }
+
+    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
+        let Self { setup, steps, transfers, min_j, cell_tracker, residuals: _ } = self;
+        let QuasiStaticSetup { particles, material, effects, boundary, .. } = setup;
+        checkpoint.visit(particles);
+        material.checkpoint(checkpoint);
+        for effect in effects {
+            effect.checkpoint(checkpoint);
+        }
+        for condition in boundary {
+            condition.checkpoint(checkpoint);
+        }
+        checkpoint.visit(steps);
+        checkpoint.visit(transfers);
+        checkpoint.visit(min_j);
+        checkpoint.visit(cell_tracker);
+        true
+    }
+}

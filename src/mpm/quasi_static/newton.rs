@@ -1,0 +1,128 @@
+//! Newton's method for one load step, with a line search.
+//!
+//! Full steps are taken first, even if the residual rises for a few iterates: where particles
+//! begin to yield, the residual of a full step is larger than that before it, and the next one is
+//! smaller by orders of magnitude. If several iterates in a row do not improve on the best one, as
+//! in a cycle between the branches of a law, the method returns to the best iterate and from then
+//! on accepts only steps that reduce its residual (the watchdog technique of Chamberlain, Powell,
+//! Lemarechal & Pedersen 1982, Math. Program. Study 16). A step that inverts a particle is halved
+//! in any case.
+
+use super::balance::{Iterate, StepEquations};
+use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::particles::Particles;
+use crate::mpm::material::Material;
+use crate::subject::Failure;
+
+/// Residual over the load at which a step has converged. Rounding limits it to between 2e-14 and
+/// 1e-11 of the load.
+pub(super) const CONVERGED: f64 = 1e-10;
+
+/// Maximum number of corrections.
+const MOST_CORRECTIONS: usize = 25;
+
+/// Iterates that need not improve on the best one.
+const PATIENCE: usize = 4;
+
+/// Maximum number of halvings of a correction.
+const MOST_HALVINGS: u32 = 12;
+
+/// Share of the reduction by a linear model that the line search requires (Armijo 1966).
+const SUFFICIENT: f64 = 1e-4;
+
+/// Result of a load step.
+pub(super) struct Solution<const D: usize> {
+    /// Residuals of all iterates, over the load.
+    pub(super) residuals: Vec<f64>,
+    /// The last iterate, or why the step has failed.
+    pub(super) last: Result<Iterate<D>, Failure>,
+}
+
+/// Data of a load step.
+struct LoadStep<'a, const D: usize> {
+    balance: &'a StepEquations<D>,
+    particles: &'a Particles<D>,
+    material: &'a dyn Material<D>,
+    /// External forces (N).
+    load: &'a [Vector<D>],
+}
+
+/// Solves a load step with the external forces `load` (N).
+pub(super) fn solve<const D: usize>(
+    balance: &StepEquations<D>,
+    particles: &Particles<D>,
+    material: &dyn Material<D>,
+    load: &[Vector<D>],
+) -> Solution<D> {
+    let step = LoadStep { balance, particles, material, load };
+    let mut residuals = Vec::new();
+    let last = step.solve(&mut residuals);
+    Solution { residuals, last }
+}
+
+impl<const D: usize> LoadStep<'_, D> {
+    fn solve(&self, residuals: &mut Vec<f64>) -> Result<Iterate<D>, Failure> {
+        let scale = self.balance.norm(self.load);
+        if !(scale > 0.0 && scale.is_finite()) {
+            let message = "no load acts on a node that is free to move".to_owned();
+            return Err(Failure::Solve(message));
+        }
+        let mut now = self.iterate(vec![Vector::zeros(); self.load.len()])?;
+        residuals.push(now.norm / scale);
+        let (mut best, mut waited, mut searches) = (now.increment.clone(), 0, false);
+        let mut best_norm = f64::INFINITY;
+        for _ in 0..MOST_CORRECTIONS {
+            if now.norm / scale < CONVERGED {
+                return Ok(now);
+            }
+            if now.norm < best_norm {
+                (best, best_norm, waited) = (now.increment.clone(), now.norm, 0);
+            } else if !searches {
+                waited += 1;
+            }
+            if waited >= PATIENCE {
+                (now, searches, waited) = (self.iterate(best.clone())?, true, 0);
+            }
+            now = self.corrected(&now, searches, scale)?;
+            residuals.push(now.norm / scale);
+        }
+        if now.norm / scale < CONVERGED { Ok(now) } else { Err(self.not_converged(&now, scale)) }
+    }
+
+    /// The iterate after Newton's correction, shortened where required.
+    fn corrected(
+        &self,
+        now: &Iterate<D>,
+        searches: bool,
+        scale: f64,
+    ) -> Result<Iterate<D>, Failure> {
+        let correction = self
+            .balance
+            .correction(self.particles, now)
+            .map_err(|node| Failure::Solve(format!("the tangent is singular at node {node}")))?;
+        let mut share = 1.0;
+        let mut failure = self.not_converged(now, scale);
+        for _ in 0..=MOST_HALVINGS {
+            let moved = now.increment.iter().zip(&correction);
+            let next = self.iterate(moved.map(|(u, change)| u + change * share).collect());
+            match next {
+                Ok(next) if !searches || next.norm <= (1.0 - SUFFICIENT * share) * now.norm => {
+                    return Ok(next);
+                }
+                Ok(_) => {}
+                Err(reason) => failure = reason,
+            }
+            share *= 0.5;
+        }
+        Err(failure)
+    }
+
+    fn iterate(&self, increment: Vec<Vector<D>>) -> Result<Iterate<D>, Failure> {
+        self.balance.iterate(self.particles, self.material, self.load, increment)
+    }
+
+    fn not_converged(&self, now: &Iterate<D>, scale: f64) -> Failure {
+        let (node, residual) = self.balance.largest(&now.residual);
+        Failure::NotConverged { residual: residual / scale, node }
+    }
+}

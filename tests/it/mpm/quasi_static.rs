@@ -1,0 +1,311 @@
+//! Quasi-static load steps: columns with closed forms, Newton's convergence, and failures.
+
+use crate::common::interrupted::goes_on;
+use approx::assert_relative_eq;
+use mpm_verify::mpm::{
+    BasisName, Block, Boundary, Effect, Fixed, Gravity, MaterialPlan, Particles, QuasiStatic,
+    QuasiStaticSetup, Roller, Side, Vector, kernel,
+};
+use mpm_verify::subject::{Failure, Subject};
+use rstest::rstest;
+
+/// A column along the first axis under its own weight, on a fixed bottom and between rollers.
+#[derive(Debug, Clone, Copy)]
+struct ColumnCase {
+    material: MaterialPlan,
+    height: f64,
+    density: f64,
+    gravity: f64,
+    cells: usize,
+    load_steps: u64,
+}
+
+impl ColumnCase {
+    fn hencky(cells: usize, load_steps: u64) -> Self {
+        let material = MaterialPlan::Hencky { young: 1e6, poisson: 0.0 };
+        Self { material, height: 50.0, density: 80.0, gravity: 10.0, cells, load_steps }
+    }
+
+    fn drucker_prager(cells: usize, load_steps: u64) -> Self {
+        let (young, poisson) = (15e3, 0.25);
+        let (friction, dilation, strength) = (0.3, 0.1, 10.0);
+        let material = MaterialPlan::DruckerPrager { young, poisson, friction, dilation, strength };
+        Self { material, height: 10.0, density: 1.0, gravity: 15.0, cells, load_steps }
+    }
+
+    fn setup<const D: usize>(self, basis: BasisName) -> QuasiStaticSetup<D> {
+        let h = self.height / self.cells as f64;
+        let kernel = kernel::<D>(basis);
+        let mut extent = [2; D];
+        extent[0] = self.cells + 1;
+        let grid = kernel.grid(Vector::zeros(), h, extent, [false; D]);
+        let to = Vector::from_fn(|axis, _| if axis == 0 { self.height } else { 2.0 * h });
+        let block = Block { from: Vector::zeros(), to, density: self.density };
+        let particles = Particles::fill(&block, h, 2);
+        let mut boundary: Vec<Box<dyn Boundary<D>>> = Vec::new();
+        for axis in 1..D {
+            for side in [Side::Low, Side::High] {
+                boundary.push(Box::new(Roller::face(&grid, axis, side)));
+            }
+        }
+        boundary.push(Box::new(Fixed::face(&grid, 0, Side::Low)));
+        let weight =
+            move |_: f64| Vector::from_fn(|axis, _| if axis == 0 { -self.gravity } else { 0.0 });
+        let effects: Vec<Box<dyn Effect<D>>> = vec![Box::new(Gravity(Box::new(weight)))];
+        let (material, load_steps) = (self.material.build(), self.load_steps);
+        QuasiStaticSetup { grid, particles, kernel, material, effects, boundary, load_steps }
+    }
+
+    fn build<const D: usize>(self, basis: BasisName) -> QuasiStatic<D> {
+        QuasiStatic::new(self.setup(basis)).unwrap()
+    }
+
+    /// Runs all load steps; returns the residuals of each.
+    fn run<const D: usize>(self, solver: &mut QuasiStatic<D>) -> Vec<Vec<f64>> {
+        let step = |_| {
+            solver.step(1.0).unwrap();
+            solver.residuals().to_vec()
+        };
+        (0..self.load_steps).map(step).collect()
+    }
+
+    /// Modulus of compression (Pa) up to yield and beyond, and the logarithmic strain at yield.
+    fn bilinear(self) -> [f64; 3] {
+        match self.material {
+            MaterialPlan::DruckerPrager { friction, dilation, strength, .. } => {
+                let (bulk, mu) = (1e4, 6e3);
+                let axial = 2.0 * mu / 3.0_f64.sqrt();
+                let modulus = bulk + 4.0 / 3.0 * mu;
+                let plastic = (bulk * friction - axial) * (bulk * dilation - axial)
+                    / (mu + bulk * friction * dilation);
+                [modulus, modulus - plastic, strength / (axial - friction * bulk)]
+            }
+            _ => [1e6, 1e6, 1.0],
+        }
+    }
+
+    /// Height (m) of a material point in equilibrium: the axial Kirchhoff stress is bilinear in the
+    /// logarithmic strain, and equal to minus the weight above times the stretch. With Lambert's
+    /// function W and `k(w) = w + w^2/2`, the integral of the stretch over the weight is `M k(W)`.
+    fn exact_height(self, y: f64) -> f64 {
+        let ([modulus, plastic, strain], weight) = (self.bilinear(), self.density * self.gravity);
+        let at_yield = modulus * strain * libm::exp(strain);
+        let offset = strain * (1.0 - modulus / plastic);
+        let k = |w: f64| w + 0.5 * w * w;
+        let beyond = |q: f64| plastic * k(lambert(q * libm::exp(-offset) / plastic));
+        let integral = |q: f64| {
+            let elastic = modulus * k(lambert(q.min(at_yield) / modulus));
+            if q > at_yield { elastic + beyond(q) - beyond(at_yield) } else { elastic }
+        };
+        (integral(weight * self.height) - integral(weight * (self.height - y))) / weight
+    }
+
+    /// RMS of the displacement error (m) after the last load step, and mean error of the stress, as
+    /// a share of the weight of the column.
+    fn errors(self, basis: BasisName) -> [f64; 2] {
+        let mut solver = self.build::<1>(basis);
+        self.run(&mut solver);
+        let (Particles { x, x0, sigma, .. }, total) = (solver.particles(), self.cells as f64 * 2.0);
+        let (mut square, mut stress) = (0.0, 0.0);
+        for ((x, x0), sigma) in x.iter().zip(x0).zip(sigma) {
+            let error = x[0] - self.exact_height(x0[0]);
+            square += error * error / total;
+            // The Cauchy stress is the weight above, for any law.
+            let weight = self.density * self.gravity;
+            stress += (sigma[(0, 0)] / weight + self.height - x0[0]).abs() / self.height / total;
+        }
+        [square.sqrt(), stress]
+    }
+}
+
+/// Lambert's function: `w exp(w) = x`.
+fn lambert(x: f64) -> f64 {
+    (0..50).fold(x, |w, _| w - (w - x * libm::exp(-w)) / (1.0 + w))
+}
+
+/// `ln(R_(j+1)/R_j) / ln(R_j/R_(j-1))` for the last three residuals above 1e-10; `None` if there
+/// are fewer, or the residual rises on the way.
+fn newton_exponent(residuals: &[f64]) -> Option<f64> {
+    let above: Vec<f64> = residuals.iter().copied().filter(|residual| *residual > 1e-10).collect();
+    let falls = above.windows(2).all(|pair| pair[1] < pair[0]);
+    let [.., a, b, c] = above[..] else { return None };
+    falls.then(|| libm::log(c / b) / libm::log(b / a))
+}
+
+#[rstest]
+#[case::one_step(ColumnCase::hencky(10, 1), true)]
+#[case::one_step_fine(ColumnCase::hencky(80, 1), true)]
+#[case::twenty_steps(ColumnCase::hencky(80, 20), true)]
+#[case::yielding(ColumnCase::drucker_prager(80, 20), false)]
+#[case::yielding_in_one_step(ColumnCase::drucker_prager(80, 1), false)]
+fn newton_converges_quadratically(#[case] case: ColumnCase, #[case] is_smooth: bool) {
+    let mut solver = case.build::<1>(BasisName::ContiguousGimp);
+    let all = case.run(&mut solver);
+    for residuals in &all {
+        assert!(residuals.len() <= 7, "at most six corrections: {residuals:?}");
+        assert!(*residuals.last().unwrap() < 1e-10, "{residuals:?}");
+        if let Some(exponent) = newton_exponent(residuals) {
+            assert!(exponent >= 1.8, "{exponent}: {residuals:?}");
+        } else {
+            assert!(!is_smooth || residuals.len() < 4, "{residuals:?}");
+        }
+    }
+    assert_relative_eq!(all[0][0], 1.0, max_relative = 1e-12);
+    let last = all.len() as f64;
+    assert_relative_eq!(all.last().unwrap()[0], 1.0 / last, max_relative = 0.05);
+}
+
+#[rstest]
+fn error_does_not_grow_with_the_number_of_load_steps(#[values(20, 40)] cells: usize) {
+    let error = |steps| ColumnCase::hencky(cells, steps).errors(BasisName::ContiguousGimp)[0];
+    let errors = [20, 40, 80].map(error);
+    assert!(errors[1] <= 1.05 * errors[0] && errors[2] <= 1.05 * errors[0], "{errors:?}");
+}
+
+/// Orders between neighbouring levels of 10, 20, 40 and 80 cells, which an independent program has
+/// given: of the displacement within 0.15 and of the stress within 0.3. In one step a cell carries
+/// its mean stress at two quarter points: order 2, and 1 in the stress.
+#[rstest]
+#[case::hencky_at_once(
+    ColumnCase::hencky,
+    1,
+    &[BasisName::Linear, BasisName::ContiguousGimp],
+    [2.00, 2.00, 2.00],
+    [1.00, 1.00, 1.00]
+)]
+#[case::hencky(
+    ColumnCase::hencky,
+    20,
+    &[BasisName::ContiguousGimp],
+    [2.11, 2.46, 2.38],
+    [1.55, 1.89, 1.73]
+)]
+#[case::drucker_prager_at_once(
+    ColumnCase::drucker_prager,
+    1,
+    &[BasisName::Linear, BasisName::ContiguousGimp],
+    [1.99, 1.98, 1.91],
+    [1.00, 1.00, 1.00]
+)]
+#[case::drucker_prager(
+    ColumnCase::drucker_prager,
+    20,
+    &[BasisName::ContiguousGimp],
+    [2.35, 2.52, 2.10],
+    [1.09, 1.21, 1.54]
+)]
+fn orders_between_levels_are_those_of_theory(
+    #[case] case: fn(usize, u64) -> ColumnCase,
+    #[case] load_steps: u64,
+    #[case] bases: &[BasisName],
+    #[case] displacement: [f64; 3],
+    #[case] stress: [f64; 3],
+) {
+    for basis in bases {
+        let errors = [10, 20, 40, 80].map(|cells| case(cells, load_steps).errors(*basis));
+        for k in 0..3 {
+            let order = |of: usize| libm::log2(errors[k][of] / errors[k + 1][of]);
+            assert!((order(0) - displacement[k]).abs() <= 0.15, "{k}: {errors:?}");
+            assert!((order(1) - stress[k]).abs() <= 0.3, "{k}: {errors:?}");
+        }
+    }
+}
+
+/// Particles that have left the quarter points of fixed cells integrate linear functions wrongly.
+#[rstest]
+#[case::hencky(ColumnCase::hencky)]
+#[case::drucker_prager(ColumnCase::drucker_prager)]
+fn error_of_linear_functions_grows_in_many_load_steps(#[case] case: fn(usize, u64) -> ColumnCase) {
+    let errors = [10, 20, 40, 80].map(|cells| case(cells, 20).errors(BasisName::Linear));
+    assert!(errors.windows(2).all(|pair| pair[1][0] > pair[0][0]), "{errors:?}");
+}
+
+/// A column between rollers has one and the same equilibrium in one, two and three dimensions.
+#[rstest]
+fn column_is_the_same_in_any_dimension(#[values(1, 2)] load_steps: u64) {
+    let case = ColumnCase::drucker_prager(4, load_steps);
+    let height = |x: Vec<f64>| x.into_iter().fold(0.0, f64::max);
+    fn heights<const D: usize>(case: ColumnCase, basis: BasisName) -> Vec<f64> {
+        let mut solver = case.build::<D>(basis);
+        case.run(&mut solver);
+        solver.particles().x.iter().map(|x| x[0]).collect()
+    }
+    for basis in [BasisName::Linear, BasisName::ContiguousGimp, BasisName::Cpdi] {
+        let expected = height(heights::<1>(case, basis));
+        assert!((9.0..9.99).contains(&expected));
+        assert_relative_eq!(height(heights::<2>(case, basis)), expected, max_relative = 1e-10);
+        assert_relative_eq!(height(heights::<3>(case, basis)), expected, max_relative = 1e-10);
+    }
+}
+
+/// The bottom carries the weight.
+#[test]
+fn reaction_is_the_weight() {
+    let case = ColumnCase::drucker_prager(6, 2);
+    let mut solver = case.build::<2>(BasisName::ContiguousGimp);
+    assert!(Subject::reaction(&solver, None).is_none());
+    case.run(&mut solver);
+    let weight: f64 = solver.particles().mass.iter().map(|mass| mass * case.gravity).sum();
+    let reaction = Subject::reaction(&solver, Some((0, false))).unwrap();
+    assert_relative_eq!(reaction.force[0], weight, max_relative = 1e-9);
+}
+
+/// A full correction of Newton's method would turn the column inside out: its strain at the bottom
+/// is the weight over the modulus, and that of the solution is its logarithm.
+#[test]
+fn corrections_that_invert_particles_are_shortened() {
+    let case = ColumnCase { gravity: 750.0, ..ColumnCase::hencky(20, 1) };
+    let [displacement, stress] = case.errors(BasisName::Linear);
+    assert!(displacement < 0.05 && stress < 0.03, "{displacement}, {stress}");
+}
+
+/// Soil that hangs from its wall: the weight exceeds the tensile strength of the cone.
+#[test]
+fn load_without_equilibrium_is_reported_with_residual_and_node() {
+    let case = ColumnCase { gravity: -15.0, ..ColumnCase::drucker_prager(10, 10) };
+    let mut solver = case.build::<1>(BasisName::ContiguousGimp);
+    solver.step(1.0).expect("the first load step is in balance");
+    let failure = (0..10).find_map(|_| solver.step(1.0).err()).expect("no equilibrium");
+    let Failure::NotConverged { residual, node } = failure else { panic!("{failure}") };
+    assert!(residual > 1e-3 && (1..=11).contains(&node), "{residual}, {node}");
+}
+
+#[test]
+fn body_without_load_or_tangent_is_refused() {
+    let case = ColumnCase { gravity: 0.0, ..ColumnCase::hencky(3, 1) };
+    let failure = case.build::<1>(BasisName::Linear).step(1.0).unwrap_err();
+    assert_eq!(failure.to_string(), "no load acts on a node that is free to move");
+    let mut setup = ColumnCase::hencky(3, 1).setup::<1>(BasisName::Linear);
+    setup.material = MaterialPlan::LinearElastic { young: 1e6, poisson: 0.0 }.build();
+    let failure = QuasiStatic::new(setup).err().expect("no tangent");
+    assert_eq!(failure.to_string(), "the law has no consistent tangent");
+}
+
+#[test]
+fn resumed_run_has_equal_bits() {
+    let case = ColumnCase::drucker_prager(8, 9);
+    assert!(goes_on(|| case.build::<1>(BasisName::ContiguousGimp), 1.0, "load steps"));
+}
+
+/// The whole tangent in two dimensions, next to a rough wall. The soil yields under its own weight,
+/// so that quadratic convergence begins when no particle changes between elastic and plastic any
+/// more: it shows in three residuals in a row, above rounding.
+#[rstest]
+fn newton_converges_quadratically_in_two_dimensions(
+    #[values(BasisName::Linear, BasisName::ContiguousGimp, BasisName::QuadraticBSpline)]
+    basis: BasisName,
+    #[values(ColumnCase::hencky(6, 1), ColumnCase::drucker_prager(6, 1))] case: ColumnCase,
+) {
+    let mut setup = case.setup::<2>(basis);
+    setup.boundary.push(Box::new(Fixed::face(&setup.grid, 1, Side::Low)));
+    let mut solver = QuasiStatic::new(setup).unwrap();
+    solver.step(1.0).unwrap();
+    let residuals = solver.residuals();
+    let exponent = |three: &[f64]| {
+        let [a, b, c] = *three else { return 0.0 };
+        let is_falling = a > b && b > c && c > 1e-12;
+        if is_falling { libm::log(c / b) / libm::log(b / a) } else { 0.0 }
+    };
+    let largest = residuals.windows(3).map(exponent).fold(0.0, f64::max);
+    assert!(residuals.len() <= 15 && largest >= 1.8, "{largest}: {residuals:?}");
+}
