@@ -4,7 +4,7 @@ use super::prose::row;
 use super::table::Table;
 use super::table::shared;
 use crate::report::columns::level::{LevelColumn, LevelRow, NamedStudy};
-use crate::report::columns::{TableColumn, decimals, level, scientific, short};
+use crate::report::columns::{TableColumn, decimals, level, short};
 use crate::report::grouping::{distinct, grouped};
 use crate::verify::{
     Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, format_number,
@@ -206,6 +206,13 @@ fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     lines.extend(Table::new(&limit_columns(), &rows).without_empty_columns().lines());
 }
 
+/// The limit to two digits of the half-width of its interval.
+fn limit_shown(estimate: &LimitEstimate) -> String {
+    let (value, half_width) = (estimate.limit.value, estimate.limit.half_width());
+    let digits = libm::floor(libm::log10(value.abs())) - libm::floor(libm::log10(half_width));
+    format!("{value:.*e}", (digits + 1.0).clamp(1.0, 15.0) as usize)
+}
+
 /// The limit of a case, or the reason why it has none.
 struct ObservedLimit {
     case: String,
@@ -231,7 +238,7 @@ fn limit_columns() -> [TableColumn<'static, ObservedLimit>; 8] {
             row.estimate().map(|estimate| decimals(2)(estimate.order.half_width()))
         }),
         Column::text("limit of u", "extrapolated value (m)", |row| {
-            row.estimate().map(|estimate| scientific(estimate.limit.value))
+            row.estimate().map(|estimate| limit_shown(&estimate))
         }),
         Column::text("+- (95 %)", "half-width of the interval of the limit (m)", |row| {
             row.estimate().map(|estimate| short(estimate.limit.half_width()))

@@ -9,8 +9,8 @@ use std::process::Stdio;
 const SERIES: &str = "h,u\n1,3.000000\n0.5,1.750000\n0.25,1.312500\n0.125,1.140625\n";
 
 const TEXT: &str = "  series   4 levels
-  order    1.35 [0.85, 1.84]
-  limit    1.029 +- 1.4e-1, 95 %: [0.889, 1.170]
+  order    1.35 [0.85, 1.85]
+  limit    1.03 +- 1.4e-1, 95 %: [0.89, 1.17]
   finest   1.140625, 1.1e-1 from the limit
 ";
 
@@ -49,7 +49,7 @@ fn json_has_the_intervals() {
 
 #[test]
 fn a_series_without_a_limit_is_refused_with_the_reason() {
-    let folder = Folder::with("series", "4 1.0\n2 2.0\n1 1.5\n0.5 1.8\n");
+    let folder = Folder::with("series", "4 1.000\n2 2.000\n1 1.500\n0.5 1.800\n");
     let answer = folder.call(&["estimate", "series"]);
     assert_eq!(answer.code, FAILED);
     assert!(answer.out.contains("refused  oscillation: "), "{}", answer.out);

@@ -1,7 +1,7 @@
 //! Coverage of the estimated limit over the built-in suites with an exact solution.
 //!
 //! ```console
-//! cargo test --test it limits_cover -- --ignored --nocapture    # about ten minutes
+//! cargo test --test it limits_cover -- --ignored --nocapture    # a few minutes
 //! ```
 //!
 //! Each case runs on its usual levels. Functionals of the final state are displacement, velocity and
@@ -193,7 +193,7 @@ impl Tally {
 }
 
 #[test]
-#[ignore = "runs all suites: about ten minutes"]
+#[ignore = "runs all suites: a few minutes"]
 fn limits_cover_the_exact_value_in_93_per_cent_of_the_suites_for_test() {
     let all = Mutex::new(Vec::new());
     let names: Vec<&str> = embedded::names().collect();
