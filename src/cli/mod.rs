@@ -1,5 +1,5 @@
 //! `mpm-verify`: write, run, list, check and explain suites, propose expectations, compare runs,
-//! and measure the cost of accuracy.
+//! measure the cost of accuracy, and estimate the limit of a series.
 
 mod arguments;
 mod check;
@@ -7,6 +7,7 @@ mod compare;
 mod cost;
 mod diagnose;
 mod doctor;
+mod estimate;
 mod explain;
 mod generate;
 mod list;
@@ -82,6 +83,9 @@ enum Command {
     /// Measure the cost of accuracy: error against work and seconds, the cheapest method for an
     /// error, and the most accurate setting within a budget
     Cost(cost::CostArgs),
+    /// Estimate order and limit of a series of values without an exact solution, with intervals;
+    /// exit status 1 if the series shows no limit, 2 on bad input
+    Estimate(estimate::EstimateArgs),
     /// Compare two runs or two sets of snapshots, and list the changes, the most important first;
     /// exit status 1 if something got worse (a verdict, an error, a limit of stability, the work),
     /// 2 on bad input
@@ -141,6 +145,7 @@ fn run_command(command: Command) -> Result<Status, CommandError> {
         Command::Steps(args) => Ok(list::steps(&args)),
         Command::Problem(args) => problem::problem(&args),
         Command::Cost(args) => cost::cost(&args),
+        Command::Estimate(args) => estimate::estimate(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::Completions(args) => Ok(generate::completions(&args, Cli::command())),
         Command::Man(args) => generate::man(&args, Cli::command()),

@@ -145,6 +145,7 @@ mod tests {
             history: Some(History { label: vec![x], velocity: vec![[x, -0.0, 1e-320]] }),
             displacement: Some(vec![x, 0.1 + 0.2]),
             observed_error: None,
+            observed_exact: Some(vec![-x, 0.3]),
             residual_speed: Some(x),
         }
     }

@@ -10,8 +10,7 @@ use super::expectation::{CaseFindings, Expectation};
 use super::figure::{CaseFigure, counted};
 use super::judge_plan::JudgePlan;
 use super::order::fit::Interval;
-use super::order::level::Axis;
-use super::order::richardson::Richardson;
+use super::order::limit_estimate::{EstimateRefusal, LimitEstimate, SeriesPoint, estimate_limit};
 use super::rerun;
 use super::rerun::Reruns;
 use super::verdict::floor::Floor;
@@ -129,7 +128,7 @@ impl JudgePlan<'_> {
             rated: limits.is_some_and(|limits| limits.energy_rate.is_some()),
             judgement,
             floor,
-            richardson: extrapolate(self.axis, &levels),
+            observed_limit: observed_limit(&levels),
             levels,
             observed_at: self.observed_at.map(<[f64]>::to_vec),
         }
@@ -177,25 +176,16 @@ fn headline(
     (within.to_owned(), figures + &judged)
 }
 
-/// Richardson extrapolation for each triple of levels with n, 2n and 4n cells, steps or (in 1-D, as
-/// only there a place is observed) particles.
-fn extrapolate(axis: Axis, levels: &[LevelOutcome]) -> Vec<([usize; 3], Richardson)> {
-    let fineness = |level: &LevelOutcome| match axis {
-        Axis::Space => level.cells,
-        Axis::Time => level.run.steps,
-        Axis::Particles => level.ppc.unwrap_or(0),
-    };
-    let with = |wanted: u64| levels.iter().position(|level| fineness(level) == wanted);
-    let triple = |k: usize| {
-        let n = fineness(&levels[k]);
-        let triple = [k, with(2 * n)?, with(4 * n)?];
+/// The limit of the displacement at the observed place in 1-D; `None` if fewer than two levels have
+/// one.
+fn observed_limit(levels: &[LevelOutcome]) -> Option<Result<LimitEstimate, EstimateRefusal>> {
+    let point = |level: &LevelOutcome| match level.run.displacement.as_deref() {
         // One component out of several does not represent the displacement.
-        let value =
-            |k: usize| levels[k].run.displacement.as_deref().filter(|u| u.len() == 1).map(|u| u[0]);
-        let values = [value(triple[0])?, value(triple[1])?, value(triple[2])?];
-        Some((triple, Richardson::equal_ratio(values, 2.0)))
+        Some([u]) => Some(SeriesPoint { h: level.spacing, value: *u, resolution: 0.0 }),
+        _ => None,
     };
-    (0..levels.len()).filter_map(triple).collect()
+    let series: Vec<SeriesPoint> = levels.iter().filter_map(point).collect();
+    (series.len() > 1).then(|| estimate_limit(&series))
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use super::error::run::RunResult;
 use super::expectation::gate::Acceptance;
 use super::order::format_number::format_number;
 use super::order::level::{Axis, Level};
-use super::order::richardson::Richardson;
+use super::order::limit_estimate::{EstimateRefusal, LimitEstimate};
 use super::study_results::StudyResults;
 use super::verdict::floor::Floor;
 use super::verdict::judge::Judgement;
@@ -51,9 +51,9 @@ pub struct Convergence {
     pub floor: Option<Floor>,
     /// The levels, coarse to fine.
     pub levels: Vec<LevelOutcome>,
-    /// Richardson's extrapolation at the observed place, for each triple of levels with spacings
-    /// 4, 2 and 1.
-    pub richardson: Vec<([usize; 3], Richardson)>,
+    /// The limit of the displacement (m) at the observed place in 1-D, or the reason why the levels
+    /// show none; `None` if no place is observed.
+    pub observed_limit: Option<Result<LimitEstimate, EstimateRefusal>>,
     /// Reference position that was observed (m).
     pub observed_at: Option<Vec<f64>>,
 }
@@ -127,14 +127,19 @@ impl LevelOutcome {
 }
 
 impl Convergence {
-    /// True relative error at the observed point of the finest level of a Richardson triple, and
-    /// whether its grid convergence index covers this error; `None` without an index or an exact
-    /// solution.
-    pub fn covered(&self, (levels, found): &([usize; 3], Richardson)) -> Option<(f64, bool)> {
-        let run = &self.levels.get(levels[2])?.run;
-        let [u] = run.displacement.as_deref()? else { return None };
-        let error = run.observed_error? / u.abs();
-        found.gci.map(|gci| (error, error <= gci))
+    /// The displacement (m) at the observed place in 1-D that levels are compared with at the end of
+    /// the run; `None` without a place or an exact solution.
+    pub fn observed_exact(&self) -> Option<f64> {
+        let exact = self.levels.last()?.run.observed_exact.as_deref()?;
+        let [u] = exact else { return None };
+        u.is_finite().then_some(*u)
+    }
+
+    /// Whether the interval of the observed limit contains the exact displacement; `None` without
+    /// an estimate or an exact solution.
+    pub fn limit_is_covered(&self) -> Option<bool> {
+        let estimate = self.observed_limit?.ok()?;
+        self.observed_exact().map(|exact| estimate.covers(exact))
     }
 
     /// Verdict of the judge.
@@ -178,6 +183,7 @@ pub(in crate::verify) mod tests {
     use crate::subject::RunCounters;
     use crate::verify::error::norm::RunErrors;
     use crate::verify::order::hypothesis::OrderHypothesis;
+    use crate::verify::order::limit_estimate::{SeriesPoint, estimate_limit};
     use crate::verify::verdict::judge::judge;
     use rstest::rstest;
 
@@ -217,7 +223,7 @@ pub(in crate::verify) mod tests {
             judgement: judge(&levels, &OrderHypothesis::formal(2.0)),
             floor: None,
             levels: errors.iter().enumerate().map(level).collect(),
-            richardson: Vec::new(),
+            observed_limit: None,
             observed_at: None,
         }
     }
@@ -236,6 +242,7 @@ pub(in crate::verify) mod tests {
             field: None,
             displacement: None,
             observed_error: None,
+            observed_exact: None,
             residual_speed: None,
         }
     }
@@ -268,17 +275,24 @@ pub(in crate::verify) mod tests {
         assert_eq!(level.is_too_long(), is_too_long);
     }
 
-    /// At order 2 the limit is 0.04 from the finest value 2, whose index is 2.5 %.
+    /// At order 2 the limit is 2.04, and the interval reaches the finest value 2.
     #[rstest]
-    #[case(0.04, true)]
-    #[case(0.06, false)]
-    fn an_index_covers_the_error_of_the_finest_level(#[case] error: f64, #[case] covers: bool) {
-        let mut study = study(&[1.0, 0.25, 0.0625]);
-        for (level, found) in study.levels.iter_mut().zip([10.0 * error, 5.0 * error, error]) {
-            level.run.displacement = Some(vec![2.0]);
-            level.run.observed_error = Some(found);
-        }
-        let values = Richardson::equal_ratio([1.40, 1.88, 2.0], 2.0);
-        assert_eq!(study.covered(&([0, 1, 2], values)), Some((error / 2.0, covers)));
+    #[case(2.0, true)]
+    #[case(2.079, true)]
+    #[case(1.999, false)]
+    #[case(2.081, false)]
+    fn an_observed_limit_covers_the_exact_displacement(#[case] exact: f64, #[case] covers: bool) {
+        let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);
+        let series: Vec<SeriesPoint> = [-0.52, 1.4, 1.88, 2.0]
+            .into_iter()
+            .zip(&study.levels)
+            .map(|(value, level)| SeriesPoint { h: level.spacing, value, resolution: 0.0 })
+            .collect();
+        study.observed_limit = Some(estimate_limit(&series));
+        assert_eq!(study.limit_is_covered(), None);
+        study.levels[3].run.observed_exact = Some(vec![exact]);
+        assert_eq!(study.limit_is_covered(), Some(covers));
+        study.observed_limit = Some(estimate_limit(&series[1..]));
+        assert_eq!(study.limit_is_covered(), None);
     }
 }

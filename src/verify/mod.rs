@@ -13,6 +13,7 @@
 //! | [`judge_plan`](JudgePlan), [`rerun`](Reruns) | its inputs, and levels that run again |
 //! | [`floor`](Floor) | the cause of an error floor |
 //! | [`richardson`](Richardson) | order and limit from three values |
+//! | [`limit_estimate`](LimitEstimate) | order and limit of a series, with intervals |
 //! | [`cost`](Ranking) | cost of accuracy, in transfers or seconds |
 //! | [`stability`](StabilityStudy) | growth in runs, amplification matrix, limits by bisection |
 //! | [`gradient`](GradientStudy) | derivatives that a solver reports |
@@ -77,7 +78,10 @@ pub use order::fit::Interval;
 pub(crate) use order::format_number::{format_number, rounded};
 pub use order::hypothesis::OrderHypothesis;
 pub use order::level::{Axis, Level, observed_order};
-pub use order::richardson::{Richardson, RichardsonClass, SAFETY_FACTOR};
+pub use order::limit_estimate::{
+    EstimateRefusal, LEVELS_OF_ESTIMATE, LimitEstimate, SeriesPoint, estimate_limit,
+};
+pub use order::richardson::{Richardson, RichardsonClass};
 pub use order::t_quantile::two_sided_95;
 pub(crate) use order::window::FEWEST_LEVELS;
 pub use outcome::{CaseOutcome, Exemption, SuiteOutcome};

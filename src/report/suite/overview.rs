@@ -79,20 +79,19 @@ pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The share of grid convergence indices that cover the true error; the nominal coverage is 95 of
-/// 100.
+/// The share of 95 % intervals of limits that contain the exact value, and of refused series.
 fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
-    let studies = cases.iter().filter_map(|case| case.convergence());
-    let covered = |study: &Convergence| -> Vec<bool> {
-        study.richardson.iter().filter_map(|triple| Some(study.covered(triple)?.1)).collect()
-    };
-    let all: Vec<bool> = studies.flat_map(covered).collect();
-    let hits = all.iter().filter(|covered| **covered).count();
-    (!all.is_empty()).then(|| {
+    let studies: Vec<&Convergence> = cases.iter().filter_map(|case| case.convergence()).collect();
+    let results = studies.iter().filter_map(|study| study.observed_limit);
+    let refused = results.clone().filter(Result::is_err).count();
+    let all = results.count();
+    let covered: Vec<bool> = studies.iter().filter_map(|study| study.limit_is_covered()).collect();
+    let hits = covered.iter().filter(|covered| **covered).count();
+    (all > 0).then(|| {
         format!(
-            "grid convergence index at the observed place: nominal coverage of the true error 95 %, \
-             here {hits} of {} triples of levels",
-            all.len()
+            "extrapolated displacement at the observed place: the 95 % interval contains the exact \
+             value in {hits} of {} cases; {refused} of {all} cases have no estimate",
+            covered.len()
         )
     })
 }

@@ -4,11 +4,13 @@ use super::prose::row;
 use super::table::Table;
 use super::table::shared;
 use crate::report::columns::level::{LevelColumn, LevelRow, NamedStudy};
-use crate::report::columns::{TableColumn, decimals, level, scientific, short};
+use crate::report::columns::{TableColumn, decimals, level, short};
 use crate::report::grouping::{distinct, grouped};
-use crate::verify::{Axis, Convergence, LevelOutcome, Richardson, format_number};
+use crate::verify::{
+    Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, format_number,
+};
 
-/// Errors with their orders, figures of the finest levels, drifts, rates and extrapolations.
+/// Errors with their orders, figures of the finest levels, drifts, rates and limits.
 pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     settings(lines, studies);
     for alike in by_levels(studies) {
@@ -19,7 +21,7 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     finest(lines, studies);
     drifts(lines, studies);
     rates(lines, studies);
-    richardson(lines, studies);
+    observed_limits(lines, studies);
 }
 
 /// The levels, once for all cases with the same levels.
@@ -186,65 +188,78 @@ fn rates(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_case(lines, heading, &rated, level::energy_rate());
 }
 
-/// Richardson's extrapolation at the observed place, triple by triple, with the true error next to
-/// its grid convergence index.
-fn richardson(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
-    let place = studies.iter().find_map(|(_, study)| study.place());
-    let triples = |(name, study): &NamedStudy<'_>| {
-        let names = level::names(study);
-        let triple = |triple: &([usize; 3], Richardson)| Triple {
+/// The limits of the displacement at the observed place, with the true errors if they are known.
+fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
+    let Some(place) = studies.iter().find_map(|(_, study)| study.place()) else { return };
+    let limit = |(name, study): &NamedStudy<'_>| {
+        Some(ObservedLimit {
             case: (*name).to_owned(),
-            levels: triple.0.map(|k| names[k].clone()).join(", "),
-            found: triple.1,
-            covered: study.covered(triple),
-        };
-        study.richardson.iter().map(triple).collect::<Vec<_>>()
+            result: study.observed_limit?,
+            exact: study.observed_exact(),
+            is_covered: study.limit_is_covered(),
+        })
     };
-    let mut rows: Vec<Triple> = studies.iter().flat_map(triples).collect();
-    let (Some(place), all @ 1..) = (place, rows.len()) else { return };
-    // Levels that do not converge monotonically have no estimate.
-    rows.retain(|row| row.found.extrapolated.is_some());
-    let converging = rows.len();
-    lines.push(String::new());
-    lines.push(format!(
-        "  Richardson's extrapolation of u at X = {place} m: {converging} of {all} triples of levels \
-         converge monotonically"
-    ));
+    let rows: Vec<ObservedLimit> = studies.iter().filter_map(limit).collect();
     if rows.is_empty() {
         return;
     }
-    lines.extend(Table::new(&extrapolations(), &rows).without_empty_columns().lines());
+    let answered = rows.iter().filter(|row| row.result.is_ok()).count();
+    lines.push(String::new());
+    lines.push(format!(
+        "  limit of u at X = {place} m, extrapolated from the four finest levels: {answered} of {} \
+         cases have one",
+        rows.len()
+    ));
+    lines.extend(Table::new(&limit_columns(), &rows).without_empty_columns().lines());
 }
 
-/// Three levels of a case.
-struct Triple {
+/// The limit to two digits of the half-width of its interval.
+fn limit_shown(estimate: &LimitEstimate) -> String {
+    let (value, half_width) = (estimate.limit.value, estimate.limit.half_width());
+    let digits = libm::floor(libm::log10(value.abs())) - libm::floor(libm::log10(half_width));
+    format!("{value:.*e}", (digits + 1.0).clamp(1.0, 15.0) as usize)
+}
+
+/// The limit of a case, or the reason why it has none.
+struct ObservedLimit {
     case: String,
-    levels: String,
-    found: Richardson,
-    covered: Option<(f64, bool)>,
+    result: Result<LimitEstimate, EstimateRefusal>,
+    exact: Option<f64>,
+    is_covered: Option<bool>,
 }
 
-fn extrapolations() -> [TableColumn<'static, Triple>; 8] {
+impl ObservedLimit {
+    fn estimate(&self) -> Option<LimitEstimate> {
+        self.result.ok()
+    }
+}
+
+fn limit_columns() -> [TableColumn<'static, ObservedLimit>; 8] {
+    type Column = TableColumn<'static, ObservedLimit>;
     [
-        TableColumn::<Triple>::text("case", "case", |row| row.case.clone()).flush_left(),
-        TableColumn::<Triple>::text("levels", "levels", |row| row.levels.clone()),
-        TableColumn::<Triple>::text("ratio", "ratio of changes", |row| {
-            decimals(2)(row.found.ratio)
+        Column::text("case", "case", |row| row.case.clone()).flush_left(),
+        Column::text("order", "order of the finest three values", |row| {
+            row.estimate().map(|estimate| decimals(2)(estimate.order.value))
         }),
-        TableColumn::<Triple>::text("order", "order of the triple", |row| {
-            row.found.order.map(decimals(2))
+        Column::text("+-", "half-width of the interval of the order", |row| {
+            row.estimate().map(|estimate| decimals(2)(estimate.order.half_width()))
         }),
-        TableColumn::<Triple>::text("extrapolated u", "limit (m)", |row| {
-            row.found.extrapolated.map(scientific)
+        Column::text("limit of u", "extrapolated value (m)", |row| {
+            row.estimate().map(|estimate| limit_shown(&estimate))
         }),
-        TableColumn::<Triple>::text("gci", "grid convergence index", |row| {
-            row.found.gci.map(short)
+        Column::text("+- (95 %)", "half-width of the interval of the limit (m)", |row| {
+            row.estimate().map(|estimate| short(estimate.limit.half_width()))
         }),
-        TableColumn::<Triple>::text("true error", "relative error at the place", |row| {
-            row.covered.map(|(error, _)| short(error))
+        Column::text("true error", "distance of the limit from the exact value (m)", |row| {
+            let exact = row.exact?;
+            row.estimate().map(|estimate| short((estimate.limit.value - exact).abs()))
         }),
-        TableColumn::<Triple>::text("covered", "whether the index covers it", |row| {
-            row.covered.map(|(_, covered)| if covered { "yes" } else { "no" })
+        Column::text("covered", "whether the interval contains the exact value", |row| {
+            row.is_covered.map(|covered| if covered { "yes" } else { "no" })
         }),
+        Column::text("refused", "why there is no limit", |row| {
+            row.result.err().map(|refusal| refusal.name())
+        })
+        .flush_left(),
     ]
 }

@@ -54,7 +54,7 @@ pub(crate) struct ConvergenceSpec {
     /// The judged error.
     #[serde(default)]
     pub(crate) judge: JudgeSpec,
-    /// Point for Richardson's extrapolation and the velocity history.
+    /// Point for the limit of the displacement and the velocity history.
     pub(crate) observe: Option<ObserveSpec>,
     /// Expectations, exactly one for each case; without expectations the suite explores, and is not
     /// a gate.

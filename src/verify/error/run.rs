@@ -171,10 +171,14 @@ impl<'a> RunMonitor<'a> {
         }
         let place = self.comparison.observe;
         let displacement = place.and_then(|place| displacement_at(&self.samples, place));
-        let distance = |(place, u): (&[f64], &Vec<f64>)| {
+        let exact_at = |(place, u): (&[f64], &Vec<f64>)| {
             let mut exact = vec![0.0; u.len()];
             self.truth.displacement(place, clock.until, &mut exact);
-            u.iter().zip(&exact).fold(0.0, |all, (u, e)| libm::hypot(all, u - e))
+            exact
+        };
+        let observed_exact = place.zip(displacement.as_ref()).map(exact_at);
+        let distance = |(u, exact): (&Vec<f64>, &Vec<f64>)| {
+            u.iter().zip(exact).fold(0.0, |all, (u, e)| libm::hypot(all, u - e))
         };
         let field = self.field(clock.until);
         RunResult {
@@ -186,7 +190,8 @@ impl<'a> RunMonitor<'a> {
             counters: subject.counters(),
             steps: clock.steps,
             failure: None,
-            observed_error: place.zip(displacement.as_ref()).map(distance),
+            observed_error: displacement.as_ref().zip(observed_exact.as_ref()).map(distance),
+            observed_exact,
             displacement,
             residual_speed: self.residual_speed,
             field,
@@ -222,6 +227,7 @@ impl<'a> RunMonitor<'a> {
             history: None,
             displacement: None,
             observed_error: None,
+            observed_exact: None,
             residual_speed: self.residual_speed.map(|_| f64::NAN),
         }
     }
@@ -260,6 +266,8 @@ pub struct RunResult {
     pub displacement: Option<Vec<f64>>,
     /// Its distance (m) from the exact one.
     pub observed_error: Option<f64>,
+    /// The exact displacement at the observed place at the end (m).
+    pub observed_exact: Option<Vec<f64>>,
     /// Largest speed towards the end, over
     /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest), if that is set.
     pub residual_speed: Option<f64>,

@@ -1,9 +1,11 @@
-//! The observed order: pairwise, by regression, and by Richardson extrapolation.
+//! The observed order: pairwise, by regression, and by Richardson extrapolation; the limit of a
+//! series without an exact solution.
 
 pub(crate) mod fit;
 pub(crate) mod format_number;
 pub(crate) mod hypothesis;
 pub(crate) mod level;
+pub(crate) mod limit_estimate;
 pub(crate) mod richardson;
 pub(crate) mod t_quantile;
 pub(crate) mod variance_ratio;

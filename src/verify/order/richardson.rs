@@ -1,25 +1,23 @@
-//! Richardson extrapolation from three values, and the grid-convergence index.
+//! Richardson extrapolation from three values.
 //!
 //! If `u(h) = u0 + C h^p`, then for spacings `h3 > h2 > h1` with `h3 = r32 h2`, `h2 = r21 h1`
 //!
 //! ```text
 //! ratio = (u2 - u3) / (u1 - u2) = (r32^p - 1) / (1 - r21^-p)        = 2^p for halvings
 //! u0    = u1 + (u1 - u2) / (r21^p - 1)
-//! GCI   = 1.25 |(u1 - u2) / u1| / (r21^p - 1)
 //! ```
 //!
 //! (Roache 1994, 1998; unequal ratios as in Celik et al. 2008.) The classes are those of Eca &
 //! Hoekstra (2014). The order is the solution `p` only if the values converge monotonically: the
 //! logarithm of an absolute value would assign an order to oscillation and divergence.
 //!
-//! The well-known "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is not offered: with the order
-//! fitted to the same three values it is identically `u1 / u2`, close to 1 for any values, and
-//! proves nothing. Compare the order with the formal one, or add a level.
+//! Three values always fit, so they have no interval: `limit_estimate` compares two triples. The
+//! grid convergence index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` (Roache 1994) is not offered: over
+//! the suites with exact solutions it contains the true error of 73 of 100 series. Nor is the
+//! "asymptotic range ratio" `GCI_32 / (r^p GCI_21)`: with the order fitted to the same three values
+//! it is identically `u1 / u2`, close to 1 for any values.
 
 use std::fmt;
-
-/// Safety factor of the grid-convergence index for three grids (Roache 1998).
-pub const SAFETY_FACTOR: f64 = 1.25;
 
 /// Behaviour of three values under refinement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -65,9 +63,6 @@ pub struct Richardson {
     pub order: Option<f64>,
     /// The extrapolated value, only if monotone convergent.
     pub extrapolated: Option<f64>,
-    /// The relative grid-convergence index of the finest value, only if monotone convergent and
-    /// that value is not zero.
-    pub gci: Option<f64>,
 }
 
 impl Richardson {
@@ -85,14 +80,7 @@ impl Richardson {
         let class = classify([medium - coarse, change], ratio, rates);
         let order = (class == RichardsonClass::MonotoneConvergent).then(|| solve(ratio, rates));
         let correction = order.map(|p| change / libm::expm1(p * rates[1]));
-        let relative = correction.filter(|_| fine != 0.0).map(|c| (c / fine).abs());
-        Self {
-            ratio,
-            class,
-            order,
-            extrapolated: correction.map(|c| fine + c),
-            gci: relative.map(|c| SAFETY_FACTOR * c),
-        }
+        Self { ratio, class, order, extrapolated: correction.map(|c| fine + c) }
     }
 }
 

@@ -4,6 +4,7 @@ mod arguments;
 mod check;
 mod compare;
 mod cost;
+mod estimate;
 mod explain;
 mod explore;
 mod exports;

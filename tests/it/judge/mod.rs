@@ -1,6 +1,7 @@
 //! The judge as a whole, against series whose verdict is known.
 
 mod coverage;
+mod limits;
 mod pitfalls;
 mod properties;
 mod richardson;

@@ -1,0 +1,282 @@
+//! `mpm-verify estimate`: order and limit of a series of values without an exact solution.
+
+use super::arguments::FormatArgs;
+use super::output;
+use super::status::{CommandError, Status};
+use clap::Args;
+use mpm_verify::suite::yaml::Diagnostic;
+use mpm_verify::verify::{
+    EstimateRefusal, Interval, LEVELS_OF_ESTIMATE, LimitEstimate, SeriesPoint, estimate_limit,
+};
+use serde_json::{Value, json};
+use std::io::{self, Read};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(super) struct EstimateArgs {
+    /// File with a spacing and a value on each line, separated by spaces, a tab, a comma or a
+    /// semicolon; a heading and comments (`#`) are allowed. Default, or `-`: standard input
+    #[arg(value_name = "FILE")]
+    file: Option<PathBuf>,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+/// Maximum size of a series (bytes).
+const LONGEST: u64 = 1 << 20;
+
+const FORMAT_HELP: &str = "each line has a spacing and a value, such as `0.125 1.0625`";
+
+/// Prints the estimate of a series, or the reason why it has none.
+pub(super) fn estimate(args: &EstimateArgs) -> Result<Status, CommandError> {
+    let (name, text) = read(args.file.as_deref())?;
+    let lines = parse(&name, &text)?;
+    let series: Vec<SeriesPoint> = lines.iter().map(|line| line.point).collect();
+    let result = estimate_limit(&series);
+    output::print(&if args.format.is_json() {
+        serde_json::to_string_pretty(&as_json(&series, &result)).unwrap_or_default() + "\n"
+    } else {
+        as_text(&series, &result)
+    });
+    Ok(if result.is_ok() { Status::Passed } else { Status::Failed })
+}
+
+/// Name and text of the input.
+fn read(file: Option<&Path>) -> Result<(String, String), Diagnostic> {
+    let file = file.filter(|file| file.as_os_str() != "-");
+    let name = file.map_or_else(|| "<stdin>".to_owned(), |file| file.display().to_string());
+    let failed = |error: &dyn std::fmt::Display| {
+        Diagnostic::about(&name, &format!("cannot be read: {error}"))
+    };
+    let mut reader: Box<dyn Read> = match file {
+        Some(file) => Box::new(std::fs::File::open(file).map_err(|error| failed(&error))?),
+        None => Box::new(io::stdin().lock()),
+    };
+    let mut bytes = Vec::new();
+    reader.by_ref().take(LONGEST + 1).read_to_end(&mut bytes).map_err(|error| failed(&error))?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(Diagnostic::about(&name, "a series has at most 1 MB").with_help(FORMAT_HELP));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| failed(&error))?;
+    Ok((name, text))
+}
+
+/// A level, and the place of its spacing in the text.
+struct SeriesLine {
+    point: SeriesPoint,
+    spacing: Range<usize>,
+}
+
+/// The levels in `text`, the contents of `file`.
+fn parse(file: &str, text: &str) -> Result<Vec<SeriesLine>, Diagnostic> {
+    let mut lines: Vec<SeriesLine> = Vec::new();
+    let mut is_first = true;
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let content = line.split('#').next().unwrap_or_default();
+        let fields = fields(content, start);
+        start += line.len();
+        if fields.is_empty() {
+            continue;
+        }
+        let is_heading = std::mem::take(&mut is_first)
+            && fields.iter().all(|field| text[field.clone()].parse::<f64>().is_err());
+        if is_heading {
+            continue;
+        }
+        let at = |range: &Range<usize>, message: &str| {
+            Diagnostic::at(file, text, range.clone(), message).with_help(FORMAT_HELP)
+        };
+        let [spacing, value] = fields.as_slice() else {
+            let whole = fields[0].start..fields[fields.len() - 1].end;
+            let message =
+                format!("expected two fields, a spacing and a value; found {}", fields.len());
+            return Err(at(fields.get(2).unwrap_or(&whole), &message));
+        };
+        let number = |range: &Range<usize>, what: &str| {
+            let known = text[range.clone()].parse().ok().filter(|x: &f64| x.is_finite());
+            known.ok_or_else(|| {
+                at(
+                    range,
+                    &format!(
+                        "expected a finite number as {what}, found `{}`",
+                        &text[range.clone()]
+                    ),
+                )
+            })
+        };
+        let h = number(spacing, "spacing")?;
+        if h <= 0.0 {
+            return Err(at(spacing, "expected a positive spacing"));
+        }
+        if let Some(other) = lines.iter().find(|other| other.point.h == h) {
+            let first = text[..other.spacing.start].matches('\n').count() + 1;
+            return Err(at(spacing, &format!("line {first} has the same spacing")));
+        }
+        let resolution = resolution(&text[value.clone()]);
+        let point = SeriesPoint { h, value: number(value, "value")?, resolution };
+        lines.push(SeriesLine { point, spacing: spacing.clone() });
+    }
+    if lines.is_empty() {
+        return Err(Diagnostic::about(file, "there is no level").with_help(FORMAT_HELP));
+    }
+    // A program may omit zeros at the end: the value with the most digits shows the precision.
+    let units = lines.iter().map(|line| line.point.resolution);
+    let unit = units.fold(f64::INFINITY, f64::min);
+    lines.iter_mut().for_each(|line| line.point.resolution = unit);
+    Ok(lines)
+}
+
+/// Ranges of the fields of a line, which begins at byte `start` of the text. A comma or semicolon
+/// with spaces around it is one separator; two in a row have an empty field between them.
+fn fields(line: &str, start: usize) -> Vec<Range<usize>> {
+    let is_mark = |c: char| matches!(c, ',' | ';');
+    let range = |part: &str| {
+        let offset = part.as_ptr() as usize - line.as_ptr() as usize;
+        start + offset..start + offset + part.len()
+    };
+    if line.trim().is_empty() {
+        return Vec::new();
+    }
+    if line.contains(is_mark) {
+        return line.split(is_mark).map(|part| range(part.trim())).collect();
+    }
+    line.split_whitespace().map(range).collect()
+}
+
+/// One unit of the last printed digit of a number; zero if the number has the 16 digits of double
+/// precision.
+fn resolution(number: &str) -> f64 {
+    let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+    let digits = mantissa.chars().filter(char::is_ascii_digit).collect::<String>();
+    if digits.trim_start_matches('0').len() >= 16 {
+        return 0.0;
+    }
+    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    libm::pow(10.0, f64::from(exponent) - decimals as f64)
+}
+
+fn as_text(series: &[SeriesPoint], result: &Result<LimitEstimate, EstimateRefusal>) -> String {
+    let count = series.len();
+    let used = if count > LEVELS_OF_ESTIMATE { ", the four finest are used" } else { "" };
+    let level = if count == 1 { "level" } else { "levels" };
+    let mut rows = vec![("series", format!("{count} {level}{used}"))];
+    match result {
+        Ok(estimate) => {
+            let distance = (estimate.finest - estimate.limit.value).abs();
+            rows.push(("order", estimate.order.shown()));
+            rows.push(("limit", limit_shown(&estimate.limit)));
+            rows.push(("finest", format!("{}, {distance:.1e} from the limit", estimate.finest)));
+        }
+        Err(refusal) => rows.push(("refused", refusal.to_string())),
+    }
+    rows.iter().map(|(key, value)| format!("  {key:<8} {value}\n")).collect()
+}
+
+/// The interval to two digits of its half-width: `1.2346 +- 0.0012 [1.2334, 1.2358]`.
+fn limit_shown(limit: &Interval) -> String {
+    let half_width = limit.half_width();
+    let size = limit.value.abs().max(half_width);
+    let exponent = libm::floor(libm::log10(size));
+    if !(-4.0..6.0).contains(&exponent) {
+        let digits = (exponent - libm::floor(libm::log10(half_width)) + 1.0).clamp(1.0, 16.0);
+        let digits = digits as usize;
+        return format!(
+            "{:.digits$e} +- {half_width:.1e}, 95 %: [{:.digits$e}, {:.digits$e}]",
+            limit.value, limit.low, limit.high
+        );
+    }
+    let decimals = (1.0 - libm::floor(libm::log10(half_width))).clamp(0.0, 17.0) as usize;
+    format!(
+        "{:.decimals$} +- {half_width:.1e}, 95 %: [{:.decimals$}, {:.decimals$}]",
+        limit.value, limit.low, limit.high
+    )
+}
+
+fn as_json(series: &[SeriesPoint], result: &Result<LimitEstimate, EstimateRefusal>) -> Value {
+    let levels: Vec<Value> =
+        series.iter().map(|point| json!({"h": point.h, "value": point.value})).collect();
+    match result {
+        Ok(estimate) => json!({
+            "levels": levels,
+            "estimate": {
+                "order": estimate.order,
+                "limit": estimate.limit,
+                "finest": estimate.finest,
+                "confidence": 0.95,
+            },
+            "refusal": null,
+        }),
+        Err(refusal) => json!({
+            "levels": levels,
+            "estimate": null,
+            "refusal": {"reason": refusal.name(), "message": refusal.to_string()},
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case("1.25", 0.01)]
+    #[case("-1.25e-3", 1e-5)]
+    #[case("125", 1.0)]
+    #[case("1E2", 100.0)]
+    #[case("0.0012500", 1e-7)]
+    #[case("1.2345678901234567", 0.0)]
+    #[case("0.01234567890123456", 0.0)]
+    fn the_resolution_is_one_unit_of_the_last_digit(#[case] number: &str, #[case] unit: f64) {
+        assert!((resolution(number) - unit).abs() <= 1e-12 * unit, "{}", resolution(number));
+    }
+
+    #[rstest]
+    #[case::spaces("  1 4\n0.5   2\n")]
+    #[case::tabs("h\tu\n1\t4\n0.5\t2")]
+    #[case::csv("h, u\n1,4\n 0.5 , 2\n")]
+    #[case::semicolons("1;4\n\n0.5;2\n")]
+    #[case::comments("# a bar\n1 4 # coarse\r\n0.5 2\r\n")]
+    fn formats_of_a_series(#[case] text: &str) {
+        let lines = parse("a", text).unwrap();
+        let pairs: Vec<[f64; 2]> =
+            lines.iter().map(|line| [line.point.h, line.point.value]).collect();
+        assert_eq!(pairs, [[1.0, 4.0], [0.5, 2.0]]);
+    }
+
+    #[rstest]
+    #[case::no_number("1 4\n0.5 two\n", "a:2:5: expected a finite number as value, found `two`")]
+    #[case::not_finite("1 nan\n", "a:1:3: expected a finite number as value, found `nan`")]
+    #[case::one_field("1 4\n0.5\n", "a:2:1: expected two fields, a spacing and a value; found 1")]
+    #[case::three_fields("1 4 7\n", "a:1:5: expected two fields, a spacing and a value; found 3")]
+    #[case::empty_field("1,,4\n", "a:1:4: expected two fields, a spacing and a value; found 3")]
+    #[case::negative("-1 4\n", "a:1:1: expected a positive spacing")]
+    #[case::twice("1 4\n0.5 2\n1.0 3\n", "a:3:1: line 1 has the same spacing")]
+    #[case::second_heading("h u\nh u\n", "a:2:1: expected a finite number as spacing, found `h`")]
+    #[case::empty("\n# nothing\n", "a: there is no level")]
+    fn bad_lines_are_errors_with_their_place(#[case] text: &str, #[case] expected: &str) {
+        let error = parse("a", text).map(|lines| lines.len()).unwrap_err();
+        assert_eq!(error.one_line(), expected);
+    }
+
+    #[test]
+    fn the_value_with_the_most_digits_shows_the_precision() {
+        let lines = parse("a", "1 3\n0.5 1.75\n0.25 1.3125\n").unwrap();
+        assert!(lines.iter().all(|line| (line.point.resolution - 1e-4).abs() < 1e-12));
+    }
+
+    #[rstest]
+    #[case(1.234_56, 0.001_2, "1.2346 +- 1.2e-3, 95 %: [1.2334, 1.2358]")]
+    #[case(1.5e-7, 2e-9, "1.500e-7 +- 2.0e-9, 95 %: [1.480e-7, 1.520e-7]")]
+    fn an_interval_has_the_digits_of_its_width(
+        #[case] value: f64,
+        #[case] half_width: f64,
+        #[case] expected: &str,
+    ) {
+        let limit = Interval { value, low: value - half_width, high: value + half_width };
+        assert_eq!(limit_shown(&limit), expected);
+    }
+}

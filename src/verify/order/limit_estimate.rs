@@ -1,0 +1,361 @@
+//! The limit of a series of values under refinement, with an interval, without an exact solution.
+//!
+//! The four finest levels `h4 > h3 > h2 > h1` give two triples. Richardson's extrapolation of each
+//! triple ([`Richardson`]) gives an order and a limit: `p`, `u0` from the finest triple, and `q`,
+//! `w0` from the next coarser one. With `delta = u0 - u1`, `r = h2 / h1`, the estimate is
+//!
+//! ```text
+//! order = p -+ 3 |p - q|
+//! limit = u0 -+ max(|delta|, 3 max(1, 1/(r^p - 1)) |u0 - w0|)
+//! ```
+//!
+//! Reasons for the two terms of the interval of the limit:
+//!
+//! - If `u = U + C h^p + D h^s` with `s > p`, the extrapolation from a triple misses U by a term of
+//!   order s. Refinement by `r` divides the term by `r^s`, so the distance of the finest
+//!   extrapolation from U is `|u0 - w0| / (r^s - 1)`, at most `|u0 - w0| / (r^p - 1)`. The factor 3
+//!   is the factor of safety for a fit that cannot be checked (Roache 1998, two grids; Eca &
+//!   Hoekstra 2014, J. Comput. Phys. 262, 104, orders outside the expected range).
+//! - The difference of the two extrapolations can vanish by chance. The interval therefore always
+//!   reaches the finest value, as the grid convergence index with a factor of 1 (Roache 1994) does.
+//!
+//! Eca & Hoekstra also widen their estimate by a fit through all levels. Here the second triple
+//! has that role: four values and three unknowns leave one equation, which can contradict the
+//! extrapolation. Their classes of series (oscillating, divergent) give no estimate here.
+//!
+//! The coverage of the interval was measured over the suites with exact solutions: see
+//! `docs/estimate.md`.
+
+use super::fit::Interval;
+use super::richardson::Richardson;
+use serde::Serialize;
+use std::fmt;
+
+/// Number of the finest levels that an estimate uses.
+pub const LEVELS_OF_ESTIMATE: usize = 4;
+
+/// Factor on the difference of two extrapolations, and on the difference of two orders.
+const SAFETY_FACTOR: f64 = 3.0;
+
+/// Maximum difference of the orders of the two triples.
+const ORDER_SCATTER: f64 = 1.0;
+
+/// Minimum order of a triple: below it the extrapolated part exceeds twice the last change.
+const LEAST_ORDER: f64 = 0.5;
+
+/// Maximum order of a triple: above it the changes shrink faster than by any method here.
+const LARGEST_ORDER: f64 = 4.5;
+
+/// Minimum last change, in units of the rounding of a value: rounding then changes the ratio of
+/// changes by at most an eighth.
+const LEAST_CHANGE: f64 = 16.0;
+
+/// Rounding of a computed value, over its size: a sum of several terms.
+const COMPUTED_ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// A value of a series under refinement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SeriesPoint {
+    /// Spacing on the refined axis, in any unit.
+    pub h: f64,
+    /// The value.
+    pub value: f64,
+    /// Spacing of the numbers that the value was rounded to, in the unit of the value; zero for a
+    /// value in double precision.
+    pub resolution: f64,
+}
+
+/// Order and limit of a series of values.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LimitEstimate {
+    /// The order of the finest three values, with an interval from the order of the next coarser
+    /// triple.
+    pub order: Interval,
+    /// The extrapolated value, with its interval of nominally 95 %.
+    pub limit: Interval,
+    /// The value on the finest level.
+    pub finest: f64,
+}
+
+impl LimitEstimate {
+    /// Whether the interval of the limit contains `value`; false if `value` is NaN.
+    pub fn covers(&self, value: f64) -> bool {
+        self.limit.low <= value && value <= self.limit.high
+    }
+}
+
+/// Reason for which a series has no estimate.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(tag = "reason", rename_all = "snake_case")]
+pub enum EstimateRefusal {
+    /// Fewer than four levels.
+    TooFewLevels {
+        /// Number of levels.
+        levels: usize,
+    },
+    /// A number is not finite, or two levels have the same spacing.
+    Unusable,
+    /// The last change is within the rounding of the values.
+    Rounding {
+        /// Size of the last change.
+        change: f64,
+        /// Rounding of the values.
+        rounding: f64,
+    },
+    /// The changes alternate in sign.
+    Oscillation,
+    /// The changes do not shrink under refinement.
+    Divergence,
+    /// The two triples have different orders.
+    OrderScatter {
+        /// Order of the coarser triple.
+        coarse: f64,
+        /// Order of the finest triple.
+        fine: f64,
+    },
+    /// The order of a triple is not that of a method.
+    OrderOutOfRange {
+        /// The order.
+        order: f64,
+    },
+}
+
+impl EstimateRefusal {
+    /// The reason in two or three words, for tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::TooFewLevels { .. } => "too few levels",
+            Self::Unusable => "unusable values",
+            Self::Rounding { .. } => "rounding",
+            Self::Oscillation => "oscillation",
+            Self::Divergence | Self::OrderScatter { .. } | Self::OrderOutOfRange { .. } => {
+                "no asymptotic range"
+            }
+        }
+    }
+}
+
+impl fmt::Display for EstimateRefusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::TooFewLevels { levels } => {
+                write!(f, "too few levels: {levels}, expected {LEVELS_OF_ESTIMATE} or more")
+            }
+            Self::Unusable => f.write_str(
+                "unusable values: spacings must be positive and different, values finite",
+            ),
+            Self::Rounding { change, rounding } => write!(
+                f,
+                "rounding: the last change, {change:.1e}, is below {LEAST_CHANGE} times the \
+                 rounding of the values, {rounding:.1e}"
+            ),
+            Self::Oscillation => {
+                f.write_str("oscillation: the changes between the finest levels alternate in sign")
+            }
+            Self::Divergence => f.write_str(
+                "no asymptotic range: the changes between the finest levels do not shrink",
+            ),
+            Self::OrderScatter { coarse, fine } => write!(
+                f,
+                "no asymptotic range: the orders of the two finest triples, {coarse:.2} and \
+                 {fine:.2}, differ by more than {ORDER_SCATTER}"
+            ),
+            Self::OrderOutOfRange { order } => write!(
+                f,
+                "no asymptotic range: the order {order:.2} of three levels is outside \
+                 [{LEAST_ORDER}, {LARGEST_ORDER}]"
+            ),
+        }
+    }
+}
+
+/// Estimates the limit of a series of values, in any order of levels.
+///
+/// # Errors
+/// The reason for which the series shows no limit.
+pub fn estimate_limit(series: &[SeriesPoint]) -> Result<LimitEstimate, EstimateRefusal> {
+    let mut sorted = series.to_vec();
+    sorted.sort_by(|a, b| b.h.total_cmp(&a.h));
+    let usable = |point: &SeriesPoint| point.h > 0.0 && point.value.is_finite();
+    let distinct = sorted.windows(2).all(|pair| pair[0].h > pair[1].h);
+    if !(sorted.iter().all(usable) && distinct && sorted.iter().all(|point| point.h.is_finite())) {
+        return Err(EstimateRefusal::Unusable);
+    }
+    let Some((_, finest)) = sorted.split_last_chunk::<LEVELS_OF_ESTIMATE>() else {
+        return Err(EstimateRefusal::TooFewLevels { levels: series.len() });
+    };
+    of_four(finest)
+}
+
+fn of_four(levels: &[SeriesPoint; LEVELS_OF_ESTIMATE]) -> Result<LimitEstimate, EstimateRefusal> {
+    let [_, _, medium, fine] = *levels;
+    let change = (fine.value - medium.value).abs();
+    let rounding = levels.iter().fold(0.0_f64, |all, point| {
+        all.max(point.resolution).max(COMPUTED_ROUNDING * point.value.abs())
+    });
+    if !(change > LEAST_CHANGE * rounding) {
+        return Err(EstimateRefusal::Rounding { change, rounding });
+    }
+    let triple = |k: usize| {
+        let part = [levels[k], levels[k + 1], levels[k + 2]];
+        Richardson::new(part.map(|point| point.h), part.map(|point| point.value))
+    };
+    let triples = [triple(0), triple(1)];
+    if triples.iter().any(|triple| triple.ratio < 0.0) {
+        return Err(EstimateRefusal::Oscillation);
+    }
+    let parts = triples.map(|triple| triple.order.zip(triple.extrapolated));
+    let [Some((coarse_order, coarse_limit)), Some((order, limit))] = parts else {
+        return Err(EstimateRefusal::Divergence);
+    };
+    let scatter = (order - coarse_order).abs();
+    if !(scatter <= ORDER_SCATTER) {
+        return Err(EstimateRefusal::OrderScatter { coarse: coarse_order, fine: order });
+    }
+    let in_range = |order: &f64| (LEAST_ORDER..=LARGEST_ORDER).contains(order);
+    if let Some(order) = [coarse_order, order].into_iter().find(|order| !in_range(order)) {
+        return Err(EstimateRefusal::OrderOutOfRange { order });
+    }
+    let reduction = libm::pow(medium.h / fine.h, order) - 1.0;
+    let difference = (limit - coarse_limit).abs() * (1.0 / reduction).max(1.0);
+    let correction = (limit - fine.value).abs();
+    Ok(LimitEstimate {
+        order: around(order, SAFETY_FACTOR * scatter),
+        limit: around(limit, correction.max(SAFETY_FACTOR * difference)),
+        finest: fine.value,
+    })
+}
+
+fn around(value: f64, half_width: f64) -> Interval {
+    Interval { value, low: value - half_width, high: value + half_width }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    fn series(points: &[(f64, f64)]) -> Vec<SeriesPoint> {
+        points.iter().map(|&(h, value)| SeriesPoint { h, value, resolution: 0.0 }).collect()
+    }
+
+    fn halvings(values: &[f64]) -> Vec<SeriesPoint> {
+        let points: Vec<(f64, f64)> =
+            values.iter().enumerate().map(|(k, value)| (libm::exp2(-(k as f64)), *value)).collect();
+        series(&points)
+    }
+
+    /// `3 + 2 h^p`: no scatter, and an interval that reaches the finest value.
+    #[rstest]
+    fn a_power_of_h_gives_its_limit(
+        #[values(0.6, 1.0, 2.0, 4.4)] order: f64,
+        #[values([8.0, 4.0, 2.0, 1.0], [7.0, 5.0, 2.5, 2.0])] h: [f64; 4],
+    ) {
+        let value = |h: f64| 3.0 + 2.0 * libm::pow(h / 8.0, order);
+        let estimate = estimate_limit(&series(&h.map(|h| (h, value(h))))).unwrap();
+        assert_relative_eq!(estimate.order.value, order, max_relative = 1e-7);
+        assert_relative_eq!(estimate.limit.value, 3.0, max_relative = 1e-7);
+        let finest = value(h[3]);
+        assert_relative_eq!(estimate.limit.half_width(), finest - 3.0, max_relative = 1e-6);
+        assert_eq!(estimate.finest, finest);
+    }
+
+    /// By hand: 1 + h + h^2 for h = 1, 1/2, 1/4, 1/8. The changes are 5/4, 7/16 and 11/64, so the
+    /// ratios are 20/7 and 28/11, and the limits 7/4 - (7/16)/(13/7) and 73/64 - (11/64)/(17/11).
+    #[test]
+    fn the_interval_by_hand() {
+        let estimate = estimate_limit(&halvings(&[3.0, 1.75, 1.3125, 1.140_625])).unwrap();
+        let coarse = 1.3125 - 0.4375 / (13.0 / 7.0);
+        let fine = 1.140_625 - 0.171_875 / (17.0 / 11.0);
+        assert_relative_eq!(estimate.limit.value, fine, max_relative = 1e-12);
+        let half_width = (fine - 1.140_625).abs().max(3.0 * (fine - coarse).abs());
+        assert_relative_eq!(estimate.limit.half_width(), half_width, max_relative = 1e-12);
+        let orders = [20.0 / 7.0, 28.0 / 11.0].map(libm::log2);
+        assert_relative_eq!(estimate.order.value, orders[1], max_relative = 1e-12);
+        assert_relative_eq!(
+            estimate.order.half_width(),
+            3.0 * (orders[0] - orders[1]),
+            max_relative = 1e-9
+        );
+        assert!(estimate.covers(1.0) && !estimate.covers(0.85) && !estimate.covers(f64::NAN));
+    }
+
+    /// Spacings refined by less than 2 leave more of the second term: the interval is wider.
+    #[test]
+    fn the_interval_grows_for_small_ratios_of_spacing() {
+        let value = |h: f64| 1.0 + h + h * h;
+        let h = [1.25_f64.powi(3), 1.25_f64.powi(2), 1.25, 1.0];
+        let estimate = estimate_limit(&series(&h.map(|h| (h, value(h))))).unwrap();
+        let triple = |h: [f64; 3]| Richardson::new(h, h.map(value));
+        let [coarse, fine] = [triple([h[0], h[1], h[2]]), triple([h[1], h[2], h[3]])];
+        let reduction = libm::pow(1.25, fine.order.unwrap()) - 1.0;
+        assert!(reduction < 1.0);
+        let difference = (fine.extrapolated.unwrap() - coarse.extrapolated.unwrap()).abs();
+        assert_relative_eq!(
+            estimate.limit.half_width(),
+            (3.0 * difference / reduction).max((value(1.0) - fine.extrapolated.unwrap()).abs()),
+            max_relative = 1e-9
+        );
+    }
+
+    #[test]
+    fn only_the_finest_four_levels_count_in_any_order() {
+        let mut points = halvings(&[-70.0, 17.0, 5.0, 2.0, 1.25, 1.0625]);
+        points.reverse();
+        points.swap(1, 4);
+        let estimate = estimate_limit(&points).unwrap();
+        assert_eq!(
+            estimate,
+            estimate_limit(&halvings(&[-70.0, 17.0, 5.0, 2.0, 1.25, 1.0625])).unwrap()
+        );
+        assert_relative_eq!(estimate.limit.value, 1.0, max_relative = 1e-12);
+    }
+
+    #[rstest]
+    #[case::few(&[4.0, 2.0, 1.5], "too few levels")]
+    #[case::nan(&[4.0, 2.0, f64::NAN, 1.5], "unusable")]
+    #[case::constant(&[1.0, 1.0, 1.0, 1.0], "rounding")]
+    #[case::converged(&[1.5, 1.25, 1.125, 1.125 + 1e-15], "rounding")]
+    #[case::fine_oscillation(&[3.0, 1.0, 2.0, 1.5], "oscillation")]
+    #[case::coarse_oscillation(&[1.0, 2.0, 1.5, 1.4], "oscillation")]
+    #[case::growing(&[1.0, 2.0, 4.0, 8.0], "no asymptotic range: the changes")]
+    #[case::scatter(&[64.0, 8.0, 2.0, 0.0], "no asymptotic range: the orders")]
+    #[case::slow(&[1.0, 0.8, 0.62, 0.46], "no asymptotic range: the order ")]
+    #[case::fast(&[1000.0, 10.0, 0.1, 0.001], "no asymptotic range: the order ")]
+    fn a_series_without_a_limit_is_refused(#[case] values: &[f64], #[case] reason: &str) {
+        let refusal = estimate_limit(&halvings(values)).unwrap_err().to_string();
+        assert!(refusal.starts_with(reason), "{refusal}");
+    }
+
+    #[rstest]
+    #[case::equal(&[(1.0, 4.0), (1.0, 2.0), (0.5, 1.0), (0.25, 0.5)])]
+    #[case::zero(&[(1.0, 4.0), (0.5, 2.0), (0.25, 1.0), (0.0, 0.5)])]
+    #[case::infinite(&[(f64::INFINITY, 4.0), (0.5, 2.0), (0.25, 1.0), (0.1, 0.5)])]
+    fn spacings_must_be_positive_and_different(#[case] points: &[(f64, f64)]) {
+        assert_eq!(estimate_limit(&series(points)), Err(EstimateRefusal::Unusable));
+    }
+
+    /// A last change of 0.75 units of the last printed digit is no evidence of an order.
+    #[test]
+    fn values_with_few_digits_are_refused() {
+        let mut points = halvings(&[1.64, 1.16, 1.04, 1.01]);
+        assert!(estimate_limit(&points).is_ok());
+        points[3].resolution = 0.01;
+        let refusal = estimate_limit(&points).unwrap_err();
+        assert!(matches!(refusal, EstimateRefusal::Rounding { rounding: 0.01, .. }), "{refusal}");
+    }
+
+    /// No unit of spacing or value changes the estimate.
+    #[test]
+    fn units_do_not_change_the_estimate() {
+        let points = halvings(&[3.0, 1.75, 1.3125, 1.140_625]);
+        let scaled: Vec<SeriesPoint> = points
+            .iter()
+            .map(|point| SeriesPoint { h: 1e-3 * point.h, value: 1024.0 * point.value, ..*point })
+            .collect();
+        let [one, other] = [points, scaled].map(|points| estimate_limit(&points).unwrap());
+        assert_relative_eq!(other.order.high, one.order.high, max_relative = 1e-9);
+        assert_relative_eq!(other.limit.low, 1024.0 * one.limit.low, max_relative = 1e-9);
+    }
+}

@@ -1,0 +1,77 @@
+//! `mpm-verify estimate`.
+
+use super::{BAD_INPUT, FAILED, Folder, SOUND};
+use serde_json::{Value, json};
+use std::io::Write;
+use std::process::Stdio;
+
+/// `1 + h + h^2` with six decimals.
+const SERIES: &str = "h,u\n1,3.000000\n0.5,1.750000\n0.25,1.312500\n0.125,1.140625\n";
+
+const TEXT: &str = "  series   4 levels
+  order    1.35 [0.85, 1.85]
+  limit    1.03 +- 1.4e-1, 95 %: [0.89, 1.17]
+  finest   1.140625, 1.1e-1 from the limit
+";
+
+#[test]
+fn a_series_has_an_order_and_a_limit() {
+    let folder = Folder::with("series.csv", SERIES);
+    assert_eq!(folder.accepted(&["estimate", "series.csv"]), TEXT);
+}
+
+#[test]
+fn standard_input_is_a_series() {
+    for arguments in [&["estimate"][..], &["estimate", "-"]] {
+        let folder = Folder::new();
+        let mut command = folder.command(arguments);
+        let mut process =
+            command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("the program");
+        let mut input = process.stdin.take().expect("a pipe");
+        input.write_all(SERIES.as_bytes()).expect("an open pipe");
+        drop(input);
+        let output = process.wait_with_output().expect("an end");
+        assert_eq!(String::from_utf8_lossy(&output.stdout), TEXT);
+    }
+}
+
+#[test]
+fn json_has_the_intervals() {
+    let folder = Folder::with("series.csv", SERIES);
+    let out = folder.accepted(&["estimate", "series.csv", "--format", "json"]);
+    let document: Value = serde_json::from_str(&out).expect("JSON");
+    let limit = &document["estimate"]["limit"];
+    let number = |key: &str| limit[key].as_f64().expect("a number");
+    assert!(number("low") < 1.0 && 1.0 < number("value") && number("value") < number("high"));
+    assert_eq!(document["levels"][3], json!({"h": 0.125, "value": 1.140_625}));
+    assert_eq!(document["refusal"], Value::Null);
+}
+
+#[test]
+fn a_series_without_a_limit_is_refused_with_the_reason() {
+    let folder = Folder::with("series", "4 1.000\n2 2.000\n1 1.500\n0.5 1.800\n");
+    let answer = folder.call(&["estimate", "series"]);
+    assert_eq!(answer.code, FAILED);
+    assert!(answer.out.contains("refused  oscillation: "), "{}", answer.out);
+    let answer = folder.call(&["estimate", "series", "--format", "json"]);
+    assert_eq!(answer.code, FAILED);
+    let document: Value = serde_json::from_str(&answer.out).expect("JSON");
+    assert_eq!(document["refusal"]["reason"], "oscillation");
+    assert_eq!(document["estimate"], Value::Null);
+}
+
+#[test]
+fn bad_input_has_a_place() {
+    let folder = Folder::with("series", "4 1.0\n2 x\n");
+    let answer = folder.call(&["estimate", "series"]);
+    assert_eq!((answer.code, answer.out.as_str()), (BAD_INPUT, ""));
+    assert!(answer.errors.contains("series:2:3"), "{}", answer.errors);
+    let answer = folder.call(&["estimate", "no-such-file"]);
+    assert_eq!(answer.code, BAD_INPUT);
+    assert!(answer.errors.contains("cannot be read"), "{}", answer.errors);
+    folder.write("other", [0xff, 0xfe]);
+    assert_eq!(folder.call(&["estimate", "other"]).code, BAD_INPUT);
+    assert_eq!(folder.call(&["estimate", "."]).code, BAD_INPUT);
+    folder.write("good", SERIES);
+    assert_eq!(folder.call(&["estimate", "good"]).code, SOUND);
+}
