@@ -13,7 +13,7 @@
 //! ratio, and of first order in the step otherwise. It solves one equation for the stress ratio,
 //! whose root lies between the critical state and the yield surface before the step.
 
-use super::contract::{Contradiction, Material, MaterialProperties};
+use super::contract::{Contradiction, Material, MaterialProperties, rate_form_averages_no_volume};
 use super::spectral::{MatrixBatch, assembled_batch, half_log_batch, spectral_batch};
 use super::stress_update::{StressBlock, StressUpdate};
 use crate::mpm::foundation::algebra::{Matrix, det, product};
@@ -246,7 +246,7 @@ impl MaterialProperties for CamClay {
     }
 
     fn takes_averaged_volume(&self) -> Result<(), &'static str> {
-        Err("a law in rate form does not compute its stress from F or J")
+        rate_form_averages_no_volume()
     }
 
     fn has_energy(&self, _: usize) -> Result<(), &'static str> {

@@ -6,6 +6,14 @@ use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
 
+/// [`MaterialProperties::takes_averaged_volume`] of every law in rate form.
+///
+/// # Errors
+/// Always: such a law reads the velocity gradient.
+pub(super) fn rate_form_averages_no_volume() -> Result<(), &'static str> {
+    Err("a law in rate form does not compute its stress from F or J")
+}
+
 /// Properties of a law that decide which problems may be stated with it.
 pub trait MaterialProperties {
     /// Stiffness against strain along one axis (Pa), at rest: `rho0 c^2` of the fastest wave.

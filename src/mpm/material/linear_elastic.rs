@@ -13,7 +13,7 @@
 //! `x = X + s u`, s from 0 to 1: `grad v = H (I + s H)^-1` with `H = F - I`, and so
 //! `eps = sym(ln F)` (Higham 2008, *Functions of Matrices*, eq. 11.1).
 
-use super::contract::{Material, MaterialProperties};
+use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
 use super::plane_stress::RatePlaneStress;
 use super::stress_update::{StressBlock, StressUpdate};
 use crate::mpm::foundation::algebra::{Matrix, det};
@@ -101,7 +101,7 @@ impl MaterialProperties for LinearElastic {
     }
 
     fn takes_averaged_volume(&self) -> Result<(), &'static str> {
-        Err("a law in rate form does not compute its stress from F or J")
+        rate_form_averages_no_volume()
     }
 
     fn has_energy(&self, dimension: usize) -> Result<(), &'static str> {

@@ -70,9 +70,9 @@ fn isochoric(e: f64) -> [f64; 3] {
 
 /// Drucker-Prager soil, K and mu (Pa): friction, dilation and strength k (Pa).
 #[derive(Clone, Copy)]
-struct Cone([f64; 2], [f64; 3]);
+struct ConePaths([f64; 2], [f64; 3]);
 
-impl Cone {
+impl ConePaths {
     const SOIL: Self = Self([1e4, 6e3], [0.3, 0.1, 10.0]);
 
     fn plan(self) -> MaterialPlan {
@@ -109,9 +109,9 @@ impl Cone {
 
 /// Mohr-Coulomb soil, lambda and mu (Pa): angles (degrees) and cohesion (Pa).
 #[derive(Clone, Copy)]
-struct Pyramid([f64; 2], [f64; 3]);
+struct PyramidPaths([f64; 2], [f64; 3]);
 
-impl Pyramid {
+impl PyramidPaths {
     const fn soil(angles: [f64; 2]) -> Self {
         Self([5e3, 7.5e3], [angles[0], angles[1], 10.0])
     }
@@ -174,7 +174,7 @@ fn drucker_prager_has_its_closed_forms_along_a_path(
     #[values(0.0, 2.0)] angle: f64,
     #[values([0.3, 0.1, 10.0], [0.3, 0.3, 10.0], [0.3, 0.0, 10.0], [0.2, 0.1, 0.0])] soil: [f64; 3],
 ) {
-    let soil = Cone([1e4, 6e3], soil);
+    let soil = ConePaths([1e4, 6e3], soil);
     let path = SoilPath::through(up_to(end), along_first, |e| soil.uniaxial(e));
     path.assert(soil.plan(), angle);
     let path = SoilPath::through(up_to(end.abs()), isochoric, |e| soil.isochoric(e));
@@ -187,7 +187,7 @@ fn mohr_coulomb_has_its_closed_forms_along_a_path(
     #[values(0.0, 2.0)] angle: f64,
     #[values([30.0, 10.0], [30.0, 30.0], [20.0, 0.0], [0.0, 0.0])] angles: [f64; 2],
 ) {
-    let soil = Pyramid::soil(angles);
+    let soil = PyramidPaths::soil(angles);
     let path = SoilPath::through(up_to(end), along_first, |e| soil.uniaxial(e));
     path.assert(soil.plan(), angle);
     // Beyond this strain the stress is on an edge.
@@ -199,16 +199,16 @@ fn mohr_coulomb_has_its_closed_forms_along_a_path(
 /// no stress, and further compression has the stress of a path without unloading.
 #[rstest]
 fn unloading_is_elastic_and_leaves_no_trace(#[values(0.0, 2.0)] angle: f64) {
-    let cone = Cone::SOIL;
-    let Cone([bulk, mu], _) = cone;
+    let cone = ConePaths::SOIL;
+    let ConePaths([bulk, mu], _) = cone;
     unload(
         cone.plan(),
         |e| cone.uniaxial(e),
         [bulk + 4.0 / 3.0 * mu, bulk - 2.0 / 3.0 * mu],
         angle,
     );
-    let pyramid = Pyramid::soil([30.0, 10.0]);
-    let Pyramid([lambda, mu], _) = pyramid;
+    let pyramid = PyramidPaths::soil([30.0, 10.0]);
+    let PyramidPaths([lambda, mu], _) = pyramid;
     unload(pyramid.plan(), |e| pyramid.uniaxial(e), [lambda + 2.0 * mu, lambda], angle);
 }
 
@@ -240,7 +240,7 @@ fn unload(
 /// One step has the stress of many: the strain paths are straight.
 #[test]
 fn one_step_has_the_stress_of_many() {
-    let (cone, pyramid) = (Cone::SOIL, Pyramid::soil([30.0, 10.0]));
+    let (cone, pyramid) = (ConePaths::SOIL, PyramidPaths::soil([30.0, 10.0]));
     for e in [-0.02, 0.0012, 0.003] {
         let once = std::iter::once(e);
         SoilPath::through(once.clone(), along_first, |e| cone.uniaxial(e)).assert(cone.plan(), 0.0);

@@ -149,7 +149,7 @@ impl<'a> ConvergenceRunner<'a> {
         } else if lacks.is_empty() {
             // A problem that the solver refuses is not a failure.
             self.run(case, expectation, progress).unwrap_or_else(|reason| {
-                not_applicable(plan, case, vec![reason], "cannot be put to it:")
+                not_applicable(plan, case, vec![reason], "refuses the problem:")
             })
         } else {
             not_applicable(plan, case, lacks, "lacks")

@@ -69,7 +69,7 @@ impl CaseRunner for GradientRunner<'_> {
             Ok(study) => judged(described, case, study),
             // A solver's statement that it cannot do something is not a fault.
             Err(GradientError::Cannot(reason)) => {
-                described.not_applicable(vec![reason], "cannot be put to it:")
+                described.not_applicable(vec![reason], "refuses the problem:")
             }
             Err(GradientError::Failed(reason)) => failed(described, &reason),
         }

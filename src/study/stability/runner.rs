@@ -59,7 +59,7 @@ impl CaseRunner for StabilityRunner<'_> {
         // A problem that the solver refuses is not a failure.
         let refused = rows.iter().find_map(|row| row.refused.clone());
         if let Some(reason) = refused.filter(|_| context.solver.is_some()) {
-            return described(&run).not_applicable(vec![reason], "cannot be put to it:");
+            return described(&run).not_applicable(vec![reason], "refuses the problem:");
         }
         let outcome = outcome(&run, rows);
         match &case.gating {
