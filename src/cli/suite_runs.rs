@@ -99,7 +99,8 @@ impl SuiteRuns {
 /// # Errors
 /// The first such name.
 pub(super) fn check_names(runs: &[SuiteRuns]) -> Result<(), CommandError> {
-    let Some((name, suite)) = runs.iter().find_map(|runs| Some((runs.twice()?, runs.suite()))) else {
+    let Some((name, suite)) = runs.iter().find_map(|runs| Some((runs.twice()?, runs.suite())))
+    else {
         return Ok(());
     };
     let reason = format!("a case of the suite `{}` has this name", suite.name);
