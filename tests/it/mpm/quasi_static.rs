@@ -220,6 +220,17 @@ fn error_of_linear_functions_grows_in_many_load_steps(#[case] case: fn(usize, u6
     assert!(errors.windows(2).all(|pair| pair[1][0] > pair[0][0]), "{errors:?}");
 }
 
+/// Load steps of half the length are twice as many load steps.
+#[test]
+fn shorter_load_steps_are_more_of_them() {
+    let mut short = ColumnCase::drucker_prager(6, 3).build::<1>(BasisName::ContiguousGimp);
+    (0..6).for_each(|_| short.step(0.5).unwrap());
+    let case = ColumnCase::drucker_prager(6, 6);
+    let mut long = case.build::<1>(BasisName::ContiguousGimp);
+    case.run(&mut long);
+    assert_eq!(short.particles().x, long.particles().x);
+}
+
 /// A column between rollers has one and the same equilibrium in one, two and three dimensions.
 #[rstest]
 fn column_is_the_same_in_any_dimension(#[values(1, 2)] load_steps: u64) {
