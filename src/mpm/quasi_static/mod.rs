@@ -50,15 +50,16 @@ pub struct QuasiStaticSetup<const D: usize> {
     pub effects: Vec<Box<dyn Effect<D>>>,
     /// Walls that do not move.
     pub boundary: Vec<Box<dyn Boundary<D>>>,
-    /// Number of load steps.
+    /// Number of load steps of length 1 to the whole load.
     pub load_steps: u64,
 }
 
 /// A body whose load grows in steps, in equilibrium after each.
 pub struct QuasiStatic<const D: usize> {
     setup: QuasiStaticSetup<D>,
-    /// Load steps so far.
-    steps: u64,
+    /// Sum of the lengths of the load steps so far: the share of the load is this sum over
+    /// [`QuasiStaticSetup::load_steps`].
+    advanced: f64,
     transfers: u64,
     min_j: f64,
     cell_tracker: CellTracker<D>,
@@ -80,8 +81,8 @@ impl<const D: usize> QuasiStatic<D> {
             return Err(Failure::Solve(NO_TANGENT.to_owned()));
         }
         let cell_tracker = CellTracker::new(grid, particles)?;
-        let (steps, transfers, residuals) = (0, 0, Vec::new());
-        Ok(Self { setup, steps, transfers, min_j, cell_tracker, residuals })
+        let (advanced, transfers, residuals) = (0.0, 0, Vec::new());
+        Ok(Self { setup, advanced, transfers, min_j, cell_tracker, residuals })
     }
 
     /// Residuals of the iterates of the last load step: the norm over all nodes with unknowns, over
@@ -159,11 +160,12 @@ impl<const D: usize> QuasiStatic<D> {
 }
 
 impl<const D: usize> Subject for QuasiStatic<D> {
-    /// One load step; its length has no effect.
-    fn step(&mut self, _: f64) -> Result<(), Failure> {
-        self.steps += 1;
+    /// One load step of the length `dt`. In a study of shorter steps, two of length 1/2 take the
+    /// place of one.
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        self.advanced += dt;
         self.load();
-        let share = self.steps as f64 / self.setup.load_steps as f64;
+        let share = self.advanced / self.setup.load_steps as f64;
         let QuasiStaticSetup { grid, particles, kernel, material, boundary, .. } = &mut self.setup;
         let load: Vec<Vector<D>> = grid.force.iter().map(|force| force * share).collect();
         let balance = StepEquations::new(grid, particles, kernel.as_ref(), boundary)?;
@@ -209,17 +211,17 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         Some(Totals { strain_energy, ..particles.totals(|_| None) })
     }
 
-    /// The time is the number of the load step.
+    /// The time is the sum of the lengths of the load steps.
     fn reaction(&self, face: Option<(usize, bool)>) -> Option<Reaction> {
         let QuasiStaticSetup { grid, boundary, .. } = &self.setup;
         let side = |high| if high { Side::High } else { Side::Low };
         let face = face.map(|(axis, high)| (axis, side(high)));
         let force = wall_reaction(&grid.force, boundary, face);
-        (self.steps > 0).then_some(Reaction { time: self.steps as f64, force })
+        (self.advanced > 0.0).then_some(Reaction { time: self.advanced, force })
     }
 
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
-        let Self { setup, steps, transfers, min_j, cell_tracker, residuals: _ } = self;
+        let Self { setup, advanced, transfers, min_j, cell_tracker, residuals: _ } = self;
         let QuasiStaticSetup { particles, material, effects, boundary, .. } = setup;
         checkpoint.visit(particles);
         material.checkpoint(checkpoint);
@@ -229,7 +231,7 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         for condition in boundary {
             condition.checkpoint(checkpoint);
         }
-        checkpoint.visit(steps);
+        checkpoint.visit(advanced);
         checkpoint.visit(transfers);
         checkpoint.visit(min_j);
         checkpoint.visit(cell_tracker);

@@ -96,25 +96,24 @@ impl<const D: usize> LoadStep<'_, D> {
         searches: bool,
         scale: f64,
     ) -> Result<Iterate<D>, Failure> {
-        let correction = self
-            .balance
-            .correction(self.particles, now)
-            .map_err(|node| Failure::Solve(format!("the tangent is singular at node {node}")))?;
+        let correction = self.balance.correction(self.particles, now).map_err(|node| {
+            let reason = self.not_converged(now, scale);
+            Failure::Solve(format!("the tangent is singular at node {node}: {reason}"))
+        })?;
         let mut share = 1.0;
-        let mut failure = self.not_converged(now, scale);
         for _ in 0..=MOST_HALVINGS {
             let moved = now.increment.iter().zip(&correction);
             let next = self.iterate(moved.map(|(u, change)| u + change * share).collect());
-            match next {
-                Ok(next) if !searches || next.norm <= (1.0 - SUFFICIENT * share) * now.norm => {
-                    return Ok(next);
-                }
-                Ok(_) => {}
-                Err(reason) => failure = reason,
+            // An increment that inverts a particle has no stress.
+            let next = next
+                .ok()
+                .filter(|next| !searches || next.norm <= (1.0 - SUFFICIENT * share) * now.norm);
+            if let Some(next) = next {
+                return Ok(next);
             }
             share *= 0.5;
         }
-        Err(failure)
+        Err(self.not_converged(now, scale))
     }
 
     fn iterate(&self, increment: Vec<Vector<D>>) -> Result<Iterate<D>, Failure> {

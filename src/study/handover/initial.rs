@@ -34,7 +34,7 @@ pub fn level_problem(
         plan.manufactured(),
         level,
         HandedRun {
-            load_steps: case.load_steps(plan),
+            load_steps: plan.by_load_steps.then_some(clock.steps),
             steps: clock.steps,
             dt: clock.dt(),
             until: clock.until,

@@ -37,6 +37,15 @@ use rstest::rstest;
     &[("\nparticles:", "  initial_velocity: [1]\n\nparticles:"), ("frozen: true", "▸frozen: true")],
     &["a frozen body rests"]
 )]
+#[case::in_load_steps(
+    &[
+        (
+            "- mpm: {basis: linear, transfer: [flip, pic, apic], scheme: [usl, usf, musl]}",
+            "- mpm: {basis: linear, scheme: ▸quasi_static}",
+        ),
+    ],
+    &["stability is studied of steps in time"]
+)]
 #[case::without_a_limit(
     &[("critical: {parameter: C, from: 0.01, to: 4}\n", ""), ("    critical: {is", "    ▸critical: {is")],
     &["no limit is sought"]
