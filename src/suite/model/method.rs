@@ -25,6 +25,8 @@ pub enum Method {
         frame: FrameName,
         /// Volume ratio at which the law computes its stress.
         volume: VolumeName,
+        /// Precision of its state.
+        precision: Precision,
     },
     /// The reference MPM of a body at rest: heat, and no stage of mechanics.
     Heat {
@@ -63,9 +65,13 @@ impl Method {
         }
     }
 
-    /// Whether it is an external solver in single precision.
+    /// Whether it computes in single precision.
     pub fn is_single_precision(&self) -> bool {
-        matches!(self, Self::External { precision: Precision::Single, .. })
+        matches!(
+            self,
+            Self::Mpm { precision: Precision::Single, .. }
+                | Self::External { precision: Precision::Single, .. }
+        )
     }
 
     /// Whether the law computes its stress at an averaged volume ratio.
@@ -92,7 +98,7 @@ impl Method {
             rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
         };
         match self {
-            Self::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
+            Self::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
                 let mass = match mass {
                     MassName::Lumped => "lumped (row sum)",
                     MassName::Consistent => "consistent",
@@ -112,6 +118,9 @@ impl Method {
                 }
                 if *volume == VolumeName::Averaged {
                     rows.push(("volume ratio", volume.name()));
+                }
+                if *precision == Precision::Single {
+                    rows.push(("precision", "single: the state is rounded after each pass"));
                 }
                 owned(rows)
             }

@@ -23,6 +23,7 @@ mod panels;
 mod periods;
 mod planes;
 mod polygons;
+mod precisions;
 mod pulled_bodies;
 mod pulses;
 mod quantities;

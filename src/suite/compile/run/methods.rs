@@ -2,7 +2,7 @@
 
 use crate::fem::Sampling;
 use crate::mpm::{FrameName, MassName, VolumeName};
-use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, Start, is_solver_name};
+use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, Precision, Start, is_solver_name};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{EquationName, MethodSpec};
 use crate::suite::model::method::Method;
@@ -41,9 +41,16 @@ impl MethodDraft {
 /// First word of the names of a method, and its settings in the order of names.
 fn settings(method: &Method) -> (&'static str, Vec<String>) {
     match *method {
-        Method::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
+        Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
             let transfer = transfer.name();
-            let rest = [scheme.name(), start.name(), mass.name(), frame.name(), volume.name()];
+            let rest = [
+                scheme.name(),
+                start.name(),
+                mass.name(),
+                frame.name(),
+                volume.name(),
+                precision.name(),
+            ];
             let mut settings = vec![basis.name().to_owned(), transfer];
             settings.extend(rest.map(ToOwned::to_owned));
             ("mpm", settings)
@@ -69,10 +76,17 @@ pub(crate) fn methods(
     let mut drafts = Vec::new();
     let mut push = |method, said| drafts.push(MethodDraft { entry, method, solver: None, said });
     match spec {
-        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
-            let (of_frame, of_volume) = (many(frame.as_ref()), many(volume.as_ref()));
-            let said =
-                [true, true, true, many(start.as_ref()), many(mass.as_ref()), of_frame, of_volume];
+        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
+            let said = [
+                true,
+                true,
+                true,
+                many(start.as_ref()),
+                many(mass.as_ref()),
+                many(frame.as_ref()),
+                many(volume.as_ref()),
+                many(precision.as_ref()),
+            ];
             let settings = product(
                 &product(&product(basis.as_slice(), transfer.as_slice()), scheme.as_slice()),
                 &product(
@@ -82,12 +96,18 @@ pub(crate) fn methods(
                     ),
                     &product(
                         &choices(frame.as_ref(), FrameName::Updated),
-                        &choices(volume.as_ref(), VolumeName::Particle),
+                        &product(
+                            &choices(volume.as_ref(), VolumeName::Particle),
+                            &choices(precision.as_ref(), Precision::Double),
+                        ),
                     ),
                 ),
             );
-            for (((basis, transfer), scheme), ((start, mass), (frame, volume))) in settings {
-                let method = Method::Mpm { basis, transfer, scheme, start, mass, frame, volume };
+            for (((basis, transfer), scheme), ((start, mass), (frame, (volume, precision)))) in
+                settings
+            {
+                let method =
+                    Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision };
                 push(method, said.to_vec());
             }
         }
@@ -131,7 +151,7 @@ pub(crate) fn methods(
 /// Number of methods that an entry unfolds into.
 pub(crate) fn count(spec: &MethodSpec) -> usize {
     let lengths = match spec {
-        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume } => vec![
+        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => vec![
             basis.as_slice().len(),
             transfer.as_slice().len(),
             scheme.as_slice().len(),
@@ -139,6 +159,7 @@ pub(crate) fn count(spec: &MethodSpec) -> usize {
             length(mass.as_ref()),
             length(frame.as_ref()),
             length(volume.as_ref()),
+            length(precision.as_ref()),
         ],
         MethodSpec::Heat { basis } => vec![basis.as_slice().len()],
         MethodSpec::External { .. } => Vec::new(),
