@@ -63,14 +63,14 @@ fn read(file: Option<&Path>) -> Result<(String, String), Diagnostic> {
 }
 
 /// A level, and the place of its spacing in the text.
-struct SeriesLine {
+struct InputLine {
     point: SeriesPoint,
     spacing: Range<usize>,
 }
 
 /// The levels in `text`, the contents of `file`.
-fn parse(file: &str, text: &str) -> Result<Vec<SeriesLine>, Diagnostic> {
-    let mut lines: Vec<SeriesLine> = Vec::new();
+fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
+    let mut lines: Vec<InputLine> = Vec::new();
     let mut is_first = true;
     let mut start = 0;
     for line in text.split_inclusive('\n') {
@@ -116,7 +116,7 @@ fn parse(file: &str, text: &str) -> Result<Vec<SeriesLine>, Diagnostic> {
         }
         let resolution = resolution(&text[value.clone()]);
         let point = SeriesPoint { h, value: number(value, "value")?, resolution };
-        lines.push(SeriesLine { point, spacing: spacing.clone() });
+        lines.push(InputLine { point, spacing: spacing.clone() });
     }
     if lines.is_empty() {
         return Err(Diagnostic::about(file, "there is no level").with_help(FORMAT_HELP));

@@ -66,11 +66,12 @@ pub use scheme::{SchemeName, Stage};
 pub use seeding::Fragment;
 pub use seeding::quadrilateral::Quadrilateral;
 pub use step::combination::{
-    CombinationError, combine, combine_across, combine_bodies, combine_volume,
+    CombinationError, combine, combine_across, combine_bodies, combine_precision, combine_volume,
 };
 pub use step::heat_solver::HeatSolver;
 pub use step::initial::complete_start;
 pub use step::setup::Setup;
+pub use step::single_precision::SinglePrecision;
 pub use step::solver::Solver;
 pub use step::volume_average::VolumeName;
 pub use transfer::{

@@ -6,7 +6,7 @@ use crate::mpm::foundation::particles::FrameName;
 use crate::mpm::mass::MassName;
 use crate::mpm::material::MaterialPlan;
 use crate::mpm::transfer::{TransferChoice, TransferKind};
-use crate::subject::{PlaneState, Start};
+use crate::subject::{PlaneState, Precision, Start};
 use thiserror::Error;
 
 /// An invalid combination of parts: one line with the parts and the reason.
@@ -110,6 +110,20 @@ pub fn combine_bodies(
         )),
         _ => Ok(()),
     }
+}
+
+/// Refuses a precision that several bodies do not have.
+///
+/// # Errors
+/// One line with the precision and the reason.
+pub fn combine_precision(precision: Precision, bodies: usize) -> Result<(), CombinationError> {
+    if precision == Precision::Double || bodies < 2 {
+        return Ok(());
+    }
+    Err(refusal!(
+        "`precision: {}` rounds the state of one body, and the scene has {bodies}",
+        precision.name()
+    ))
 }
 
 /// Refuses an invalid combination in a body with this state across its plane.

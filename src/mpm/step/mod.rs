@@ -8,6 +8,7 @@ pub(in crate::mpm) mod initial;
 pub(in crate::mpm) mod observables;
 pub(in crate::mpm) mod schedule;
 pub(in crate::mpm) mod setup;
+pub(in crate::mpm) mod single_precision;
 pub(in crate::mpm) mod solver;
 pub(in crate::mpm) mod subject;
 pub(in crate::mpm) mod volume_average;

@@ -3,7 +3,7 @@
 use crate::exact::{Problem, Truth};
 use crate::mpm::SchemeName;
 use crate::study::exact_motion::Extremes;
-use crate::subject::{Precision, Start};
+use crate::subject::Start;
 use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case, ConvergencePlan};
@@ -66,10 +66,8 @@ pub(super) fn rounding_sizes(
     case: &Case,
     truth: &dyn Truth,
 ) -> Option<RoundingSizes> {
-    let unit = match case.method {
-        Method::External { precision: Precision::Single, .. } => f64::from(f32::EPSILON) / 2.0,
-        _ => f64::EPSILON / 2.0,
-    };
+    let is_single = case.method.is_single_precision();
+    let unit = if is_single { f64::from(f32::EPSILON) / 2.0 } else { f64::EPSILON / 2.0 };
     // The size of a sum over the body is the scale of its error.
     let value = Some(largest_exact(plan, case, truth)).filter(|size| *size > 0.0).or(plan.scale)?;
     let scene = &plan.scene;

@@ -16,7 +16,7 @@ use crate::exact::Truth;
 use crate::fem::Bar;
 use crate::study::setup::bar::{bar, reference_method};
 use crate::study::setup::dispatch::subject;
-use crate::subject::{Samples, Start, Subject};
+use crate::subject::{Precision, Samples, Start, Subject};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan};
@@ -268,10 +268,13 @@ fn compare(a: &[f64], b: &[f64]) -> Ordering {
     unequal.unwrap_or_else(|| a.len().cmp(&b.len()))
 }
 
-/// The method with the start that is of second order.
+/// The method in double precision, with the start that is of second order.
 fn second_order(mut method: Method) -> Method {
     match &mut method {
-        Method::Mpm { start, .. } | Method::Fem { start, .. } => *start = Start::HalfStepBack,
+        Method::Mpm { start, precision, .. } => {
+            (*start, *precision) = (Start::HalfStepBack, Precision::Double);
+        }
+        Method::Fem { start, .. } => *start = Start::HalfStepBack,
         Method::QuasiStatic { .. } | Method::Heat { .. } | Method::External { .. } => {}
     }
     method

@@ -10,7 +10,7 @@
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;
 use crate::study::setup::dispatch;
-use crate::subject::Start;
+use crate::subject::{Precision, Start};
 use crate::suite::compile::check::size::particles;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
@@ -184,7 +184,8 @@ fn simplest(method: Method) -> Method {
         return method;
     };
     let (scheme, transfer) = simplest_with_same_response(scheme, transfer);
-    Method::Mpm { basis, transfer, scheme, start: Start::AtZero, mass, frame, volume }
+    let (start, precision) = (Start::AtZero, Precision::Double);
+    Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision }
 }
 
 /// The actual step (s).

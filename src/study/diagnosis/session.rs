@@ -154,7 +154,8 @@ pub(super) fn accepts_grid(source: &Source, from: &[f64], to: &[f64]) -> bool {
 
 /// The method as a suite states it; `None` of a method that is never changed.
 fn method_spec(method: Method) -> Option<MethodSpec> {
-    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume } = method else {
+    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } = method
+    else {
         return None;
     };
     Some(MethodSpec::Mpm {
@@ -165,6 +166,7 @@ fn method_spec(method: Method) -> Option<MethodSpec> {
         mass: Some(mass.into()),
         frame: Some(frame.into()),
         volume: Some(volume.into()),
+        precision: Some(precision.into()),
     })
 }
 

@@ -8,7 +8,7 @@ use crate::mpm::{
     det_of_rows,
 };
 use crate::study::setup::body::{Body, setup};
-use crate::subject::{Perturbable, Start};
+use crate::subject::{Perturbable, Precision, Start};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Scene};
@@ -57,6 +57,7 @@ fn started<const D: usize>(
         mass: MassName::Lumped,
         frame: FrameName::Updated,
         volume: VolumeName::Particle,
+        precision: Precision::Double,
     };
     let is_stressed = bodies.iter().any(|body| !body.own.initial_stress.is_none());
     let mut all = ProblemParticles::default();

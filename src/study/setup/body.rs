@@ -58,7 +58,7 @@ pub(crate) fn setup<const D: usize>(
     method: Method,
     level: LevelPlan,
 ) -> Result<Setup<D>, String> {
-    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume } = method else {
+    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, .. } = method else {
         return Err("not an MPM method".to_owned());
     };
     let scene = body.scene;

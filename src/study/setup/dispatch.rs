@@ -3,7 +3,7 @@
 use super::bar::bar;
 use super::body::{Body, conductor, quasi_static, setup};
 use crate::dimension::with_dimension;
-use crate::mpm::{BasisName, Bodies, Setup, Solver, Vector};
+use crate::mpm::{BasisName, Bodies, Setup, SinglePrecision, Solver, Vector};
 use crate::subject::{Failure, Perturbable, Profile, Subject};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
@@ -163,6 +163,9 @@ fn mpm<const D: usize>(
     let mut setups = setups::<D>(plan, method, level)?;
     let said = |failure: Failure| failure.to_string();
     Ok(match (setups.pop(), setups.is_empty(), plan.scene.contact) {
+        (Some(one), true, None) if method.is_single_precision() => {
+            Box::new(SinglePrecision::new(one).map_err(said)?)
+        }
         (Some(one), true, None) => Box::new(Solver::new(one).map_err(said)?),
         (last, _, contact) => {
             setups.extend(last);

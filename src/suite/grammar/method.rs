@@ -34,6 +34,8 @@ pub(crate) enum MethodSpec {
         frame: Option<OneOrMany<FrameName>>,
         /// Volume ratio at which the law computes its stress; `particle` unless stated.
         volume: Option<OneOrMany<VolumeName>>,
+        /// Precision of the state; `double` unless stated.
+        precision: Option<OneOrMany<Precision>>,
     },
     /// Finite elements in one dimension.
     Fem {

@@ -25,6 +25,8 @@ pub enum Method {
         frame: FrameName,
         /// Volume ratio at which the law computes its stress.
         volume: VolumeName,
+        /// Precision of its state.
+        precision: Precision,
     },
     /// The reference MPM in quasi-static load steps.
     QuasiStatic {
@@ -70,9 +72,13 @@ impl Method {
         }
     }
 
-    /// Whether it is an external solver in single precision.
+    /// Whether it computes in single precision.
     pub fn is_single_precision(&self) -> bool {
-        matches!(self, Self::External { precision: Precision::Single, .. })
+        matches!(
+            self,
+            Self::Mpm { precision: Precision::Single, .. }
+                | Self::External { precision: Precision::Single, .. }
+        )
     }
 
     /// Whether the law computes its stress at an averaged volume ratio.
@@ -110,7 +116,7 @@ impl Method {
             rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
         };
         match self {
-            Self::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
+            Self::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
                 let mass = match mass {
                     MassName::Lumped => "lumped (row sum)",
                     MassName::Consistent => "consistent",
@@ -130,6 +136,9 @@ impl Method {
                 }
                 if *volume == VolumeName::Averaged {
                     rows.push(("volume ratio", volume.name()));
+                }
+                if *precision == Precision::Single {
+                    rows.push(("precision", "single: the state is rounded after each pass"));
                 }
                 owned(rows)
             }

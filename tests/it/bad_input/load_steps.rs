@@ -60,6 +60,9 @@ fn a_run_has_load_steps_or_time(#[case] edits: Edits<'_>, #[case] words: &[&str]
 #[case::with_averaged_volumes(
     &[("scheme: quasi_static", "scheme: quasi_static, ▸volume: averaged")], &["not implemented"]
 )]
+#[case::with_single_precision(
+    &[("scheme: quasi_static", "scheme: quasi_static, ▸precision: single")], &["double precision"]
+)]
 #[case::next_to_other_schemes(
     &[("scheme: quasi_static", "▸scheme: [quasi_static, musl]")], &["an entry of `methods` of their own"]
 )]

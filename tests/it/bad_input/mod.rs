@@ -24,6 +24,7 @@ mod panels;
 mod periods;
 mod planes;
 mod polygons;
+mod precisions;
 mod pulled_bodies;
 mod pulses;
 mod quantities;

@@ -60,7 +60,8 @@ fn made<const D: usize>(
     if let Some(why) = change.excluded(&problem) {
         return Err(why.to_owned());
     }
-    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume } = factory.method else {
+    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, .. } = factory.method
+    else {
         return Err("no MPM".to_owned());
     };
     let kernel = kernel::<D>(basis);

@@ -5,7 +5,7 @@ use mpm_verify::mpm::{
     BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, VolumeName,
 };
 use mpm_verify::study;
-use mpm_verify::subject::{Failure, Samples, Start, Subject};
+use mpm_verify::subject::{Failure, Precision, Samples, Start, Subject};
 use mpm_verify::suite::{ConvergencePlan, Method, Suite, embedded};
 use mpm_verify::verify::{Clock, errors};
 use rstest::rstest;
@@ -52,6 +52,7 @@ fn method(words: &[&str]) -> Method {
         mass: MassName::Lumped,
         frame: FrameName::Updated,
         volume: VolumeName::Particle,
+        precision: Precision::Double,
     }
 }
 

@@ -10,3 +10,4 @@ mod locking;
 mod polygons;
 mod predicted_error;
 mod preflight;
+mod single_precision;

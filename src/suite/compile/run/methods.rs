@@ -2,7 +2,7 @@
 
 use crate::fem::Sampling;
 use crate::mpm::{FrameName, MassName, SchemeName, VolumeName};
-use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, Start, is_solver_name};
+use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, Precision, Start, is_solver_name};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{EquationName, MethodSpec};
 use crate::suite::model::method::Method;
@@ -41,9 +41,16 @@ impl MethodDraft {
 /// First word of the names of a method, and its settings in the order of names.
 fn settings(method: &Method) -> (&'static str, Vec<String>) {
     match *method {
-        Method::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
+        Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
             let transfer = transfer.name();
-            let rest = [scheme.name(), start.name(), mass.name(), frame.name(), volume.name()];
+            let rest = [
+                scheme.name(),
+                start.name(),
+                mass.name(),
+                frame.name(),
+                volume.name(),
+                precision.name(),
+            ];
             let mut settings = vec![basis.name().to_owned(), transfer];
             settings.extend(rest.map(ToOwned::to_owned));
             ("mpm", settings)
@@ -78,7 +85,7 @@ pub(crate) fn methods(
                 push(Method::QuasiStatic { basis, load_steps: 1 }, vec![true, true]);
             }
         }
-        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume } => {
+        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
             let Some(transfer) = transfer else {
                 let path = Path::top("methods").then(entry).then("mpm");
                 let diagnostic =
@@ -87,9 +94,16 @@ pub(crate) fn methods(
             };
             let scheme: Vec<SchemeName> =
                 scheme.as_slice().iter().filter_map(|scheme| scheme.explicit()).collect();
-            let (of_frame, of_volume) = (many(frame.as_ref()), many(volume.as_ref()));
-            let said =
-                [true, true, true, many(start.as_ref()), many(mass.as_ref()), of_frame, of_volume];
+            let said = [
+                true,
+                true,
+                true,
+                many(start.as_ref()),
+                many(mass.as_ref()),
+                many(frame.as_ref()),
+                many(volume.as_ref()),
+                many(precision.as_ref()),
+            ];
             let settings = product(
                 &product(&product(basis.as_slice(), transfer.as_slice()), &scheme),
                 &product(
@@ -99,12 +113,18 @@ pub(crate) fn methods(
                     ),
                     &product(
                         &choices(frame.as_ref(), FrameName::Updated),
-                        &choices(volume.as_ref(), VolumeName::Particle),
+                        &product(
+                            &choices(volume.as_ref(), VolumeName::Particle),
+                            &choices(precision.as_ref(), Precision::Double),
+                        ),
                     ),
                 ),
             );
-            for (((basis, transfer), scheme), ((start, mass), (frame, volume))) in settings {
-                let method = Method::Mpm { basis, transfer, scheme, start, mass, frame, volume };
+            for (((basis, transfer), scheme), ((start, mass), (frame, (volume, precision)))) in
+                settings
+            {
+                let method =
+                    Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision };
                 push(method, said.to_vec());
             }
         }
@@ -151,7 +171,8 @@ fn refuse_keys_of_dynamics(
     entry: usize,
     spec: &MethodSpec,
 ) -> Result<(), Diagnostic> {
-    let MethodSpec::Mpm { transfer, scheme, start, mass, frame, volume, .. } = spec else {
+    let MethodSpec::Mpm { basis: _, transfer, scheme, start, mass, frame, volume, precision } = spec
+    else {
         return Ok(());
     };
     let path = Path::top("methods").then(entry).then("mpm");
@@ -166,6 +187,7 @@ fn refuse_keys_of_dynamics(
         ("mass", mass.is_some(), "there is no inertia"),
         ("frame", frame.is_some(), "load steps are updated-Lagrangian"),
         ("volume", volume.is_some(), "the tangent of an averaged volume is not implemented"),
+        ("precision", precision.is_some(), "load steps have double precision"),
     ];
     match refused.into_iter().find(|(_, is_stated, _)| *is_stated) {
         Some((key, _, reason)) => {
@@ -179,7 +201,7 @@ fn refuse_keys_of_dynamics(
 /// Number of methods that an entry unfolds into.
 pub(crate) fn count(spec: &MethodSpec) -> usize {
     let lengths = match spec {
-        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume } => vec![
+        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => vec![
             basis.as_slice().len(),
             length(transfer.as_ref()),
             scheme.as_slice().len(),
@@ -187,6 +209,7 @@ pub(crate) fn count(spec: &MethodSpec) -> usize {
             length(mass.as_ref()),
             length(frame.as_ref()),
             length(volume.as_ref()),
+            length(precision.as_ref()),
         ],
         MethodSpec::Heat { basis } => vec![basis.as_slice().len()],
         MethodSpec::External { .. } => Vec::new(),

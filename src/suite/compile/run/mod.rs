@@ -5,7 +5,9 @@ pub(crate) mod places;
 pub(crate) mod reference;
 pub(crate) mod refine;
 
-use crate::mpm::{FrameName, MassName, combine, combine_across, combine_bodies, combine_volume};
+use crate::mpm::{
+    FrameName, MassName, combine, combine_across, combine_bodies, combine_precision, combine_volume,
+};
 use crate::suite::compile::expect::expectations;
 use crate::suite::compile::truth::{conservation_only, law_of_bar};
 use crate::suite::evaluator::{Evaluator, shown};
@@ -185,11 +187,12 @@ fn combined(
     method: Method,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
-    let Method::Mpm { basis, transfer, mass, frame, start, volume, .. } = method else {
+    let Method::Mpm { basis, transfer, mass, frame, start, volume, precision, .. } = method else {
         return Ok(());
     };
     let mut known = combine(basis, transfer, mass, frame)
-        .and_then(|()| combine_across(plan.scene.plane, basis, transfer));
+        .and_then(|()| combine_across(plan.scene.plane, basis, transfer))
+        .and_then(|()| combine_precision(precision, plan.scene.bodies.len()));
     if plan.scene.bodies.len() > 1 {
         let contact = plan.scene.contact.is_some();
         known = known.and_then(|()| combine_bodies(transfer, mass, frame, start, contact));

@@ -157,6 +157,11 @@ fn drafts(
             return Err(evaluator.diagnostic(&path.then("mpm").then("scheme"), message));
         }
         for draft in methods(evaluator, i, spec, own)? {
+            if draft.method.is_single_precision() {
+                let message = "stability is studied in double precision: small perturbations \
+                               vanish in single precision";
+                return Err(evaluator.diagnostic(&path.then("mpm").then("precision"), message));
+            }
             if let Method::Mpm { basis, transfer, mass, frame, volume, .. } = draft.method {
                 let across = |()| combine_across(plane, basis, transfer);
                 let averaged = |()| {

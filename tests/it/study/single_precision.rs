@@ -1,0 +1,234 @@
+//! The rounding error of our own solver in single precision, compared with its prediction.
+//!
+//! ```console
+//! cargo test --test it rounding_errors_of_suites -- --ignored --nocapture
+//! ```
+//!
+//! The first MPM case of each suite with an exact motion of one body runs in double and in single
+//! precision, on the finest usual level on which no particle changes its cell. The measured error
+//! is the root mean square over particles of the difference of their displacements at the end of
+//! the run. `docs/single-precision.md` derives the prediction and has the table.
+
+use mpm_verify::prelude::{Extent, Suite};
+use mpm_verify::study::{TimeStep, subject, time_steps};
+use mpm_verify::subject::{Precision, Samples};
+use mpm_verify::suite::{Against, ConvergencePlan, Method, embedded};
+use mpm_verify::verify::{NormName, rounding_bound, single_precision_spacing};
+use rayon::prelude::*;
+
+/// Factor to each side of the predicted error.
+const FACTOR: f64 = 7.0;
+
+/// Maximum number of particle steps of a level, so that the test ends in minutes.
+const MOST_WORK: f64 = 1e6;
+
+/// The end of a run.
+struct End {
+    samples: Samples,
+    /// Path of each particle along each axis, particle by particle.
+    paths: Vec<Path>,
+    crossings: u64,
+}
+
+#[derive(Clone, Default)]
+struct Path {
+    /// Largest absolute coordinate (m).
+    reach: f64,
+    /// Length (m).
+    length: f64,
+    /// Largest length of a step (m).
+    longest_step: f64,
+}
+
+fn rms(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0), |(sum, count), x| (sum + x * x, count + 1));
+    (sum / f64::from(count)).sqrt()
+}
+
+fn run(plan: &ConvergencePlan, method: Method, step: &TimeStep) -> Option<End> {
+    let mut subject = subject(plan, method, step.level).ok()?;
+    let mut samples = Samples::default();
+    subject.sample(&mut samples);
+    let mut last = samples.displacement.clone();
+    let mut paths = vec![Path::default(); last.len()];
+    for _ in 0..step.clock.steps {
+        subject.step(step.clock.dt()).ok()?;
+        subject.sample(&mut samples);
+        let now = samples.label.iter().zip(&samples.displacement);
+        for ((path, last), (label, u)) in paths.iter_mut().zip(&last).zip(now) {
+            path.reach = path.reach.max((label + u).abs());
+            path.length += (u - last).abs();
+            path.longest_step = path.longest_step.max((u - last).abs());
+        }
+        last.clone_from(&samples.displacement);
+    }
+    Some(End {
+        samples,
+        paths,
+        crossings: subject.counters().crossings.unwrap_or(0),
+    })
+}
+
+/// Predicted rounding error (m) of a particle on an axis after `steps` steps from `label` to the
+/// displacement `u`, if positions have the given spacing (m).
+fn predict(steps: u64, spacing: f64, path: &Path, label: f64, u: f64) -> f64 {
+    let initial = (label - f64::from(label as f32)).abs();
+    initial
+        + if path.longest_step < 0.5 * spacing {
+            // Each step is lost: the error lies between the displacement and the path.
+            (u.abs() * path.length).sqrt()
+        } else {
+            rounding_bound(steps, spacing, NormName::Rms).min(path.length) / FACTOR
+        }
+}
+
+/// A row of the table: the finest level of a suite without crossings.
+struct Row {
+    suite: String,
+    case: String,
+    cells: u64,
+    steps: u64,
+    predicted: f64,
+    measured: f64,
+}
+
+fn row(suite: &Suite) -> Option<Row> {
+    let plan = suite.plan::<ConvergencePlan>()?;
+    if plan.exact.as_ref().is_none_or(|exact| exact.at_rest) || plan.scene.bodies.len() > 1 {
+        return None;
+    }
+    let case = plan
+        .cases
+        .iter()
+        .find(|case| case.against == Against::Exact && matches!(case.method, Method::Mpm { .. }))?;
+    let mut single = case.method;
+    if let Method::Mpm { precision, .. } = &mut single {
+        *precision = Precision::Single;
+    }
+    let steps = time_steps(suite, Extent::Usual);
+    let mut all: Vec<&TimeStep> = steps.iter().filter(|step| step.case == case.name).collect();
+    all.reverse();
+    let d = plan.scene.dimension();
+    let work = |step: &TimeStep| {
+        let length: f64 = plan
+            .scene
+            .to
+            .iter()
+            .zip(&plan.scene.from)
+            .map(|(a, b)| (a - b).abs() / step.level.h)
+            .product();
+        length * step.level.ppc.unwrap_or(1) as f64 * step.clock.steps as f64
+    };
+    all.iter()
+        .filter(|step| work(step) <= MOST_WORK)
+        .find_map(|step| {
+            let double = run(plan, case.method, step)?;
+            let end = run(plan, single, step)?;
+            if double.crossings > 0 || end.crossings > 0 {
+                return None;
+            }
+            let pairs = double
+                .samples
+                .displacement
+                .iter()
+                .zip(&end.samples.displacement);
+            let measured = rms(pairs.map(|(a, b)| a - b)) * (d as f64).sqrt();
+            let ends = double
+                .samples
+                .label
+                .iter()
+                .zip(&double.samples.displacement);
+            let spacing = |axis: usize| {
+                let paths = double.paths.iter().skip(axis).step_by(d);
+                let reach = paths.fold(0.0_f64, |most, path| most.max(path.reach));
+                single_precision_spacing(reach).unwrap_or(0.0)
+            };
+            let spacings: Vec<f64> = (0..d).map(spacing).collect();
+            let each = double.paths.iter().zip(ends).enumerate();
+            let each = each.map(|(i, (path, (label, u)))| {
+                predict(step.clock.steps, spacings[i % d], path, *label, *u)
+            });
+            let predicted = rms(each) * (d as f64).sqrt();
+            let (suite, case, cells) = (suite.name.clone(), case.name.clone(), step.level.cells);
+            Some(Row {
+                suite,
+                case,
+                cells,
+                steps: step.clock.steps,
+                predicted,
+                measured,
+            })
+        })
+}
+
+/// Number of rows within the predicted range, and of all rows, which are printed.
+pub(crate) fn compare() -> (usize, usize) {
+    let names: Vec<&str> = embedded::names().collect();
+    let load = |name: &&str| Suite::load(&embedded::source(name)?.ok()?).ok();
+    let rows = names
+        .par_iter()
+        .filter_map(load)
+        .filter_map(|suite| row(&suite));
+    let within = |row: Row| {
+        let Row {
+            suite,
+            case,
+            cells,
+            steps,
+            predicted,
+            measured,
+        } = row;
+        let ratio = measured / predicted;
+        println!(
+            "| `{suite}` | {case} | {cells} | {steps} | {predicted:.1e} | {measured:.1e} | \
+             {ratio:.2} |"
+        );
+        (1.0 / FACTOR..=FACTOR).contains(&ratio)
+    };
+    let all: Vec<bool> = rows.map(within).collect();
+    (all.iter().filter(|within| **within).count(), all.len())
+}
+
+#[test]
+#[ignore = "runs many suites twice: a few minutes"]
+fn rounding_errors_of_suites_lie_within_the_predicted_range() {
+    let (within, count) = compare();
+    assert!(
+        count >= 20 && within * 20 >= count * 19,
+        "{within} of {count}"
+    );
+}
+
+/// The state of the particles and nodes, of a bar after three steps.
+#[test]
+fn the_state_has_numbers_of_single_precision_only_if_stated() {
+    let source = embedded::source("single-precision-bar")
+        .expect("a suite")
+        .expect("text");
+    let suite = Suite::load(&source).expect("a suite");
+    let plan = suite
+        .plan::<ConvergencePlan>()
+        .expect("a convergence study");
+    let is_rounded = |index: usize| {
+        let case = &plan.cases[index];
+        let mut subject = subject(plan, case.method, plan.refine.levels[1]).expect("a solver");
+        for _ in 0..3 {
+            subject.step(1e-3).expect("a step");
+        }
+        let fields = subject.fields();
+        let columns = fields
+            .iter()
+            .flat_map(|body| body.of_particles.iter().chain(&body.of_nodes));
+        let names = ["x", "v", "sigma", "F", "V", "velocity", "force"];
+        let values: Vec<f64> = columns
+            .filter(|column| names.contains(&column.name.as_str()))
+            .flat_map(|column| column.numbers.clone())
+            .collect();
+        assert!(values.len() > 100, "{}", values.len());
+        values
+            .iter()
+            .all(|value| f64::from(*value as f32).to_bits() == value.to_bits())
+    };
+    assert!(plan.cases[1].method.is_single_precision());
+    assert_eq!([is_rounded(0), is_rounded(1)], [false, true]);
+}
