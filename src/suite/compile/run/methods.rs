@@ -171,7 +171,8 @@ fn refuse_keys_of_dynamics(
     entry: usize,
     spec: &MethodSpec,
 ) -> Result<(), Diagnostic> {
-    let MethodSpec::Mpm { basis: _, transfer, scheme, start, mass, frame, volume, precision } = spec
+    let MethodSpec::Mpm { basis: _, transfer, scheme, start, mass, frame, volume, precision } =
+        spec
     else {
         return Ok(());
     };
