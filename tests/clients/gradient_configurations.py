@@ -69,9 +69,8 @@ def verdicts(program, suite, client, options):
     command = [program, "run", suite, "--format", "json", "--solver", solver, "--solver-timeout", "600s"]
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     try:
-        suites = json.loads(run.stdout)
-        cases = suites["suites"][0]["cases"] if "suites" in suites else suites["cases"]
-        return {case["name"]: case["verdict"] for case in cases}
+        cases = json.loads(run.stdout)["suites"][0]["cases"]
+        return {case["case"]: case["verdict"] for case in cases}
     except (ValueError, KeyError):
         return {"": f"no result: {(run.stderr or run.stdout).partition(chr(10))[0]}"}
 
