@@ -230,7 +230,7 @@ class Mpm:
         outside = ~np.all((self.s >= 0) & (self.s <= ends), axis=1)
         if outside.any():
             p = np.argmax(outside)
-            raise ArithmeticError(f"particle {p} left the grid, at {self.x[p].tolist()}")
+            raise ArithmeticError(f"particle {p} left the grid, at {part(self.x)[p].tolist()}")
         self.cell = np.minimum(self.s.astype(int), ends - 1)
 
     def weigh(self) -> None:
@@ -357,7 +357,7 @@ class Mpm:
         j = self.vol / self.vol0
         if not j.min() > 0:
             p = np.argmax(~(j > 0))
-            raise ArithmeticError(f"particle {p} is inside out: J = {j[p]}")
+            raise ArithmeticError(f"particle {p} is inside out: J = {part(j)[p]}")
         self.min_j = min(self.min_j, j.min())
 
     def rate(self, step: Array) -> None:

@@ -40,6 +40,8 @@ def configurations(with_jax):
             yield "gradient-bar", "numpy", f"--basis {basis} --scheme {scheme} --start {start} --flip {flip}"
     for suite in ["gradient-bar-crossings", "gradient-wave", "gradient-yield"]:
         for basis, scheme in itertools.product(BASES, ["musl", "usl"]):
+            if (suite, basis, scheme) == ("gradient-bar-crossings", "linear", "usl"):
+                continue  # not sound: the solver fails, also without derivatives
             yield suite, "numpy", f"--basis {basis} --scheme {scheme} --start half_step_back"
     for basis in BASES:
         yield "gradient-sliding-block", "numpy", f"--basis {basis} --scheme usl --start half_step_back"
