@@ -41,7 +41,9 @@ class Dual(np.lib.mixins.NDArrayOperatorsMixin):
             np.multiply: lambda da, db: da * b + a * db,
             np.matmul: lambda da, db: (0 * a + da) @ b + a @ (0 * b + db),
             np.divide: lambda da, db: (da - a / b * db) / b, np.negative: lambda da: -da,
-            np.log: lambda da: da / a}.get(ufunc)
+            np.log: lambda da: da / a, np.exp: lambda da: value * da,
+            np.absolute: lambda da: np.sign(a) * da,
+            np.maximum: lambda da, db: np.where(a > b, da, db)}.get(ufunc)
         if slope is None:  # comparisons and roundings
             return value
         return Dual(value, [slope(*(x.slopes[k] if isinstance(x, Dual) else 0.0 for x in inputs))
@@ -62,7 +64,7 @@ class Dual(np.lib.mixins.NDArrayOperatorsMixin):
             return self[..., 0], np.ones_like(self.value)
         if function in (np.linalg.svd, np.ones_like, np.zeros_like):  # no derivatives in 1-D
             return function(*values, **options)
-        # Functions that are linear in all duals: stack, trace, diff, bincount.
+        # Functions that are linear in all duals: stack, trace, diff, bincount, where.
         return Dual(function(*values, **options),
                     [function(*part(inputs, k), **options) for k in count])
 
@@ -84,6 +86,13 @@ def part(x: Any, k: int | None = None) -> Any:
     if isinstance(x, Dual):
         return x.value if k is None else x.slopes[k]
     return x
+
+
+def replaced(field: Any, nodes: Array, values: Array) -> Any:
+    """A nodal field with other values, without derivatives, at some nodes."""
+    kept, given = np.ones((field.shape[0], 1)), np.zeros(field.shape)
+    kept[nodes], given[nodes] = 0, values
+    return kept * field + given
 
 
 def bsplines(degree: int, s: Array, cell: Array, cells: int, periodic: bool) -> tuple[Array, Array]:
@@ -127,31 +136,45 @@ class Mpm:
                  gradient: bool = False) -> None:
         self.degree, self.scheme, self.flip, self.start = DEGREES[basis], scheme, flip, start
         if gradient:
-            parameters = ["young", "poisson", "density", "initial_velocity"]
-            self.capabilities = {**self.capabilities, "gradients": parameters}
+            own = self.capabilities
+            self.capabilities = {
+                **own, "laws": [*own["laws"], "j2"], "conditions": [*own["conditions"], "friction"],
+                "gradients": ["young", "poisson", "density", "yield", "hardening", "friction",
+                              "initial_velocity"]}
 
     def setup(self, problem: Problem) -> None:
         self.problem, self.d = problem, problem.dimension
         law, parameters = problem.materials[0]["law"], problem.materials[0]["parameters"]
+        if law == "j2" and self.d > 1:
+            raise Cannot("plasticity in one dimension only")
         self.set_moduli(parameters["young"], parameters["poisson"])
+        self.yield_stress, self.hardening = parameters.get("yield"), parameters.get("hardening", 0.0)
         self.update_stress = {"linear_elastic": self.rate, "neo_hookean": self.neo_hookean,
-                              "hencky": self.hencky, "corotated": self.corotated}[law]
+                              "hencky": self.hencky, "corotated": self.corotated,
+                              "j2": self.j2}[law]
         self.x, self.v = problem.position.copy(), problem.velocity.copy()
         self.f, self.sigma = problem.deformation_gradient.copy(), problem.stress.copy()
         self.m, self.vol = problem.mass, problem.volume.copy()
         self.vol0 = self.vol / np.linalg.det(self.f)
+        self.plastic = self.hardened = np.zeros_like(self.vol)
         # With knots repeated at walls, the first and the last function alone do not vanish there.
         self.counts = [n if periodic else n + self.degree
                        for n, periodic in zip(problem.cells, problem.periodic)]
         self.free = np.ones((*self.counts, self.d))
         numbers = np.arange(np.prod(self.counts)).reshape(self.counts)
         places = self.node_places()
-        self.driven = []
+        self.driven, self.rough = [], []
         for face in problem.faces:
             end = (slice(None),) * face["axis"] + (-1 if face["high"] else 0,)
             if face["condition"] == "velocity":
                 nodes = numbers[end].ravel()
                 self.driven.append((face, nodes, places[nodes]))
+            if face["condition"] == "friction":
+                if self.d > 2 or self.scheme != "usl" or self.flip < 1:
+                    raise Cannot("friction up to two dimensions, with USL and FLIP only")
+                at = np.zeros(len(places))
+                at[numbers[end]] = 1
+                self.rough.append([face["values"]["coefficient"], face, at])
             if face["condition"] == "fixed":
                 self.free[end] = 0
             elif face["condition"] == "roller":
@@ -207,7 +230,7 @@ class Mpm:
         outside = ~np.all((self.s >= 0) & (self.s <= ends), axis=1)
         if outside.any():
             p = np.argmax(outside)
-            raise ArithmeticError(f"particle {p} left the grid, at {self.x[p].tolist()}")
+            raise ArithmeticError(f"particle {p} left the grid, at {part(self.x)[p].tolist()}")
         self.cell = np.minimum(self.s.astype(int), ends - 1)
 
     def weigh(self) -> None:
@@ -219,8 +242,10 @@ class Mpm:
             axes.append((np.arange(k)[:, None] + self.cell[:, a], *along))
         nodes, values, gradients = [], [], []
         for offsets in itertools.product(range(k), repeat=self.d):
-            at = [index[r] % count for (index, _, _), r, count in zip(axes, offsets, self.counts)]
-            nodes.append(np.ravel_multi_index(at, self.counts))
+            node = 0
+            for (index, _, _), r, count in zip(axes, offsets, self.counts):
+                node = node * count + index[r] % count
+            nodes.append(node)
             value = [n[r] for (_, n, _), r in zip(axes, offsets)]
             slope = [dn[r] / self.problem.h for (_, _, dn), r in zip(axes, offsets)]
             values.append(math.prod(value))
@@ -251,7 +276,8 @@ class Mpm:
         """Velocities of the nodes (m/s), from those of the particles."""
         field = self.per_mass(self.n[..., None] * (self.m[:, None] * self.v)[:, None])
         for face, nodes, places in self.driven:
-            field[nodes] = self.face_velocity(face, self.velocity_time, places) * self.free[nodes]
+            values = self.face_velocity(face, self.velocity_time, places) * self.free[nodes]
+            field = replaced(field, nodes, values)
         return field
 
     def face_velocity(self, face: Message, t: float, places: Array) -> Array:
@@ -278,8 +304,22 @@ class Mpm:
         for face, nodes, places in self.driven:
             before, after = (self.face_velocity(face, t, places)
                              for t in (self.velocity_time, time + 0.5 * dt))
-            field[nodes] = (after - before) / dt * self.free[nodes]
+            field = replaced(field, nodes, (after - before) / dt * self.free[nodes])
+        for coefficient, face, at in self.rough:
+            field = field + self.reaction(self.velocity() + dt * field, coefficient, face, at) / dt
         return field
+
+    def reaction(self, velocity: Array, coefficient: Any, face: Message, at: Array) -> Array:
+        """Changes of nodal velocities by a wall with friction: it ends the motion into the wall,
+        and slows sliding by at most the coefficient times that change."""
+        inward, change = -1.0 if face["high"] else 1.0, [0.0 * velocity[:, 0]] * self.d
+        stop = np.maximum(-inward * velocity[:, face["axis"]], 0.0) * at
+        change[face["axis"]] = inward * stop
+        for axis in {0, 1}.intersection(range(self.d)) - {face["axis"]}:
+            speed = np.absolute(velocity[:, axis])
+            slowed = np.maximum(speed - coefficient * stop, 0.0)
+            change[axis] = np.sign(velocity[:, axis]) * (slowed - speed)
+        return self.free * np.stack(change, axis=1)
 
     def advance(self, steps: int, dt: float, time: float) -> None:
         for step in range(steps):
@@ -317,7 +357,7 @@ class Mpm:
         j = self.vol / self.vol0
         if not j.min() > 0:
             p = np.argmax(~(j > 0))
-            raise ArithmeticError(f"particle {p} is inside out: J = {j[p]}")
+            raise ArithmeticError(f"particle {p} is inside out: J = {part(j)[p]}")
         self.min_j = min(self.min_j, j.min())
 
     def rate(self, step: Array) -> None:
@@ -340,6 +380,18 @@ class Mpm:
         principal = self.lam * log.sum(axis=1, keepdims=True) + 2 * self.mu * log
         self.kirchhoff(np.einsum("pai,pi,pbi->pab", axes, principal, axes))
 
+    def j2(self, _: Array) -> None:
+        """sigma = (lambda eps + 2 mu (eps - p))/J in uniaxial strain, eps = ln F, with the plastic
+        strain p by radial return: abs(2 mu eps - 3 mu p) <= yield + hardening sum abs(dp)."""
+        log = np.log(self.f[:, 0, 0])
+        trial = 2 * self.mu * log - 3 * self.mu * self.plastic
+        beyond = np.absolute(trial) - (self.yield_stress + self.hardening * self.hardened)
+        flow = np.maximum(beyond, 0.0) / (3 * self.mu + self.hardening)
+        self.plastic = self.plastic + np.sign(trial) * flow
+        self.hardened = self.hardened + flow
+        tau = self.lam * log + 2 * self.mu * (log - self.plastic)
+        self.kirchhoff(tau[:, None, None])
+
     def corotated(self, _: Array) -> None:
         """sigma = (2 mu/J) (F - R) F^T + lambda (J - 1) I, with the rotation R of F."""
         u, _, vt = np.linalg.svd(self.f)
@@ -358,14 +410,18 @@ class Mpm:
     def differentiate(self, of: Message, with_respect_to: list[str], steps: int, dt: float
                       ) -> tuple[float, list[float]]:
         """The functional `of` and its derivatives: all steps on duals."""
-        if self.d > 1:
-            raise Cannot("gradients in one dimension only")
-        if of["functional"] == "position_of" and of["particle"] >= len(self.x):
-            raise Cannot(f"there is no particle {of['particle']}")
+        self.refuse(of)
         self.seed(with_respect_to)
         self.advance(steps, dt, 0.0)
         value = self.functional(of)
         return value.value, value.slopes
+
+    def refuse(self, of: Message) -> None:
+        """Raises `Cannot` if the functional `of` has no derivatives here."""
+        if self.d > 1 and self.update_stress in (self.hencky, self.corotated):
+            raise Cannot("gradients of this law in one dimension only")
+        if of["functional"] == "position_of" and of["particle"] >= len(self.x):
+            raise Cannot(f"there is no particle {of['particle']}")
 
     def seed(self, names: list[str]) -> None:
         """Gives the parameters with these names the derivative 1 with respect to themselves."""
@@ -375,6 +431,11 @@ class Mpm:
         material = self.problem.materials[0]
         young, poisson = material["parameters"]["young"], material["parameters"]["poisson"]
         self.set_moduli(dual(young, "young", 1.0), dual(poisson, "poisson", 1.0))
+        if self.update_stress == self.j2:
+            self.yield_stress = dual(self.yield_stress, "yield", 1.0)
+            self.hardening = dual(self.hardening, "hardening", 1.0)
+        for wall in self.rough:
+            wall[0] = dual(wall[0], "friction", 1.0)
         self.m = dual(self.m, "density", self.m / material["density"])
         self.v = dual(self.v, "initial_velocity", self.v)
         zeros = dual(np.zeros_like(self.x), "", 0.0)
@@ -408,5 +469,5 @@ if __name__ == "__main__":
     parser.add_argument("--flip", type=float, default=1.0, help="share of FLIP; the rest is PIC")
     parser.add_argument("--start", choices=["at_zero", "half_step_back"], default="at_zero",
                         help="time of the first velocity; the latter takes it to -dt/2")
-    parser.add_argument("--gradient", action="store_true", help="derivatives, in 1-D")
+    parser.add_argument("--gradient", action="store_true", help="derivatives; adds J2 plasticity in 1-D and friction")
     serve(Mpm(**vars(parser.parse_args())))

@@ -70,8 +70,8 @@ pub use expectation::{Bounds, CaseFindings, Expectation};
 pub(crate) use figure::each_case_figure;
 pub use figure::{BoundKind, CaseFigure, FigureNeed, RunFigure};
 pub use gradient::{
-    FIRST_LEVEL, GradientLevel, GradientState, GradientStudy, GradientTerms, LAST_LEVEL, Perturbed,
-    Sweep, SweepPoint, Taylor, ValueCheck,
+    FIRST_LEVEL, GradientEntry, GradientEvidence, GradientLevel, GradientState, GradientStudy,
+    GradientTerms, LAST_LEVEL, Perturbed, Sweep, SweepPoint, Taylor, ValueCheck,
 };
 pub use judge_plan::{JudgePlan, LevelSizes};
 pub use order::fit::Interval;

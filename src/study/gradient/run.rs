@@ -3,28 +3,65 @@
 use super::exact;
 use crate::external::{Gradient, GradientError, GradientRequest, LevelProblem, SolverFactory};
 use crate::study::handover::level_problem;
-use crate::study::kind::Progress;
+use crate::study::kind::{Progress, RunContext};
 use crate::subject::{FunctionalValue, GradientParameter, Precision, Samples};
+use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan};
-use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::refine_plan::LevelPlan;
 use crate::verify::{
-    FIRST_LEVEL, GradientLevel, GradientStudy, LAST_LEVEL, Perturbed, Sweep, SweepPoint, Taylor,
-    ValueCheck,
+    FIRST_LEVEL, GradientEntry, GradientEvidence, GradientLevel, GradientStudy, LAST_LEVEL,
+    Perturbed, StudyResults, Sweep, SweepPoint, Taylor, ValueCheck,
 };
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Rounding of a value, in units of the rounding of its largest term.
 const ROUNDING: f64 = 4.0;
 
+/// Share of a parameter by which it is perturbed for the comparison of all entries, as a power of
+/// 1/2.
+const EVIDENCE_LEVEL: u32 = 8;
+
+/// Young's modulus of a run without stress, relative to that of the problem.
+const NO_STRESS: f64 = 1e-9;
+
 /// Runs of one case.
 pub(super) struct GradientRun<'a> {
-    pub(super) suite: &'a str,
+    pub(super) context: RunContext<'a>,
     pub(super) plan: &'a GradientPlan,
     pub(super) case: &'a GradientCase,
     pub(super) solver: &'a dyn SolverFactory,
     /// The parameters of the suite for which the solver has gradients.
     pub(super) request: Vec<GradientParameter>,
-    pub(super) extent: Extent,
+}
+
+/// The result of one run of the solver, as it is kept by `--resume`.
+#[derive(Debug, Default, Serialize, Deserialize)]
+struct Answer {
+    /// Value and rounding of a functional, or value and gradient.
+    numbers: Vec<f64>,
+    /// The reason for which the solver does not support the run.
+    cannot: Option<String>,
+    /// The reason for which the solver broke.
+    failed: Option<String>,
+}
+
+impl Answer {
+    fn of(result: Result<Vec<f64>, GradientError>) -> Self {
+        match result {
+            Ok(numbers) => Self { numbers, ..Self::default() },
+            Err(GradientError::Cannot(reason)) => Self { cannot: Some(reason), ..Self::default() },
+            Err(GradientError::Failed(reason)) => Self { failed: Some(reason), ..Self::default() },
+        }
+    }
+
+    fn numbers(self) -> Result<Vec<f64>, GradientError> {
+        match self {
+            Self { failed: Some(reason), .. } => Err(GradientError::Failed(reason)),
+            Self { cannot: Some(reason), .. } => Err(GradientError::Cannot(reason)),
+            Self { numbers, .. } => Ok(numbers),
+        }
+    }
 }
 
 impl GradientRun<'_> {
@@ -34,7 +71,7 @@ impl GradientRun<'_> {
     /// [`GradientError::Cannot`] if the solver does not support a run, [`GradientError::Failed`]
     /// if it breaks.
     pub(super) fn study(&self, progress: Progress<'_>) -> Result<GradientStudy, GradientError> {
-        let levels = self.plan.problem.refine.levels(self.extent);
+        let levels = self.plan.problem.refine.levels(self.context.extent);
         let on_level = |level: &LevelPlan| {
             let done = self.level(*level);
             progress();
@@ -59,7 +96,7 @@ impl GradientRun<'_> {
             Some(sweep) => self.sweep(&problem, (q, sweep), progress)?,
             None => Vec::new(),
         };
-        Ok(GradientStudy {
+        let mut study = GradientStudy {
             functional: self.plan.of.name(),
             parameter: one.parameter.name(),
             value: ValueCheck {
@@ -71,6 +108,39 @@ impl GradientRun<'_> {
             levels: on_levels.iter().map(|(level, ..)| *level).collect(),
             sweep: Sweep::new(&points, size),
             points,
+            evidence: None,
+        };
+        if study.fails() {
+            study.evidence = Some(self.evidence(&problem)?);
+        }
+        Ok(study)
+    }
+
+    /// Figures of further plain runs, with which a wrong derivative is compared.
+    fn evidence(&self, problem: &LevelProblem) -> Result<GradientEvidence, GradientError> {
+        let Gradient { gradient, .. } = self.gradient(problem.clone())?;
+        let value = |problem: LevelProblem| Ok(self.value(problem)?.value);
+        let entry = |(parameter, reported): (&GradientParameter, f64)| {
+            let q = nominal(problem, *parameter)?;
+            let by = q * libm::exp2(-f64::from(EVIDENCE_LEVEL));
+            let at = |q: f64| value(problem.clone().with_parameter(*parameter, q));
+            let difference = (at(q + by)? - at(q - by)?) / (2.0 * by);
+            Ok(GradientEntry { parameter: parameter.name(), reported, difference })
+        };
+        let entries = self.request.iter().zip(gradient).map(entry);
+        let entries = entries.collect::<Result<Vec<_>, GradientError>>()?;
+        let mut shorter = problem.clone();
+        shorter.steps -= 1;
+        shorter.instants = vec![shorter.steps];
+        let young = GradientParameter::Young;
+        let soft = problem.parameter(young).map(|young| NO_STRESS * young);
+        let soft = soft.map(|soft| problem.clone().with_parameter(young, soft));
+        // A solver may break on either: then there is nothing to compare with.
+        let or_none = |value: Result<f64, GradientError>| value.unwrap_or(f64::NAN);
+        Ok(GradientEvidence {
+            entries,
+            one_step_less: or_none(value(shorter)),
+            without_stress: soft.map_or(f64::NAN, |soft| or_none(value(soft))),
         })
     }
 
@@ -79,7 +149,8 @@ impl GradientRun<'_> {
     }
 
     fn problem(&self, level: LevelPlan) -> Result<LevelProblem, GradientError> {
-        let problem = level_problem(self.suite, &self.plan.problem, &self.case.solver, level);
+        let problem =
+            level_problem(self.context.suite, &self.plan.problem, &self.case.solver, level);
         problem.map_err(GradientError::Cannot)
     }
 
@@ -127,17 +198,60 @@ impl GradientRun<'_> {
 
     fn gradient(&self, problem: LevelProblem) -> Result<Gradient, GradientError> {
         let request = GradientRequest { of: self.plan.of, with_respect_to: self.request.clone() };
-        let gradient = self.solver.gradient(problem, &request)?;
-        if gradient.gradient.len() == self.request.len() {
-            return Ok(gradient);
+        let names: Vec<&str> = self.request.iter().map(|one| one.name()).collect();
+        let numbers = self.kept(&problem, &format!("gradient {}", names.join(" ")), |problem| {
+            let Gradient { value, gradient } = self.solver.gradient(problem, &request)?;
+            Ok(std::iter::once(value).chain(gradient).collect())
+        })?;
+        if let Some((value, gradient)) = numbers.split_first()
+            && gradient.len() == self.request.len()
+        {
+            return Ok(Gradient { value: *value, gradient: gradient.to_vec() });
         }
-        let (found, expected) = (gradient.gradient.len(), self.request.len());
+        let (found, expected) = (numbers.len().saturating_sub(1), self.request.len());
         let reason = format!("gave a gradient of {found} numbers, expected {expected}");
         Err(GradientError::Failed(reason))
     }
 
     /// Value of the functional after a plain run.
     fn value(&self, problem: LevelProblem) -> Result<FunctionalValue, GradientError> {
+        let run = |problem| self.plain_run(problem).map(|done| vec![done.value, done.scale]);
+        match self.kept(&problem, "value", run)?[..] {
+            [value, scale] => Ok(FunctionalValue { value, scale }),
+            _ => Err(GradientError::Failed("has a stored result without a value".to_owned())),
+        }
+    }
+
+    /// The stored result of a run, or that of `run`, which is then stored. `what` states which
+    /// numbers of the problem it has.
+    fn kept(
+        &self,
+        problem: &LevelProblem,
+        what: &str,
+        run: impl FnOnce(LevelProblem) -> Result<Vec<f64>, GradientError>,
+    ) -> Result<Vec<f64>, GradientError> {
+        let run = || Answer::of(run(problem.clone()));
+        if self.context.cache.is_none() {
+            return run().numbers();
+        }
+        // Everything that a parameter changes: numbers of the message, masses and velocities.
+        let numbers = serde_json::to_string(problem)
+            .map_err(|error| GradientError::Failed(error.to_string()))?;
+        let particles = [&problem.particles.mass, &problem.particles.velocity];
+        let bytes = particles.into_iter().flatten().flat_map(|number| number.to_le_bytes());
+        let (numbers, particles) =
+            (fingerprint(numbers.as_bytes()), fingerprint(&bytes.collect::<Vec<u8>>()));
+        let text = self.context.fingerprint;
+        let of = serde_json::to_string(&self.plan.of).unwrap_or_default();
+        let key = format!("{text:016x} {numbers:016x} {particles:016x} {of} {what}");
+        let name = format!("`{what}` of the suite {}", self.context.suite);
+        let broken = |answer: &Answer| answer.cannot.is_some() || answer.failed.is_some();
+        let answer = self.context.cached(&key, &name, broken, || Ok(run()));
+        answer.map_err(GradientError::Failed)?.numbers()
+    }
+
+    /// Value of the functional after a plain run of the solver.
+    fn plain_run(&self, problem: LevelProblem) -> Result<FunctionalValue, GradientError> {
         let (steps, dt) = (problem.steps, problem.dt);
         let mass = problem.particles.mass.clone();
         let mut subject = self.solver.subject(problem).map_err(GradientError::Cannot)?;

@@ -63,8 +63,8 @@ impl CaseRunner for GradientRunner<'_> {
         }
         let all = plan.parameters.iter().map(|one| one.parameter);
         let request = all.filter(|one| has_gradient(solver, *one)).collect();
-        let RunContext { suite, extent, .. } = self.context;
-        let run = GradientRun { suite, plan, case, solver, request, extent };
+        let context = self.context;
+        let run = GradientRun { context, plan, case, solver, request };
         match run.study(progress) {
             Ok(study) => judged(described, case, study),
             // A solver's statement that it cannot do something is not a fault.

@@ -60,6 +60,7 @@ fn refuse_unfit_problem(
     problem: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
     let scene: &Scene = &problem.scene;
+    let (key, truth) = spec.truth();
     let top = |key: &str| Path::top("scene").then(key);
     let refused = [
         (!scene.bodies.is_empty(), top("bodies"), "gradients are those of one body"),
@@ -91,8 +92,8 @@ fn refuse_unfit_problem(
             "a gradient study uses the state at the end of the run only",
         ),
         (
-            spec.exact.displacement.is_none() || spec.exact.temperature.is_some(),
-            Path::top("exact"),
+            !truth.is_some_and(|truth| truth.displacement.is_some() && truth.temperature.is_none()),
+            Path::top(key),
             "the exact solution of a gradient study is a displacement",
         ),
         (
@@ -226,7 +227,7 @@ fn differentiated(
         let message = format!("the initial velocity changes its shape with `{name}`");
         evaluator.diagnostic(path, &message)
     })?;
-    if !motion.starts_at_rest_position() {
+    if spec.equilibrium.is_none() && !motion.starts_at_rest_position() {
         let message = "the body of a gradient study starts undeformed";
         return Err(evaluator.diagnostic_at_key(&Path::top("exact").then("displacement"), message));
     }
@@ -301,10 +302,12 @@ fn motion(
     value: f64,
 ) -> Result<ParametricMotion, Diagnostic> {
     let free = evaluator.with_free(name, &spec.parameters, &spec.functions)?;
-    let path = Path::top("exact").then("displacement");
+    let (key, truth) = spec.truth();
+    let path = Path::top(key).then("displacement");
     let mut variables = coordinates_and_time(problem.scene.dimension());
     variables.push(name);
-    let texts = spec.exact.displacement.iter().flatten().enumerate();
+    let texts = truth.and_then(|truth| truth.displacement.as_ref());
+    let texts = texts.into_iter().flatten().enumerate();
     let formulas = texts.map(|(i, text)| free.formula(&path.then(i), text, &variables));
     Ok(ParametricMotion {
         from: problem.scene.from.clone(),

@@ -34,7 +34,9 @@ pub(crate) struct GradientSpec {
     /// The body, its boundary conditions and its loads.
     pub(crate) scene: SceneSpec,
     /// The solution as formulas, checked before any solver runs.
-    pub(crate) exact: ExactSpec,
+    pub(crate) exact: Option<ExactSpec>,
+    /// The state of rest at the end of the run as formulas of `X`, `Y`, `Z`, in place of `exact`.
+    pub(crate) equilibrium: Option<ExactSpec>,
     /// The derivatives that are verified.
     pub(crate) gradient: DerivativeSpec,
     /// End and time step of a run.
@@ -50,6 +52,14 @@ pub(crate) struct GradientSpec {
 }
 
 impl GradientSpec {
+    /// The key of the stated solution, and the solution if there is one.
+    pub(crate) fn truth(&self) -> (&'static str, Option<&ExactSpec>) {
+        match (&self.exact, &self.equilibrium) {
+            (None, Some(rest)) => ("equilibrium", Some(rest)),
+            (exact, _) => ("exact", exact.as_ref()),
+        }
+    }
+
     /// The convergence study with the same problem and levels, for `methods`. Only the state at the
     /// end of a run is used.
     pub(crate) fn convergence(&self, methods: Vec<MethodSpec>) -> ConvergenceSpec {
@@ -63,9 +73,9 @@ impl GradientSpec {
             parameters: self.parameters.clone(),
             functions: self.functions.clone(),
             scene: self.scene.clone(),
-            exact: Some(self.exact.clone()),
+            exact: self.exact.clone(),
             manufactured: None,
-            equilibrium: None,
+            equilibrium: self.equilibrium.clone(),
             reference: None,
             run,
             refine: self.refine.clone(),

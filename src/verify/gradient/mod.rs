@@ -3,13 +3,16 @@
 //! ```text
 //! taylor   the remainder of a derivative at one value of the parameter
 //! sweep    the derivative over an interval of the parameter
+//! cause    what a wrong derivative looks like
 //! study    all checks of one parameter, and the state of its derivative
 //! ```
 
+mod cause;
 mod study;
 mod sweep;
 mod taylor;
 
+pub use cause::{GradientEntry, GradientEvidence};
 pub use study::{GradientLevel, GradientStudy, GradientTerms, ValueCheck};
 pub use sweep::{Sweep, SweepPoint};
 pub use taylor::{FIRST_LEVEL, LAST_LEVEL, Perturbed, Taylor};

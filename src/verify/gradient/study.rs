@@ -1,6 +1,6 @@
 //! All checks of the derivative with respect to one parameter.
 
-use super::{GradientState, Sweep, SweepPoint, Taylor};
+use super::{GradientEvidence, GradientState, Sweep, SweepPoint, Taylor};
 use crate::verify::StudyResults;
 use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::format_number::format_number;
@@ -70,6 +70,8 @@ pub struct GradientStudy {
     pub sweep: Option<Sweep>,
     /// The points of the sweep.
     pub points: Vec<SweepPoint>,
+    /// Figures of further plain runs, if the derivative is wrong.
+    pub evidence: Option<GradientEvidence>,
 }
 
 impl StudyResults for GradientStudy {
@@ -79,8 +81,18 @@ impl StudyResults for GradientStudy {
 }
 
 impl GradientStudy {
-    /// The state of the derivative, and the figures that lead to it.
+    /// The state of the derivative, and the figures that lead to it, with the cause of a wrong one
+    /// if plain runs show it.
     pub fn state(&self) -> (GradientState, String) {
+        let (state, reason) = self.measured_state();
+        let evidence = self.evidence.as_ref().filter(|_| state == GradientState::Wrong);
+        match evidence.and_then(|evidence| evidence.cause(self.parameter, &self.value)) {
+            Some(cause) => (state, format!("{cause}; {reason}")),
+            None => (state, reason),
+        }
+    }
+
+    fn measured_state(&self) -> (GradientState, String) {
         if !self.value.agrees() {
             let ValueCheck { reported, computed, .. } = self.value;
             let reason = format!(
@@ -206,6 +218,7 @@ mod tests {
             levels: [8, 16, 32].map(level).to_vec(),
             sweep: None,
             points: Vec::new(),
+            evidence: None,
         }
     }
 

@@ -123,8 +123,9 @@ impl Taylor {
             return (GradientState::Smooth, format!("Taylor order 2 on {} levels", longest + 1));
         }
         if agrees && spread <= SPREAD {
-            let reason = "the Taylor remainder has no order, and rounding hides it".to_owned();
-            return (GradientState::AtRounding, reason);
+            let reason = "the Taylor remainder has no order, as that of a function with kinks or \
+                          rounding; the derivative agrees with the central differences";
+            return (GradientState::AtRounding, reason.to_owned());
         }
         (GradientState::Wrong, "the Taylor remainder does not have order 2".to_owned())
     }

@@ -1,0 +1,179 @@
+//! What a wrong derivative looks like, compared with plain runs.
+
+use super::ValueCheck;
+
+/// Largest relative difference between a derivative and the figure that it is compared with.
+const ALIKE: f64 = 1e-3;
+
+/// Share of a central difference below which a derivative counts as zero.
+const ZERO: f64 = 1e-9;
+
+/// One entry of a reported gradient.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GradientEntry {
+    /// Name of the parameter.
+    pub parameter: &'static str,
+    /// The reported derivative.
+    pub reported: f64,
+    /// Central difference of plain runs.
+    pub difference: f64,
+}
+
+impl GradientEntry {
+    fn is_right(&self) -> bool {
+        alike(self.reported, self.difference)
+    }
+
+    fn is_zero(&self) -> bool {
+        self.reported.abs() <= ZERO * self.difference.abs()
+    }
+}
+
+/// Figures of plain runs with which a wrong derivative is compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GradientEvidence {
+    /// All entries of the reported gradient, on the level on which parameters are perturbed.
+    pub entries: Vec<GradientEntry>,
+    /// Value after all steps but the last; NaN if there is none.
+    pub one_step_less: f64,
+    /// Value of a run whose Young's modulus is almost zero; NaN if there is none.
+    pub without_stress: f64,
+}
+
+impl GradientEvidence {
+    /// What the derivative with respect to `parameter` looks like; `None` if it resembles nothing
+    /// that plain runs show. `value` is the check of the reported value.
+    pub fn cause(&self, parameter: &str, value: &ValueCheck) -> Option<String> {
+        if !value.agrees() {
+            let is_earlier = (value.reported - self.one_step_less).abs() <= value.tolerance;
+            return is_earlier.then(|| "the value is that of one step less".to_owned());
+        }
+        let own = self.entries.iter().find(|entry| entry.parameter == parameter)?;
+        if let Some(order) = self.order() {
+            return Some(format!("the entries are in another order: {order}"));
+        }
+        if self.is_without_stress() {
+            let text = "the derivative with respect to the initial velocity is that of a motion \
+                        without stress: derivatives do not pass through the stress";
+            return Some(text.to_owned());
+        }
+        let (velocities, others): (Vec<&GradientEntry>, Vec<&GradientEntry>) =
+            self.entries.iter().partition(|entry| entry.parameter == "initial_velocity");
+        if own.is_zero() && others.iter().all(|entry| entry.is_zero()) {
+            let rest = if velocities.iter().any(|entry| entry.is_right()) {
+                "all derivatives but that of the initial velocity are zero"
+            } else {
+                "the derivatives of the material are zero"
+            };
+            return Some(rest.to_owned());
+        }
+        if own.is_zero() {
+            return Some("the derivative is zero: it misses the dependence entirely".to_owned());
+        }
+        let factor = own.reported / own.difference;
+        let have_factor = |entry: &GradientEntry| alike(entry.reported, factor * entry.difference);
+        let times = format!("{factor:.4} times the central difference");
+        if self.entries.len() > 1 && self.entries.iter().all(have_factor) {
+            return Some(format!("all derivatives have the same factor, {factor:.4}"));
+        }
+        let rest_is_right =
+            self.entries.iter().all(|entry| entry.parameter == parameter || entry.is_right());
+        if parameter == "density" && self.entries.len() > 1 && rest_is_right {
+            return Some(format!(
+                "the derivative is {times}, and those of all other parameters are right: \
+                 derivatives do not pass through all masses"
+            ));
+        }
+        factor.is_finite().then(|| format!("the derivative is {times}"))
+    }
+
+    /// The parameters to which the entries belong, if these are the correct derivatives in another
+    /// order.
+    fn order(&self) -> Option<String> {
+        let mut free: Vec<&GradientEntry> = self.entries.iter().collect();
+        let mut belongs = Vec::new();
+        for entry in &self.entries {
+            let place = free.iter().position(|one| alike(entry.reported, one.difference))?;
+            belongs.push((entry.parameter, free.remove(place).parameter));
+        }
+        let moved: Vec<String> = belongs
+            .iter()
+            .filter(|(entry, of)| entry != of)
+            .map(|(entry, of)| format!("the entry of {entry} is the derivative of {of}"))
+            .collect();
+        (!moved.is_empty()).then(|| moved.join(", "))
+    }
+
+    /// Whether the derivative with respect to the factor on the initial velocity is wrong, and is
+    /// the value of a motion without stress, which is proportional to the factor.
+    fn is_without_stress(&self) -> bool {
+        let velocity = self.entries.iter().find(|entry| entry.parameter == "initial_velocity");
+        velocity
+            .is_some_and(|entry| !entry.is_right() && alike(entry.reported, self.without_stress))
+    }
+}
+
+/// Whether two numbers agree; false if one is NaN.
+fn alike(a: f64, b: f64) -> bool {
+    (a - b).abs() <= ALIKE * b.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RIGHT: ValueCheck = ValueCheck { reported: 3.0, computed: 3.0, tolerance: 1e-12 };
+
+    /// GradientEvidence on the parameters young, density and initial_velocity, whose derivatives are -3.6,
+    /// 3.7 and 3.0.
+    fn evidence(reported: [f64; 3]) -> GradientEvidence {
+        let entry =
+            |(parameter, reported, difference)| GradientEntry { parameter, reported, difference };
+        let [young, density, velocity] = reported;
+        let entries = [
+            ("young", young, -3.6),
+            ("density", density, 3.7),
+            ("initial_velocity", velocity, 3.0),
+        ];
+        let entries = entries.map(entry).to_vec();
+        GradientEvidence { entries, one_step_less: 2.9, without_stress: 5.0 }
+    }
+
+    fn cause(parameter: &str, reported: [f64; 3]) -> String {
+        evidence(reported).cause(parameter, &RIGHT).unwrap_or_default()
+    }
+
+    #[test]
+    fn each_mistake_is_named() {
+        assert_eq!(
+            cause("young", [-7.2, 7.4, 6.0]),
+            "all derivatives have the same factor, 2.0000"
+        );
+        let order = cause("young", [3.7, 3.0, -3.6]);
+        assert!(order.contains("the entry of young is the derivative of density"), "{order}");
+        assert!(cause("young", [0.0, 0.0, 5.0]).contains("do not pass through the stress"));
+        assert!(cause("density", [0.0, 1.0, 5.0]).contains("do not pass through the stress"));
+        assert!(cause("young", [0.0, 0.0, 3.0]).contains("but that of the initial velocity"));
+        assert!(cause("density", [-3.6, 4.1, 3.0]).contains("do not pass through all masses"));
+        assert!(cause("young", [0.0, 3.7, 3.0]).contains("misses the dependence"));
+        assert_eq!(
+            cause("young", [-1.8, 3.7, 3.0]),
+            "the derivative is 0.5000 times the central difference"
+        );
+    }
+
+    #[test]
+    fn a_value_of_an_earlier_time_is_named() {
+        let of = |reported: f64| ValueCheck { reported, ..RIGHT };
+        let all = evidence([-3.6, 3.7, 3.0]);
+        assert!(all.cause("young", &of(2.9)).is_some_and(|text| text.contains("one step less")));
+        assert_eq!(all.cause("young", &of(2.8)), None);
+        assert_eq!(all.cause("young", &of(f64::NAN)), None);
+    }
+
+    #[test]
+    fn a_derivative_that_resembles_nothing_has_no_name() {
+        assert_eq!(cause("young", [f64::NAN, 3.7, 3.0]), "");
+        assert_eq!(cause("yield", [-3.6, 3.7, 3.0]), "");
+    }
+}
