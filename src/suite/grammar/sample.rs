@@ -67,13 +67,11 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("reference", "0"),
     // Methods.
     ("basis", "linear"),
-    ("transfer", "flip"),
     ("scheme", "musl"),
     ("element", "linear"),
     ("mass", "lumped"),
     ("name", "my-solver"),
     // A convergence study.
-    ("until", "1"),
     ("cells", "16"),
     ("dt", "1e-3"),
     ("courant", "0.5"),

