@@ -148,7 +148,8 @@ class Mpm:
         if law == "j2" and self.d > 1:
             raise Cannot("plasticity in one dimension only")
         self.set_moduli(parameters["young"], parameters["poisson"])
-        self.yield_stress, self.hardening = parameters.get("yield"), parameters.get("hardening", 0.0)
+        self.yield_stress = parameters.get("yield")
+        self.hardening = parameters.get("hardening", 0.0)
         self.update_stress = {"linear_elastic": self.rate, "neo_hookean": self.neo_hookean,
                               "hencky": self.hencky, "corotated": self.corotated,
                               "j2": self.j2}[law]
@@ -469,5 +470,5 @@ if __name__ == "__main__":
     parser.add_argument("--flip", type=float, default=1.0, help="share of FLIP; the rest is PIC")
     parser.add_argument("--start", choices=["at_zero", "half_step_back"], default="at_zero",
                         help="time of the first velocity; the latter takes it to -dt/2")
-    parser.add_argument("--gradient", action="store_true", help="derivatives; adds J2 plasticity in 1-D and friction")
+    parser.add_argument("--gradient", action="store_true", help="adds derivatives, J2 and friction")
     serve(Mpm(**vars(parser.parse_args())))
