@@ -72,9 +72,11 @@ impl GradientEvidence {
         }
         let factor = own.reported / own.difference;
         let have_factor = |entry: &GradientEntry| alike(entry.reported, factor * entry.difference);
-        let times = format!("{factor:.4} times the central difference");
+        // A factor close to 1 must not be printed as 1.
+        let digits = if (factor - 1.0).abs() < 0.01 { 9 } else { 4 };
+        let times = format!("{factor:.digits$} times the central difference");
         if self.entries.len() > 1 && self.entries.iter().all(have_factor) {
-            return Some(format!("all derivatives have the same factor, {factor:.4}"));
+            return Some(format!("all derivatives have the same factor, {factor:.digits$}"));
         }
         let rest_is_right =
             self.entries.iter().all(|entry| entry.parameter == parameter || entry.is_right());
@@ -124,8 +126,8 @@ mod tests {
 
     const RIGHT: ValueCheck = ValueCheck { reported: 3.0, computed: 3.0, tolerance: 1e-12 };
 
-    /// GradientEvidence on the parameters young, density and initial_velocity, whose derivatives are -3.6,
-    /// 3.7 and 3.0.
+    /// Reported derivatives with respect to `young`, `density` and `initial_velocity`, which are
+    /// -3.6, 3.7 and 3.0 by central differences.
     fn evidence(reported: [f64; 3]) -> GradientEvidence {
         let entry =
             |(parameter, reported, difference)| GradientEntry { parameter, reported, difference };
@@ -159,6 +161,10 @@ mod tests {
         assert_eq!(
             cause("young", [-1.8, 3.7, 3.0]),
             "the derivative is 0.5000 times the central difference"
+        );
+        assert_eq!(
+            cause("young", [-3.6 * (1.0 - 1e-6), 3.7, 3.0]),
+            "the derivative is 0.999999000 times the central difference"
         );
     }
 

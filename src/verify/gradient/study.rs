@@ -154,8 +154,8 @@ impl GradientTerms {
 
     /// The requirements in one line.
     pub fn summary(&self) -> String {
-        let range = |name: &str, (low, high): (f64, f64)| {
-            format!("{name} {} to {}", format_number(low), format_number(high))
+        let range = |name: &str, range: (f64, f64)| {
+            format!("{name} {} to {}", format_number(range.0), format_number(range.1))
         };
         let state = self.state.map_or("not wrong".to_owned(), |state| state.name().to_owned());
         let order = self.order.map(|order| range("order", order));

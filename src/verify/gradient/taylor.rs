@@ -166,8 +166,8 @@ fn spread(numbers: &[f64]) -> f64 {
 }
 
 /// Whether an order is in a range.
-fn is_in(order: Option<f64>, (low, high): (f64, f64)) -> bool {
-    order.is_some_and(|order| low <= order && order <= high)
+fn is_in(order: Option<f64>, range: (f64, f64)) -> bool {
+    order.is_some_and(|order| range.0 <= order && order <= range.1)
 }
 
 /// Whether the orders of the last levels above rounding are in a range.
