@@ -127,8 +127,8 @@ impl LevelOutcome {
 }
 
 impl Convergence {
-    /// The displacement (m) at the observed place in 1-D that levels are compared with at the end of
-    /// the run; `None` without a place or an exact solution.
+    /// The displacement (m) at the observed place in 1-D that levels are compared with at the end
+    /// of the run; `None` without a place or an exact solution.
     pub fn observed_exact(&self) -> Option<f64> {
         let exact = self.levels.last()?.run.observed_exact.as_deref()?;
         let [u] = exact else { return None };

@@ -235,29 +235,29 @@ impl ObservedLimit {
 }
 
 fn limit_columns() -> [TableColumn<'static, ObservedLimit>; 8] {
-    type Column = TableColumn<'static, ObservedLimit>;
+    type LimitColumn = TableColumn<'static, ObservedLimit>;
     [
-        Column::text("case", "case", |row| row.case.clone()).flush_left(),
-        Column::text("order", "order of the finest three values", |row| {
+        LimitColumn::text("case", "case", |row| row.case.clone()).flush_left(),
+        LimitColumn::text("order", "order of the finest three values", |row| {
             row.estimate().map(|estimate| decimals(2)(estimate.order.value))
         }),
-        Column::text("+-", "half-width of the interval of the order", |row| {
+        LimitColumn::text("+-", "half-width of the interval of the order", |row| {
             row.estimate().map(|estimate| decimals(2)(estimate.order.half_width()))
         }),
-        Column::text("limit of u", "extrapolated value (m)", |row| {
+        LimitColumn::text("limit of u", "extrapolated value (m)", |row| {
             row.estimate().map(|estimate| limit_shown(&estimate))
         }),
-        Column::text("+- (95 %)", "half-width of the interval of the limit (m)", |row| {
+        LimitColumn::text("+- (95 %)", "half-width of the interval of the limit (m)", |row| {
             row.estimate().map(|estimate| short(estimate.limit.half_width()))
         }),
-        Column::text("true error", "distance of the limit from the exact value (m)", |row| {
+        LimitColumn::text("true error", "distance of the limit from the exact value (m)", |row| {
             let exact = row.exact?;
             row.estimate().map(|estimate| short((estimate.limit.value - exact).abs()))
         }),
-        Column::text("covered", "whether the interval contains the exact value", |row| {
+        LimitColumn::text("covered", "whether the interval contains the exact value", |row| {
             row.is_covered.map(|covered| if covered { "yes" } else { "no" })
         }),
-        Column::text("refused", "why there is no limit", |row| {
+        LimitColumn::text("refused", "why there is no limit", |row| {
             row.result.err().map(|refusal| refusal.name())
         })
         .flush_left(),

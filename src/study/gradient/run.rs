@@ -37,7 +37,7 @@ pub(super) struct GradientRun<'a> {
 
 /// The result of one run of the solver, as it is kept by `--resume`.
 #[derive(Debug, Default, Serialize, Deserialize)]
-struct Answer {
+struct CachedAnswer {
     /// Value and rounding of a functional, or value and gradient.
     numbers: Vec<f64>,
     /// The reason for which the solver does not support the run.
@@ -46,7 +46,7 @@ struct Answer {
     failed: Option<String>,
 }
 
-impl Answer {
+impl CachedAnswer {
     fn of(result: Result<Vec<f64>, GradientError>) -> Self {
         match result {
             Ok(numbers) => Self { numbers, ..Self::default() },
@@ -230,7 +230,7 @@ impl GradientRun<'_> {
         what: &str,
         run: impl FnOnce(LevelProblem) -> Result<Vec<f64>, GradientError>,
     ) -> Result<Vec<f64>, GradientError> {
-        let run = || Answer::of(run(problem.clone()));
+        let run = || CachedAnswer::of(run(problem.clone()));
         if self.context.cache.is_none() {
             return run().numbers();
         }
@@ -245,7 +245,7 @@ impl GradientRun<'_> {
         let of = serde_json::to_string(&self.plan.of).unwrap_or_default();
         let key = format!("{text:016x} {numbers:016x} {particles:016x} {of} {what}");
         let name = format!("`{what}` of the suite {}", self.context.suite);
-        let broken = |answer: &Answer| answer.cannot.is_some() || answer.failed.is_some();
+        let broken = |answer: &CachedAnswer| answer.cannot.is_some() || answer.failed.is_some();
         let answer = self.context.cached(&key, &name, broken, || Ok(run()));
         answer.map_err(GradientError::Failed)?.numbers()
     }

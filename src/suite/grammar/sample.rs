@@ -88,7 +88,6 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("critical.to", "2"),
     // A gradient study.
     ("gradient", "{of: {mean_displacement: {axis: 0}}, with_respect_to: {young: E}}"),
-    ("exact", "{equation: corotated, displacement: [\"...\"]}"),
     ("of", "{mean_displacement: {axis: 0}}"),
     ("with_respect_to", "{young: E}"),
     ("axis", "0"),

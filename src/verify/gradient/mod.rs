@@ -3,7 +3,7 @@
 //! ```text
 //! taylor   the remainder of a derivative at one value of the parameter
 //! sweep    the derivative over an interval of the parameter
-//! cause    what a wrong derivative looks like
+//! cause    the probable mistake in a wrong derivative
 //! study    all checks of one parameter, and the state of its derivative
 //! ```
 
@@ -13,7 +13,7 @@ mod sweep;
 mod taylor;
 
 pub use cause::{GradientEntry, GradientEvidence};
-pub use study::{GradientLevel, GradientStudy, GradientTerms, ValueCheck};
+pub use study::{GradientLevel, GradientStudy, GradientTerms};
 pub use sweep::{Sweep, SweepPoint};
 pub use taylor::{FIRST_LEVEL, LAST_LEVEL, Perturbed, Taylor};
 
@@ -32,5 +32,24 @@ named! {
         AtRounding = "at_rounding",
         /// The derivative is not that of the function.
         Wrong = "wrong",
+    }
+}
+
+/// Value of the functional as the solver reports it with the gradient, and as the harness computes
+/// it from the state of a plain run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ValueCheck {
+    /// Value reported with the gradient.
+    pub reported: f64,
+    /// Value computed from the state of a plain run.
+    pub computed: f64,
+    /// Allowed difference.
+    pub tolerance: f64,
+}
+
+impl ValueCheck {
+    /// Whether both values agree.
+    pub fn agrees(&self) -> bool {
+        (self.reported - self.computed).abs() <= self.tolerance
     }
 }

@@ -1,6 +1,6 @@
 //! All checks of the derivative with respect to one parameter.
 
-use super::{GradientEvidence, GradientState, Sweep, SweepPoint, Taylor};
+use super::{GradientEvidence, GradientState, Sweep, SweepPoint, Taylor, ValueCheck};
 use crate::verify::StudyResults;
 use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::format_number::format_number;
@@ -11,25 +11,6 @@ const ORDER: f64 = 0.15;
 
 /// Allowed difference between the order of the finest pair of levels and the formal order.
 const FINEST: f64 = 0.25;
-
-/// Value of the functional as the solver reports it with the gradient, and as the harness computes
-/// it from the state of a plain run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ValueCheck {
-    /// Value reported with the gradient.
-    pub reported: f64,
-    /// Value computed from the state of a plain run.
-    pub computed: f64,
-    /// Allowed difference.
-    pub tolerance: f64,
-}
-
-impl ValueCheck {
-    /// Whether both values agree.
-    pub fn agrees(&self) -> bool {
-        (self.reported - self.computed).abs() <= self.tolerance
-    }
-}
 
 /// One level of refinement.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,11 +4,12 @@
 //! cargo test --test it limits_cover -- --ignored --nocapture    # a few minutes
 //! ```
 //!
-//! Each case runs on its usual levels. Functionals of the final state are displacement, velocity and
-//! temperature, interpolated at three points of the body (and at the observed point of the suite),
-//! component by component. A functional whose exact value is below a millionth of the largest one
-//! of the suite is omitted: it is zero by symmetry, or nothing has reached the point. Suites form
-//! two halves by a hash of their names. The constants of the estimate were chosen on the first half.
+//! Each case runs on its usual levels. Functionals of the final state are displacement, velocity
+//! and temperature, interpolated at three points of the body (and at the observed point of the
+//! suite), component by component. A functional whose exact value is below a millionth of the
+//! largest one of the suite is omitted: it is zero by symmetry, or nothing has reached the point.
+//! Suites form two halves by a hash of their names. The constants of the estimate were chosen on
+//! the first half.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;

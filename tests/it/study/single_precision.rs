@@ -5,9 +5,10 @@
 //! ```
 //!
 //! The first MPM case of each suite with an exact motion of one body runs in double and in single
-//! precision, on the finest usual level on which no particle changes its cell and displacements are large enough. The measured error
-//! is the root mean square over particles of the difference of their displacements at the end of
-//! the run. `docs/single-precision.md` derives the prediction and has the table.
+//! precision, on the finest usual level on which no particle changes its cell and displacements are
+//! large enough. The measured error is the root mean square over particles of the difference of
+//! their displacements at the end of the run. `docs/single-precision.md` derives the prediction and
+//! has the table.
 
 use mpm_verify::prelude::{Extent, Suite};
 use mpm_verify::study::{TimeStep, subject, time_steps};
@@ -19,8 +20,8 @@ use rayon::prelude::*;
 /// Factor to each side of the predicted error, a seventh of its upper end.
 const FACTOR: f64 = 7.0;
 
-/// Minimum RMS displacement, over the upper end of its rounding error: below it, steps are too short
-/// to be represented, and the error has no lower end.
+/// Minimum RMS displacement, over the upper end of its rounding error: below it, steps are too
+/// short to be represented, and the error has no lower end.
 const LEAST_SIZE: f64 = 20.0;
 
 /// Maximum number of particle steps of a level, so that the test ends in minutes.

@@ -81,7 +81,8 @@ pub(super) fn shared(study: &str, key: &str) -> String {
     let key = key.replace("scene.bodies.", "scene.");
     let first = key.split('.').next().unwrap_or(&key);
     // A gradient study has the problem and the levels of a convergence study.
-    let is_of_convergence = study == "gradient" && ["exact", "run", "refine"].contains(&first);
+    let is_of_convergence =
+        study == "gradient" && ["exact", "equilibrium", "run", "refine"].contains(&first);
     let is_of_all = is_of_convergence || ["scene", "methods", "study"].contains(&first);
     if study == "convergence" || is_of_all || key.starts_with(study) {
         return key;

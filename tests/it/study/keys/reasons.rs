@@ -51,7 +51,6 @@ const REASONS: &[(&str, &str)] = &[
     ("equilibrium.equation: log_strain", "refused: a law of the FEM bar only"),
     ("exact.equation: log_strain", "refused: a law of the FEM bar only"),
     ("judge.crossing_levels: counted", "the default"),
-    ("methods: external", "only for external solvers: tests/it/external"),
     ("methods.external.precision: double", "only for external solvers: tests/it/external"),
     ("methods.external.precision: single", "only for external solvers: tests/it/external"),
     ("methods.fem.law: corotated", "refused: the reference FEM does not have this law"),
