@@ -124,7 +124,9 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
     // A program may omit zeros at the end: the value with the most digits shows the precision.
     let units = lines.iter().map(|line| line.point.resolution);
     let unit = units.fold(f64::INFINITY, f64::min);
-    lines.iter_mut().for_each(|line| line.point.resolution = unit);
+    for line in &mut lines {
+        line.point.resolution = unit;
+    }
     Ok(lines)
 }
 
@@ -172,7 +174,8 @@ fn as_text(series: &[SeriesPoint], result: &Result<LimitEstimate, EstimateRefusa
         }
         Err(refusal) => rows.push(("refused", refusal.to_string())),
     }
-    rows.iter().map(|(key, value)| format!("  {key:<8} {value}\n")).collect()
+    let rows = rows.iter().map(|(key, value)| format!("  {key:<8} {value}"));
+    rows.collect::<Vec<_>>().join("\n") + "\n"
 }
 
 /// The interval to two digits of its half-width: `1.2346 +- 0.0012 [1.2334, 1.2358]`.

@@ -15,6 +15,15 @@ use super::verdict::floor::Floor;
 use super::verdict::judge::Judgement;
 use super::verdict::name::Verdict;
 
+/// Kind of the steps of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepKind {
+    /// Steps in time.
+    Time,
+    /// Load steps, without time.
+    Load,
+}
+
 /// Results of a convergence study.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -34,8 +43,8 @@ pub struct Convergence {
     pub error_scale: ErrorScale,
     /// Whether errors are measured against an exact solution or a reference.
     pub compared: bool,
-    /// Whether the steps are load steps, without time.
-    pub by_load_steps: bool,
+    /// Kind of the steps.
+    pub steps: StepKind,
     /// Whether the case has bounds on figures only: then it has no expected order, and every usable
     /// level counts.
     pub bounded: bool,
@@ -215,7 +224,7 @@ pub(in crate::verify) mod tests {
             scale: None,
             error_scale: ErrorScale { problem: String::new(), size: 1.0, growth: 2.0 },
             compared: true,
-            by_load_steps: false,
+            steps: StepKind::Time,
             bounded: false,
             accepted: None,
             drifts: Vec::new(),

@@ -44,7 +44,7 @@ pub(crate) mod verdict;
 
 pub use case::{CaseJudgement, judge_case};
 pub use conservation::{ConservationError, Conserved};
-pub use convergence::{Convergence, LevelOutcome};
+pub use convergence::{Convergence, LevelOutcome, StepKind};
 pub use cost::{
     Agreement, BestCandidate, ConvergingPart, End, Exponent, Machine, MethodCost, Model,
     PredictedError, Ranked, Ranking, Reach, Sample, TARGETS, TimedSuite, Timing, Unpredicted,

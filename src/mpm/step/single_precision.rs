@@ -142,11 +142,15 @@ fn round_particles<const D: usize>(particles: &mut Particles<D>) {
 }
 
 fn round_vectors<const D: usize>(column: &mut [Vector<D>]) {
-    column.iter_mut().for_each(|vector| round(vector.as_mut_slice()));
+    for vector in column {
+        round(vector.as_mut_slice());
+    }
 }
 
 fn round_matrices<const D: usize>(column: &mut [Matrix<D>]) {
-    column.iter_mut().for_each(|matrix| round(matrix.as_mut_slice()));
+    for matrix in column {
+        round(matrix.as_mut_slice());
+    }
 }
 
 /// Rounds each number to the nearest one in single precision.

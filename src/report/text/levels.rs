@@ -7,7 +7,7 @@ use crate::report::columns::level::{LevelColumn, LevelRow, NamedStudy};
 use crate::report::columns::{TableColumn, decimals, level, short};
 use crate::report::grouping::{distinct, grouped};
 use crate::verify::{
-    Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, format_number,
+    Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, StepKind, format_number,
 };
 
 /// Errors with their orders, figures of the finest levels, drifts, rates and limits.
@@ -59,12 +59,12 @@ fn setting(study: &Convergence) -> String {
         of_axis(Axis::Space, count("cells", &|level| Some(level.cells.to_string()))),
         span(&|level| Some(format_number(level.h))).map(|h| format!("h = {h} m")),
         of_axis(Axis::Time, span(&|level| Some(format_number(level.dt))))
-            .filter(|_| !study.by_load_steps)
+            .filter(|_| study.steps == StepKind::Time)
             .map(|dt| format!("dt = {dt} s")),
         of_axis(Axis::Particles, count("per cell", &|level| level.ppc.map(|ppc| ppc.to_string()))),
         count("particles", &|level| level.run.counters.particles.map(|count| count.to_string())),
         span(&|level| Some(level.run.steps.to_string())).map(|steps| {
-            if study.by_load_steps {
+            if study.steps == StepKind::Load {
                 format!("load steps: {steps}")
             } else {
                 format!("{steps} steps")
@@ -258,7 +258,7 @@ fn limit_columns() -> [TableColumn<'static, ObservedLimit>; 8] {
             row.is_covered.map(|covered| if covered { "yes" } else { "no" })
         }),
         LimitColumn::text("refused", "why there is no limit", |row| {
-            row.result.err().map(|refusal| refusal.name())
+            row.result.err().map(EstimateRefusal::name)
         })
         .flush_left(),
     ]

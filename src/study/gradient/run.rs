@@ -83,7 +83,7 @@ impl GradientRun<'_> {
         let problem = self.problem(levels[examined])?;
         let one = self.parameter();
         let q = nominal(&problem, one.parameter)?;
-        let plain = self.value(problem.clone())?;
+        let plain = self.value(&problem)?;
         let (_, reported, partial) = &on_levels[examined];
         let size = self.rounding() * plain.scale;
         let taylor = Taylor {
@@ -118,8 +118,8 @@ impl GradientRun<'_> {
 
     /// Figures of further plain runs, with which a wrong derivative is compared.
     fn evidence(&self, problem: &LevelProblem) -> Result<GradientEvidence, GradientError> {
-        let Gradient { gradient, .. } = self.gradient(problem.clone())?;
-        let value = |problem: LevelProblem| Ok(self.value(problem)?.value);
+        let Gradient { gradient, .. } = self.gradient(problem)?;
+        let value = |problem: LevelProblem| Ok(self.value(&problem)?.value);
         let entry = |(parameter, reported): (&GradientParameter, f64)| {
             let q = nominal(problem, *parameter)?;
             let by = q * libm::exp2(-f64::from(EVIDENCE_LEVEL));
@@ -178,7 +178,7 @@ impl GradientRun<'_> {
         let (problem, one) = (self.problem(level)?, self.parameter());
         let exact = exact::derivative(self.plan, one, &problem);
         let dt = problem.dt;
-        let Gradient { value, gradient } = self.gradient(problem)?;
+        let Gradient { value, gradient } = self.gradient(&problem)?;
         let of = |parameter: GradientParameter| {
             let index = self.request.iter().position(|known| *known == parameter);
             index.and_then(|index| gradient.get(index)).copied()
@@ -196,10 +196,10 @@ impl GradientRun<'_> {
         Ok((GradientLevel { cells, h, dt, gradient: total, exact }, value, partial))
     }
 
-    fn gradient(&self, problem: LevelProblem) -> Result<Gradient, GradientError> {
+    fn gradient(&self, problem: &LevelProblem) -> Result<Gradient, GradientError> {
         let request = GradientRequest { of: self.plan.of, with_respect_to: self.request.clone() };
         let names: Vec<&str> = self.request.iter().map(|one| one.name()).collect();
-        let numbers = self.kept(&problem, &format!("gradient {}", names.join(" ")), |problem| {
+        let numbers = self.kept(problem, &format!("gradient {}", names.join(" ")), |problem| {
             let Gradient { value, gradient } = self.solver.gradient(problem, &request)?;
             Ok(std::iter::once(value).chain(gradient).collect())
         })?;
@@ -214,9 +214,9 @@ impl GradientRun<'_> {
     }
 
     /// Value of the functional after a plain run.
-    fn value(&self, problem: LevelProblem) -> Result<FunctionalValue, GradientError> {
+    fn value(&self, problem: &LevelProblem) -> Result<FunctionalValue, GradientError> {
         let run = |problem| self.plain_run(problem).map(|done| vec![done.value, done.scale]);
-        match self.kept(&problem, "value", run)?[..] {
+        match self.kept(problem, "value", run)?[..] {
             [value, scale] => Ok(FunctionalValue { value, scale }),
             _ => Err(GradientError::Failed("has a stored result without a value".to_owned())),
         }
@@ -275,7 +275,7 @@ impl GradientRun<'_> {
         progress: Progress<'_>,
     ) -> Result<Vec<Perturbed>, GradientError> {
         let parameter = self.parameter().parameter;
-        let value = |q: f64| Ok(self.value(problem.clone().with_parameter(parameter, q))?.value);
+        let value = |q: f64| Ok(self.value(&problem.clone().with_parameter(parameter, q))?.value);
         let perturbed = |level: u32| {
             let by = q * libm::exp2(-f64::from(level));
             let (above, below) = (value(q + by)?, value(q - by)?);
@@ -297,7 +297,7 @@ impl GradientRun<'_> {
             let share = 2.0 * k as f64 / (sweep.points - 1) as f64 - 1.0;
             let at = q * (1.0 + sweep.within * share);
             let Gradient { value, gradient } =
-                self.gradient(problem.clone().with_parameter(sweep.parameter, at))?;
+                self.gradient(&problem.clone().with_parameter(sweep.parameter, at))?;
             progress();
             Ok(SweepPoint { at, value, gradient: gradient[index] })
         };
