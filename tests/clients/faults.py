@@ -810,7 +810,7 @@ GRID = [
           "Limits node numbers to the last node instead of wrapping them.",
           "the periodic face is not closed",
           [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
-          {"at = [index[r] % count for": "at = [np.minimum(index[r], count - 1) for"}),
+          {"node * count + index[r] % count": "node * count + np.minimum(index[r], count - 1)"}),
 ]
 
 TIME = [
