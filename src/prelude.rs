@@ -5,7 +5,9 @@ pub use crate::external::{
     ProblemMaterial, ProblemNeeds, ProblemParticles, SolverFactory,
 };
 pub use crate::study::{Runner, under};
-pub use crate::subject::{Checkpoint, Failure, Memory, RunCounters, Samples, Subject, Totals};
+pub use crate::subject::{
+    Checkpoint, Failure, Memory, RunCounters, Samples, Subject, SubjectError, Totals,
+};
 pub use crate::suite::yaml::{Diagnostic, Source};
 pub use crate::suite::{Extent, Suite};
 #[cfg(feature = "testing")]

@@ -35,7 +35,7 @@ impl SolverFactory for OwnSolver {
         Capabilities::of(&[1], &["linear_elastic"], &["free", "fixed"], &[]).lacking(needs)
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         let (grid, start, faces) = (problem.grid, problem.particles, problem.faces);
         let is_held = |name| faces.iter().any(|f| f.name == name && f.condition == "fixed");
         let [young, nu] = ["young", "poisson"].map(|key| problem.materials[0].parameter(key));

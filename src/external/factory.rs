@@ -3,7 +3,7 @@
 use super::capabilities::ProblemNeeds;
 use super::gradient::{Gradient, GradientError, GradientRequest};
 use super::problem::LevelProblem;
-use crate::subject::{Precision, Subject};
+use crate::subject::{Precision, Subject, SubjectError};
 
 /// A solver that can be put on every level of a suite.
 pub trait SolverFactory: Sync {
@@ -41,9 +41,9 @@ pub trait SolverFactory: Sync {
     /// particles, or its own sample points.
     ///
     /// # Errors
-    /// One line with the reason why the solver refuses the problem; the case is then not
+    /// [`SubjectError::Unsupported`] if the solver refuses the problem; the case is then not
     /// applicable. A solver with an error returns a subject whose first step fails.
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String>;
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError>;
 
     /// The value of a functional after all steps of `problem`, and its gradient. The default is
     /// that of a solver that is not differentiable.

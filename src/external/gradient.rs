@@ -2,7 +2,7 @@
 
 use super::fields::{FieldError, FieldName, FieldPlaces, FieldSource, HandedNumber, ProblemFields};
 use super::problem::LevelProblem;
-use crate::subject::{Functional, FunctionalValue, GradientParameter, Samples};
+use crate::subject::{Functional, FunctionalValue, GradientParameter, Samples, SubjectError};
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -34,6 +34,15 @@ pub enum GradientError {
     /// The solver broke: one line.
     #[error("{0}")]
     Failed(String),
+}
+
+impl From<SubjectError> for GradientError {
+    fn from(error: SubjectError) -> Self {
+        match error {
+            SubjectError::Unsupported(reason) => Self::Cannot(reason),
+            SubjectError::Failed(failure) => Self::Failed(failure.to_string()),
+        }
+    }
 }
 
 impl LevelProblem {

@@ -6,6 +6,7 @@
 //! text is never used, and a resumed run prints the same bytes as an uninterrupted one. Files are
 //! written atomically, by renaming.
 
+use crate::subject::SubjectError;
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::yaml::{read_again, written};
 use serde::Serialize;
@@ -27,7 +28,7 @@ pub struct ResultCache {
     others: Vec<PathBuf>,
     program: u64,
     /// The first result that could not be written, and why.
-    first_error: OnceLock<String>,
+    first_error: OnceLock<io::Error>,
 }
 
 impl ResultCache {
@@ -62,14 +63,14 @@ impl ResultCache {
         &self,
         key: &str,
         name: &str,
-        run: impl FnOnce() -> Result<T, String>,
-    ) -> Result<T, String> {
+        run: impl FnOnce() -> Result<T, SubjectError>,
+    ) -> Result<T, SubjectError> {
         let key = format!("{:016x} {key}", self.program);
         let file = format!("{:016x}.level", fingerprint(key.as_bytes()));
         if !self.others.is_empty() {
             let texts = self.others.iter().map(|folder| fs::read_to_string(folder.join(&file)));
             let found = texts.flatten().find_map(|text| read(&text, &key));
-            return found.ok_or_else(|| format!("no folder has the result of {name}"));
+            return found.ok_or_else(|| format!("no folder has the result of {name}").into());
         }
         let path = self.folder.join(file);
         if let Some(known) = fs::read_to_string(&path).ok().and_then(|text| read(&text, &key)) {
@@ -88,14 +89,14 @@ impl ResultCache {
     }
 }
 
-fn save(path: &Path, key: &str, level: &impl Serialize) -> Result<(), String> {
+fn save(path: &Path, key: &str, level: &impl Serialize) -> io::Result<()> {
     let unfinished = path.with_extension(format!("{}", std::process::id()));
-    write_whole(path, &unfinished, text(key, level)?.as_bytes()).map_err(|error| error.to_string())
+    write_whole(path, &unfinished, text(key, level)?.as_bytes())
 }
 
 /// The text of a file.
-fn text(key: &str, level: &impl Serialize) -> Result<String, String> {
-    Ok(format!("# {key}\n{}{END}", written(level)?))
+fn text(key: &str, level: &impl Serialize) -> io::Result<String> {
+    Ok(format!("# {key}\n{}{END}", written(level).map_err(io::Error::other)?))
 }
 
 /// Writes a file atomically, also if the machine stops: the bytes are written to `unfinished`,

@@ -3,9 +3,10 @@
 use super::cache::ResultCache;
 use super::describe::profiles::Dispensable;
 use super::describe::statement::{Rows, head};
+use super::time_series::SeriesError;
 use crate::exact::Truth;
 use crate::external::{ProblemNeeds, SolverFactory};
-use crate::subject::{Profile, Subject};
+use crate::subject::{Profile, Subject, SubjectError};
 use crate::suite::model::gradient::GradientPlan;
 use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::stability::StabilityPlan;
@@ -66,7 +67,7 @@ pub(crate) struct ShownRun<'a> {
 }
 
 /// Callback that shows a run.
-pub(crate) type ShowRun<'a> = &'a mut dyn FnMut(ShownRun<'_>) -> Result<(), String>;
+pub(crate) type ShowRun<'a> = &'a mut dyn FnMut(ShownRun<'_>) -> Result<(), SeriesError>;
 
 /// Runs the cases of one study.
 pub(crate) trait CaseRunner: Send + Sync {
@@ -83,8 +84,8 @@ pub(crate) trait CaseRunner: Send + Sync {
     ///
     /// # Errors
     /// The errors of `then`, or one line with the reason why there is no such run.
-    fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), String> {
-        Err("its study has no runs to be shown".to_owned())
+    fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), SeriesError> {
+        Err("its study has no runs to be shown".into())
     }
 
     /// Runs the case with this index.
@@ -117,8 +118,8 @@ impl RunContext<'_> {
         key: &str,
         name: &str,
         broken: impl FnOnce(&T) -> bool,
-        run: impl FnOnce() -> Result<T, String>,
-    ) -> Result<T, String> {
+        run: impl FnOnce() -> Result<T, SubjectError>,
+    ) -> Result<T, SubjectError> {
         let Some(cache) = self.cache else { return run() };
         let solver = match self.solver.map(SolverFactory::identity) {
             None => String::new(),
@@ -133,7 +134,7 @@ impl RunContext<'_> {
                 return Ok(result);
             }
             uncached = Some(result);
-            Err(String::new())
+            Err(SubjectError::Unsupported(String::new()))
         };
         let result = cache.level(&format!("{key}{solver}"), name, run);
         uncached.map_or(result, Ok)

@@ -45,4 +45,4 @@ pub use runner::Runner;
 pub use setup::body::effects;
 pub use setup::dispatch::subject;
 pub use shard::{Shard, ShardError};
-pub use time_series::SeriesFile;
+pub use time_series::{SeriesError, SeriesFile};

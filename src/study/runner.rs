@@ -4,11 +4,13 @@ use super::cache::ResultCache;
 use super::kind::{CaseRunner, Progress, RunContext, StepWarning, statement, study};
 use super::time_series::{SeriesFile, time_series};
 use crate::external::SolverFactory;
+use crate::study::time_series::SeriesError;
 use crate::suite::model::Suite;
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::model::refine_plan::Extent;
 use crate::verify::{CaseOutcome, SuiteOutcome};
 use rayon::prelude::*;
+use std::io;
 
 /// Runs cases of one suite.
 pub struct Runner<'a> {
@@ -95,12 +97,12 @@ impl<'a> Runner<'a> {
     /// ParaView: on the first level (or row) that failed or grew in `outcome`, or on the finest.
     ///
     /// # Errors
-    /// The errors of `write`, or one line with the reason why the case has no run to write.
+    /// [`SeriesError`] if the case has no run to write, or `write` gives an error.
     pub fn time_series(
         &self,
         outcome: &CaseOutcome,
-        write: &mut dyn FnMut(SeriesFile) -> Result<(), String>,
-    ) -> Result<(), String> {
+        write: &mut dyn FnMut(&SeriesFile) -> io::Result<()>,
+    ) -> Result<(), SeriesError> {
         let known = self.suite.case_names().into_iter().position(|name| name == outcome.case);
         let index = known.ok_or("there is no such case")?;
         let name = format!("{}/{}", self.suite.name, outcome.case);

@@ -3,9 +3,11 @@
 
 use super::kind::ShownRun;
 use crate::exact::Truth;
-use crate::subject::{BodyFields, Samples, StateField, Subject};
+use crate::subject::{BodyFields, Samples, StateField, Subject, SubjectError};
 use crate::verify::{Quantity, is_instant};
 use crate::vtk;
+use std::io;
+use thiserror::Error;
 
 /// Maximum number of instants of a series, in addition to its start.
 const INSTANTS: u64 = 20;
@@ -20,24 +22,51 @@ pub struct SeriesFile {
     pub bytes: Vec<u8>,
 }
 
+/// Reason why the time series of a case was not written, or not completely.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SeriesError {
+    /// The case has no run to write.
+    #[error(transparent)]
+    NoRun(#[from] SubjectError),
+    /// A file could not be written.
+    #[error("{path}: {error}")]
+    Write {
+        /// Path below the folder of all series.
+        path: String,
+        /// Error of the system.
+        error: io::Error,
+    },
+}
+
+impl From<&str> for SeriesError {
+    fn from(reason: &str) -> Self {
+        Self::NoRun(reason.into())
+    }
+}
+
 /// Runs `run` to its end, or until it fails, and writes its state at the start, at up to
 /// [`INSTANTS`] instants and at a failure; the list of the files, named `NAME.RUN.pvd`, comes last.
 ///
 /// # Errors
-/// The errors of `write`.
+/// [`SeriesError::Write`] with the first error of `write`.
 pub(super) fn time_series(
     name: &str,
     run: ShownRun<'_>,
-    write: &mut dyn FnMut(SeriesFile) -> Result<(), String>,
-) -> Result<(), String> {
+    write: &mut dyn FnMut(&SeriesFile) -> io::Result<()>,
+) -> Result<(), SeriesError> {
     let ShownRun { name: level, mut subject, dt, steps, truth } = run;
     let name = format!("{name}.{}", file_name(&level));
     let folder = name.rsplit('/').next().unwrap_or(&name).to_owned();
     let mut listed: Vec<(f64, usize, String)> = Vec::new();
-    let mut frame = |subject: &dyn Subject, number: u64, t: f64| -> Result<(), String> {
+    let mut write = |path: String, bytes: Vec<u8>| {
+        let file = SeriesFile { path, bytes };
+        write(&file).map_err(|error| SeriesError::Write { path: file.path, error })
+    };
+    let mut frame = |subject: &dyn Subject, number: u64, t: f64| -> Result<(), SeriesError> {
         for (part, (file, bytes)) in files(subject, truth, t).into_iter().enumerate() {
             let file = file.replace('#', &format!("{number:04}"));
-            write(SeriesFile { path: format!("{name}/{file}"), bytes })?;
+            write(format!("{name}/{file}"), bytes)?;
             listed.push((t, part, format!("{folder}/{file}")));
         }
         Ok(())
@@ -59,7 +88,7 @@ pub(super) fn time_series(
         }
     }
     let list = vtk::series(&listed);
-    write(SeriesFile { path: format!("{name}.pvd"), bytes: list.into_bytes() })
+    write(format!("{name}.pvd"), list.into_bytes())
 }
 
 /// The files of one instant, with `#` for its number: for each body the particles, then the grid.

@@ -257,6 +257,31 @@ pub enum Failure {
     External(String),
 }
 
+/// Reason why a problem has no run.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SubjectError {
+    /// The solver does not support the problem, or there is no such problem: one line with the
+    /// reason.
+    #[error("{0}")]
+    Unsupported(String),
+    /// The solver failed before its first step.
+    #[error(transparent)]
+    Failed(#[from] Failure),
+}
+
+impl From<String> for SubjectError {
+    fn from(reason: String) -> Self {
+        Self::Unsupported(reason)
+    }
+}
+
+impl From<&str> for SubjectError {
+    fn from(reason: &str) -> Self {
+        Self::Unsupported(reason.to_owned())
+    }
+}
+
 /// Sums over the particles p that are conserved in a motion without external forces; components
 /// beyond the dimension are zero.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]

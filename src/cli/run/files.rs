@@ -7,7 +7,7 @@ use crate::cli::output;
 use crate::cli::status::CommandError;
 use mpm_verify::report::{self, page};
 use mpm_verify::study::describe::sketch::sketch_svg;
-use mpm_verify::study::{Runner, SeriesFile};
+use mpm_verify::study::{Runner, SeriesError, SeriesFile};
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::{CaseOutcome, SuiteOutcome};
@@ -119,23 +119,18 @@ impl Series {
     ) -> Result<(), CommandError> {
         let is_shown = |case: &&CaseOutcome| self.all || !case.passed();
         for case in outcome.cases.iter().filter(is_shown) {
-            let mut failure = None;
-            let mut last = String::new();
-            let found = runner.time_series(case, &mut |file| {
-                let path = self.folder.join(&file.path);
-                last.clone_from(&file.path);
-                save(&path, &file).map_err(|error| {
-                    failure = Some(unwritable("--vtu", &path, &error));
-                    String::new()
-                })
+            let mut last = self.folder.clone();
+            let result = runner.time_series(case, &mut |file| {
+                last = self.folder.join(&file.path);
+                save(&last, file)
             });
-            if let Some(error) = failure {
-                return Err(error);
-            }
             let name = format!("{}::{}", outcome.suite, case.case);
-            let note = match found {
-                Ok(()) => format!("note: {name}: {}", self.folder.join(&last).display()),
-                Err(why) => format!("note: {name}: nothing to show: {why}"),
+            let note = match result {
+                Ok(()) => format!("note: {name}: {}", last.display()),
+                Err(SeriesError::Write { path, error }) => {
+                    return Err(unwritable("--vtu", &self.folder.join(path), &error));
+                }
+                Err(reason) => format!("note: {name}: nothing to show: {reason}"),
             };
             bar.suspend(|| output::complain(&note));
         }

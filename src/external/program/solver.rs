@@ -11,7 +11,7 @@ use crate::external::factory::SolverFactory;
 use crate::external::gradient::{Gradient, GradientError, GradientRequest};
 use crate::external::problem::LevelProblem;
 use crate::subject::{
-    Failure, HIGHEST_ORDER, Precision, RunCounters, Samples, Subject, is_solver_name,
+    Failure, HIGHEST_ORDER, Precision, RunCounters, Samples, Subject, SubjectError, is_solver_name,
 };
 use serde_json::json;
 use std::fs;
@@ -199,10 +199,10 @@ impl SolverFactory for SolverProgram {
         lacking
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         match self.start(&problem) {
             Ok(subject) => Ok(Box::new(subject)),
-            Err(ProgramError::Refused(reason)) => Err(reason),
+            Err(ProgramError::Refused(reason)) => Err(SubjectError::Unsupported(reason)),
             Err(error) => Ok(Box::new(Broken(error.to_string()))),
         }
     }

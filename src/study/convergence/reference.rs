@@ -16,7 +16,7 @@ use crate::exact::Truth;
 use crate::fem::Bar;
 use crate::study::setup::bar::{bar, reference_method};
 use crate::study::setup::dispatch::subject;
-use crate::subject::{Precision, Samples, Start, Subject};
+use crate::subject::{Precision, Samples, Start, Subject, SubjectError};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan};
@@ -39,7 +39,7 @@ impl Reference {
     ///
     /// # Errors
     /// One line with the reason why it could not be computed.
-    pub(crate) fn compute(plan: &ConvergencePlan, until: f64) -> Result<Self, String> {
+    pub(crate) fn compute(plan: &ConvergencePlan, until: f64) -> Result<Self, SubjectError> {
         let fine = plan.reference.as_ref().ok_or("the suite declares no reference")?;
         let method = reference_method(fine);
         let mut bar = bar(plan, method, fine.cells)?;
@@ -110,7 +110,7 @@ impl FineGrid {
         plan: &ConvergencePlan,
         case: &Case,
         level: LevelPlan,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, SubjectError> {
         let mut states = Vec::new();
         let end = run(plan, case, level, |now| {
             states.push((now.displacement.clone(), now.velocity.clone()));
@@ -206,7 +206,11 @@ impl FineSteps {
     ///
     /// # Errors
     /// One line with the reason why this was not possible.
-    pub(crate) fn compute(plan: &ConvergencePlan, case: &Case, dt: f64) -> Result<Self, String> {
+    pub(crate) fn compute(
+        plan: &ConvergencePlan,
+        case: &Case,
+        dt: f64,
+    ) -> Result<Self, SubjectError> {
         let level = plan.refine.levels.first().ok_or("no level")?;
         let mut states = Vec::new();
         let level = LevelPlan { dt, ..*level };
@@ -239,7 +243,7 @@ pub(crate) fn run(
     case: &Case,
     level: LevelPlan,
     mut show: impl FnMut(&Samples),
-) -> Result<Samples, String> {
+) -> Result<Samples, SubjectError> {
     let mut subject = subject(plan, second_order(case.method), level)?;
     let clock = case.clock(plan, level.dt).ok_or("dt makes no sense")?;
     let mut now = Samples::default();

@@ -14,7 +14,8 @@ use crate::study::describe::profiles::Dispensable;
 use crate::study::describe::statement::Rows;
 use crate::study::handover::{needs, subject_under};
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, ShownRun, StepWarning, Study};
-use crate::subject::Profile;
+use crate::study::time_series::SeriesError;
+use crate::subject::{Profile, SubjectError};
 use crate::suite::compile::check::size;
 use crate::suite::compile::truth::conservation_only::Unknown;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
@@ -35,7 +36,7 @@ pub(crate) struct ConvergenceRunner<'a> {
     /// Number of cases that have not run yet.
     left: AtomicUsize,
     context: RunContext<'a>,
-    references: Vec<(f64, OnceLock<Result<Reference, String>>)>,
+    references: Vec<(f64, OnceLock<Result<Reference, SubjectError>>)>,
     steps: StableSteps,
 }
 
@@ -82,7 +83,12 @@ impl CaseRunner for ConvergenceRunner<'_> {
         outcome
     }
 
-    fn shown(&self, case: usize, outcome: &CaseOutcome, show: ShowRun<'_>) -> Result<(), String> {
+    fn shown(
+        &self,
+        case: usize,
+        outcome: &CaseOutcome,
+        show: ShowRun<'_>,
+    ) -> Result<(), SeriesError> {
         let (plan, case) = (&self.plan, &self.plan.cases[case]);
         let study: &Convergence = outcome.results().ok_or("it could not be run")?;
         let broke = study.levels.iter().position(|level| level.run.failure.is_some());
@@ -141,7 +147,7 @@ impl<'a> ConvergenceRunner<'a> {
             }
             return self
                 .run(case, expectation, progress)
-                .unwrap_or_else(|reason| refused(plan, case, expectation, reason));
+                .unwrap_or_else(|reason| refused(plan, case, expectation, &reason));
         };
         let lacks = solver.lacks(&needs(plan));
         let mut outcome = if let Some(Gating::Excepted(reason)) = &case.gating {
@@ -149,7 +155,7 @@ impl<'a> ConvergenceRunner<'a> {
         } else if lacks.is_empty() {
             // A problem that the solver refuses is not a failure.
             self.run(case, expectation, progress).unwrap_or_else(|reason| {
-                not_applicable(plan, case, vec![reason], "refuses the problem:")
+                not_applicable(plan, case, vec![reason.to_string()], "refuses the problem:")
             })
         } else {
             not_applicable(plan, case, lacks, "lacks")
@@ -167,7 +173,7 @@ impl<'a> ConvergenceRunner<'a> {
         case: &Case,
         expectation: Option<&Expectation>,
         progress: Progress<'_>,
-    ) -> Result<CaseOutcome, String> {
+    ) -> Result<CaseOutcome, SubjectError> {
         let plan = &self.plan;
         let same_method;
         let truth = if let Against::SameMethod(same) = case.against {
@@ -180,7 +186,7 @@ impl<'a> ConvergenceRunner<'a> {
         let runs = CaseRuns { runner: self, case, truth, judging: &judging };
         let all = plan.refine.levels(self.context.extent);
         let count = all.len();
-        let levels: Result<Vec<LevelOutcome>, String> = all
+        let levels: Result<Vec<LevelOutcome>, SubjectError> = all
             .par_iter()
             .enumerate()
             .map(|(index, level)| {
@@ -197,7 +203,7 @@ impl<'a> ConvergenceRunner<'a> {
     }
 
     /// Runs this case with a shorter spacing, as the reference of the case.
-    fn same_method(&self, case: &Case, same: SameMethod) -> Result<Box<dyn Truth>, String> {
+    fn same_method(&self, case: &Case, same: SameMethod) -> Result<Box<dyn Truth>, SubjectError> {
         let plan = &self.plan;
         Ok(match same {
             SameMethod::ShorterSteps(dt) => Box::new(FineSteps::compute(plan, case, dt)?),
@@ -208,7 +214,7 @@ impl<'a> ConvergenceRunner<'a> {
         })
     }
 
-    fn truth(&self, case: &Case) -> Result<&dyn Truth, String> {
+    fn truth(&self, case: &Case) -> Result<&dyn Truth, SubjectError> {
         if case.against == Against::Nothing {
             return Ok(&Unknown);
         }
@@ -238,7 +244,7 @@ struct CaseRuns<'r, 'a> {
 
 impl CaseRuns<'_, '_> {
     /// Runs one level; `keeps_field`: also stores its errors over the body.
-    fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, String> {
+    fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, fingerprint, solver, .. } = self.runner.context;
         let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
@@ -255,7 +261,7 @@ impl CaseRuns<'_, '_> {
     }
 
     /// Runs one level as often as the context requires, and measures the spread between the runs.
-    fn repeated(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, String> {
+    fn repeated(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, solver, repeat, .. } = self.runner.context;
         if repeat < 2 {
@@ -308,22 +314,26 @@ fn taken(level: &LevelOutcome) -> LevelPlan {
 }
 
 impl Reruns for CaseRuns<'_, '_> {
-    type Error = String;
+    type Error = SubjectError;
 
     fn can_halve(&self) -> bool {
         !matches!(self.case.against, Against::SameMethod(_))
     }
 
-    fn run_halved(&self, level: &LevelOutcome, axis: Axis) -> Option<Result<LevelOutcome, String>> {
+    fn run_halved(
+        &self,
+        level: &LevelOutcome,
+        axis: Axis,
+    ) -> Option<Result<LevelOutcome, SubjectError>> {
         let scene = &self.runner.plan.scene;
         let halved = taken(level).halved(axis, scene.dimension())?;
         Some(match size::too_large(scene, halved) {
-            Some((what, amount)) => Err(format!("{amount:.1e} {what} are too many")),
+            Some((what, amount)) => Err(format!("{amount:.1e} {what} are too many").into()),
             None => self.level(halved, false),
         })
     }
 
-    fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, String> {
+    fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, SubjectError> {
         self.repeated(LevelPlan { dt, ..taken(level) }, false)
     }
 

@@ -4,6 +4,7 @@ use crate::exact::heat::Conduction;
 use crate::study::describe::profiles;
 use crate::study::describe::statement::{Rows, push, scene, stated};
 use crate::study::exact_motion::{self, amplitude};
+use crate::subject::SubjectError;
 use crate::suite::compile::truth::conservation_only;
 use crate::suite::evaluator::shown;
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
@@ -199,12 +200,12 @@ pub(crate) fn refused(
     plan: &ConvergencePlan,
     case: &Case,
     expectation: Option<&Expectation>,
-    reason: String,
+    reason: &SubjectError,
 ) -> CaseOutcome {
     CaseOutcome {
         verdict: verify::Verdict::Failed.to_string(),
         unmet: vec![format!("the case could not be run: {reason}")],
-        reason,
+        reason: reason.to_string(),
         ..described(plan, case, expectation)
     }
 }

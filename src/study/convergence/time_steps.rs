@@ -10,7 +10,7 @@
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;
 use crate::study::setup::dispatch;
-use crate::subject::{Precision, Start};
+use crate::subject::{Precision, Start, SubjectError};
 use crate::suite::compile::check::size::particles;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
@@ -120,7 +120,7 @@ type Stepped = (LevelPlan, Option<f64>);
 /// Cache of the stable time steps (s) of a study, by the inputs of the prediction. Methods with
 /// equal inputs, and levels that differ only in their step, share one prediction.
 #[derive(Debug, Default)]
-pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<f64, String>>>);
+pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<f64, SubjectError>>>);
 
 impl StableSteps {
     /// The step on one level.
@@ -129,7 +129,7 @@ impl StableSteps {
         plan: &ConvergencePlan,
         case: &Case,
         level: LevelPlan,
-    ) -> Result<Stepped, String> {
+    ) -> Result<Stepped, SubjectError> {
         let Method::Mpm { .. } = case.method else { return Ok((level, None)) };
         let limit = |rounds| self.limit(plan, case.method, level, rounds);
         if let Some(share) = plan.refine.rule {
@@ -150,7 +150,7 @@ impl StableSteps {
         method: Method,
         level: LevelPlan,
         rounds: u32,
-    ) -> Result<f64, String> {
+    ) -> Result<f64, SubjectError> {
         let method = simplest(method);
         let key = format!("{method:?} {:?} {rounds}", LevelPlan { dt: 0.0, ..level });
         let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);

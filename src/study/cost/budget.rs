@@ -13,10 +13,12 @@
 use super::candidate::{Candidate, REACH, candidate, run};
 use super::measure::seconds;
 use crate::study::runner::Runner;
+use crate::subject::SubjectError;
 use crate::suite::compile::check::size::too_large;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Suite};
 use crate::verify::{Axis, BestCandidate, Interval, Model, Workload, by_transfers};
+use thiserror::Error;
 
 /// Number of finest runs to which a model is fitted: coarse runs are not representative of long
 /// runs.
@@ -28,24 +30,53 @@ const REPEATS: usize = 3;
 /// unless it takes this share of the budget: then it is run once.
 const LONG: f64 = 0.05;
 
+/// Reason why no setting is chosen for a budget.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum BudgetError {
+    /// The suite has no levels.
+    #[error("the suite refines nothing")]
+    NoLevels,
+    /// The suite refines something other than its cells.
+    #[error("the suite does not refine its cells")]
+    NotInSpace,
+    /// No error of the suite can be compared with the size of its solution.
+    #[error("no error of it has a size to be compared with")]
+    NoScale,
+    /// The error of no method can be extrapolated.
+    #[error("no error is predicted: no method converges on three levels")]
+    NoPrediction,
+    /// Every prediction exceeds the budget.
+    #[error("nothing is predicted to be done in {budget} s; the least is {least:.2e} s")]
+    TooShort {
+        /// The budget (s).
+        budget: f64,
+        /// Smallest predicted time of a level (s).
+        least: f64,
+    },
+    /// A level could not be set up.
+    #[error(transparent)]
+    NoRun(#[from] SubjectError),
+}
+
 /// Chooses a setting of `suite` for a budget (s), runs it, and returns the result.
 ///
 /// # Errors
-/// One line with the reason why nothing can be chosen.
-pub fn best_candidate(suite: &Suite, budget: f64) -> Result<BestCandidate, String> {
+/// [`BudgetError`] if nothing can be chosen.
+pub fn best_candidate(suite: &Suite, budget: f64) -> Result<BestCandidate, BudgetError> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else {
-        return Err("the suite refines nothing".to_owned());
+        return Err(BudgetError::NoLevels);
     };
     if plan.refine.axis != Axis::Space {
-        return Err("the suite does not refine its cells".to_owned());
+        return Err(BudgetError::NotInSpace);
     }
     let cases = Runner::new(suite).run(&|| ()).cases;
     let ranked = by_transfers(&cases);
-    let ranking = ranked.first().ok_or("no error of it has a size to be compared with")?;
+    let ranking = ranked.first().ok_or(BudgetError::NoScale)?;
     let candidates: Vec<Candidate> =
         ranking.rows.iter().filter_map(|ranked| candidate(plan, &cases, ranked)).collect();
     if candidates.is_empty() {
-        return Err("no error is predicted: no method converges on three levels".to_owned());
+        return Err(BudgetError::NoPrediction);
     }
     let mut least = f64::INFINITY;
     let mut open = Vec::new();
@@ -54,18 +85,17 @@ pub fn best_candidate(suite: &Suite, budget: f64) -> Result<BestCandidate, Strin
         least = least.min(cheapest);
         open.extend(Setting::of(candidate, (model, None), budget));
     }
-    let none =
-        || format!("nothing is predicted to be done in {budget} s; the least is {least:.2e} s");
+    let none = BudgetError::TooShort { budget, least };
     loop {
         let most = |setting: &Setting| setting.error.high;
         let best = (0..open.len()).min_by(|a, b| most(&open[*a]).total_cmp(&most(&open[*b])));
-        let best = open.swap_remove(best.ok_or_else(none)?);
+        let best = open.swap_remove(best.ok_or_else(|| none.clone())?);
         if let (model, Some(fitted)) = best.model {
             return best.run(suite, model, fitted, budget, ranking.size);
         }
         let (candidate, runs) = best.candidate.judged_within(suite, budget)?;
         let fitted = &runs[runs.len().saturating_sub(FITTED)..];
-        let model = Model::fit(fitted).ok_or_else(none)?;
+        let model = Model::fit(fitted).ok_or_else(|| none.clone())?;
         open.extend(Setting::of(candidate, (model, Some(fitted.len())), budget));
     }
 }
@@ -94,7 +124,7 @@ impl Setting {
         fitted: usize,
         budget: f64,
         size: f64,
-    ) -> Result<BestCandidate, String> {
+    ) -> Result<BestCandidate, BudgetError> {
         let Self { candidate, level, error, .. } = self;
         let predicted = candidate.load(level).map_or(f64::NAN, |load| model.predict(&load));
         let took = seconds(&candidate.plan, &candidate.case, level)?;
@@ -102,8 +132,9 @@ impl Setting {
         plan.refine.levels = vec![level];
         plan.refine.usual = 1;
         let outcome = run(suite, plan);
-        let study = outcome.convergence().ok_or_else(|| outcome.reason.clone())?;
-        let found = study.levels.first().ok_or("no level")?;
+        let study =
+            outcome.convergence().ok_or_else(|| SubjectError::from(outcome.reason.clone()))?;
+        let found = study.levels.first().ok_or(BudgetError::NoLevels)?;
         let listed = suite.plan::<ConvergencePlan>().map(|plan| &plan.refine.levels);
         Ok(BestCandidate {
             budget,
@@ -128,7 +159,7 @@ impl Candidate {
         self,
         suite: &Suite,
         budget: f64,
-    ) -> Result<(Self, Vec<(Workload, f64)>), String> {
+    ) -> Result<(Self, Vec<(Workload, f64)>), BudgetError> {
         let listed = &self.study.levels[self.ranked.part.levels.clone()];
         let mut cells: Vec<u64> = listed.iter().map(|level| level.cells).collect();
         let listed = cells.len();
@@ -157,13 +188,16 @@ impl Candidate {
         if finer.is_empty() {
             return Ok((Self { reach: REACH, ..self }, runs));
         }
-        let judged = self.judged_with(suite, finer).ok_or("no error of it has a size")?;
+        let judged = self.judged_with(suite, finer).ok_or(BudgetError::NoScale)?;
         Ok((judged, runs))
     }
 }
 
 /// The median of several times, or the first one if it is long.
-fn median(long: f64, mut time: impl FnMut() -> Result<f64, String>) -> Result<f64, String> {
+fn median(
+    long: f64,
+    mut time: impl FnMut() -> Result<f64, SubjectError>,
+) -> Result<f64, SubjectError> {
     let first = time()?;
     if first >= long {
         return Ok(first);

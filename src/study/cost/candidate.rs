@@ -2,6 +2,7 @@
 
 use super::measure::{load, seconds};
 use crate::study::runner::Runner;
+use crate::subject::SubjectError;
 use crate::suite::compile::check::size::{nodes, too_large};
 use crate::suite::model::refine_plan::FINE_GRID;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
@@ -94,7 +95,7 @@ impl Candidate {
     }
 
     /// A model of one run, and the seconds that it predicts of the coarsest level.
-    pub(crate) fn rough_model(&self) -> Result<(Model, f64), String> {
+    pub(crate) fn rough_model(&self) -> Result<(Model, f64), SubjectError> {
         let level = self.level(self.finest().cells);
         seconds(&self.plan, &self.case, level)?;
         let took = seconds(&self.plan, &self.case, level)?;

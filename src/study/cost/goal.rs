@@ -2,6 +2,7 @@
 
 use super::measure::seconds;
 use crate::study::runner::Runner;
+use crate::subject::SubjectError;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Suite};
 use crate::verify::{Ranked, by_transfers};
@@ -56,7 +57,7 @@ impl Goal<'_> {
     ///
     /// # Errors
     /// One line with the reason why it cannot be set up.
-    pub fn seconds(&self) -> Result<f64, String> {
+    pub fn seconds(&self) -> Result<f64, SubjectError> {
         seconds(self.plan, self.case, self.level)
     }
 }

@@ -10,7 +10,7 @@ use crate::external::SolverFactory;
 use crate::study::handover::subject_under;
 use crate::study::runner::Runner;
 use crate::study::setup::dispatch::subject;
-use crate::subject::Subject;
+use crate::subject::{Subject, SubjectError};
 use crate::suite::compile::check::size::nodes;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
@@ -41,7 +41,7 @@ struct TimingJob<'a> {
 }
 
 impl TimingJob<'_> {
-    fn run(&self) -> Result<f64, String> {
+    fn run(&self) -> Result<f64, SubjectError> {
         let Self { suite, plan, case, level, solver, .. } = *self;
         seconds_of(plan, case, level, || subject_under(solver, suite, plan, case, level))
     }
@@ -60,7 +60,7 @@ pub(crate) fn seconds(
     plan: &ConvergencePlan,
     case: &Case,
     level: LevelPlan,
-) -> Result<f64, String> {
+) -> Result<f64, SubjectError> {
     seconds_of(plan, case, level, || subject(plan, case.method, level))
 }
 
@@ -70,8 +70,8 @@ fn seconds_of(
     plan: &ConvergencePlan,
     case: &Case,
     level: LevelPlan,
-    make: impl FnOnce() -> Result<Box<dyn Subject>, String> + Send,
-) -> Result<f64, String> {
+    make: impl FnOnce() -> Result<Box<dyn Subject>, SubjectError> + Send,
+) -> Result<f64, SubjectError> {
     let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
     alone(|| {
         let mut subject = make()?;

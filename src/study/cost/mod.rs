@@ -9,6 +9,6 @@ pub(crate) mod goal;
 pub(crate) mod machine;
 pub(crate) mod measure;
 
-pub use budget::best_candidate;
+pub use budget::{BudgetError, best_candidate};
 pub use goal::{Goal, goals};
 pub use measure::{TimedPart, price};

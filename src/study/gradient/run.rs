@@ -149,9 +149,7 @@ impl GradientRun<'_> {
     }
 
     fn problem(&self, level: LevelPlan) -> Result<LevelProblem, GradientError> {
-        let problem =
-            level_problem(self.context.suite, &self.plan.problem, &self.case.solver, level);
-        problem.map_err(GradientError::Cannot)
+        Ok(level_problem(self.context.suite, &self.plan.problem, &self.case.solver, level)?)
     }
 
     /// Rounding of the Taylor remainder, in units of the largest term of a value.
@@ -247,14 +245,14 @@ impl GradientRun<'_> {
         let name = format!("`{what}` of the suite {}", self.context.suite);
         let broken = |answer: &CachedAnswer| answer.cannot.is_some() || answer.failed.is_some();
         let answer = self.context.cached(&key, &name, broken, || Ok(run()));
-        answer.map_err(GradientError::Failed)?.numbers()
+        answer.map_err(|error| GradientError::Failed(error.to_string()))?.numbers()
     }
 
     /// Value of the functional after a plain run of the solver.
     fn plain_run(&self, problem: LevelProblem) -> Result<FunctionalValue, GradientError> {
         let (steps, dt) = (problem.steps, problem.dt);
         let mass = problem.particles.mass.clone();
-        let mut subject = self.solver.subject(problem).map_err(GradientError::Cannot)?;
+        let mut subject = self.solver.subject(problem)?;
         for _ in 0..steps {
             subject.step(dt).map_err(|failure| GradientError::Failed(failure.to_string()))?;
         }
@@ -275,7 +273,9 @@ impl GradientRun<'_> {
         progress: Progress<'_>,
     ) -> Result<Vec<Perturbed>, GradientError> {
         let parameter = self.parameter().parameter;
-        let value = |q: f64| Ok(self.value(&problem.clone().with_parameter(parameter, q))?.value);
+        let value = |q: f64| -> Result<f64, GradientError> {
+            Ok(self.value(&problem.clone().with_parameter(parameter, q))?.value)
+        };
         let perturbed = |level: u32| {
             let by = q * libm::exp2(-f64::from(level));
             let (above, below) = (value(q + by)?, value(q - by)?);

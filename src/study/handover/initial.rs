@@ -10,6 +10,7 @@ use crate::external::{
 };
 use crate::study::setup::body::periodic;
 use crate::study::setup::initial_state::Initial;
+use crate::subject::SubjectError;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace};
 use crate::suite::scene::grid_size::{cell_size, grid_axis};
@@ -26,7 +27,7 @@ pub fn level_problem(
     plan: &ConvergencePlan,
     case: &Case,
     level: LevelPlan,
-) -> Result<LevelProblem, String> {
+) -> Result<LevelProblem, SubjectError> {
     let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
     Ok(problem(
         suite,

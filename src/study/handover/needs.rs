@@ -7,7 +7,7 @@ use crate::external::{ProblemNeeds, SolverFactory};
 use crate::mpm::{MaterialParameter, MaterialPlan, Range};
 use crate::study::kind::study;
 use crate::study::setup::dispatch::subject;
-use crate::subject::{PlaneState, Subject};
+use crate::subject::{PlaneState, Subject, SubjectError};
 use crate::suite::model::method::{ExternalMethod, GateTerms};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace, Suite};
@@ -132,7 +132,7 @@ pub(crate) fn subject_under(
     plan: &ConvergencePlan,
     case: &Case,
     level: LevelPlan,
-) -> Result<Box<dyn Subject>, String> {
+) -> Result<Box<dyn Subject>, SubjectError> {
     match solver {
         None => subject(plan, case.method, level),
         Some(solver) => solver.subject(level_problem(suite, plan, case, level)?),

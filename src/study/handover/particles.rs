@@ -8,7 +8,7 @@ use crate::mpm::{
     det_of_rows,
 };
 use crate::study::setup::body::{Body, setup};
-use crate::subject::{Perturbable, Precision, Start};
+use crate::subject::{Perturbable, Precision, Start, SubjectError};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Scene};
@@ -17,7 +17,7 @@ use crate::suite::model::{ConvergencePlan, Scene};
 pub(super) fn particles(
     plan: &ConvergencePlan,
     level: LevelPlan,
-) -> Result<ProblemParticles, String> {
+) -> Result<ProblemParticles, SubjectError> {
     let bare = unloaded(&plan.scene);
     let body = |own| Body { manufactured: None, ..Body::of(plan, own) };
     let bodies: Vec<Body<'_>> = bare.iter().map(body).collect();
@@ -38,7 +38,7 @@ pub(crate) fn start(
     bodies: &[Body<'_>],
     level: LevelPlan,
     disturb: &mut dyn FnMut(&mut dyn Perturbable),
-) -> Result<ProblemParticles, String> {
+) -> Result<ProblemParticles, SubjectError> {
     let dimension = bodies.first().map_or(1, |body| body.scene.dimension());
     with_dimension!(dimension, D => started::<D>(bodies, level, disturb))
 }
@@ -47,7 +47,7 @@ fn started<const D: usize>(
     bodies: &[Body<'_>],
     level: LevelPlan,
     disturb: &mut dyn FnMut(&mut dyn Perturbable),
-) -> Result<ProblemParticles, String> {
+) -> Result<ProblemParticles, SubjectError> {
     // A method without private state.
     let method = Method::Mpm {
         basis: BasisName::Linear,
@@ -62,8 +62,7 @@ fn started<const D: usize>(
     let is_stressed = bodies.iter().any(|body| !body.own.initial_stress.is_none());
     let mut all = ProblemParticles::default();
     for (number, body) in bodies.iter().enumerate() {
-        let solver = Solver::<D>::new(setup(body, method, level)?);
-        let mut solver = solver.map_err(|failure| failure.to_string())?;
+        let mut solver = Solver::<D>::new(setup(body, method, level)?)?;
         disturb(&mut solver);
         let mut particles = solver.particles().clone();
         // F is passed even if the law does not read it.
@@ -120,7 +119,7 @@ pub fn exact_state(
     plan: &ConvergencePlan,
     start: &ProblemParticles,
     t: f64,
-) -> Result<ProblemParticles, String> {
+) -> Result<ProblemParticles, SubjectError> {
     let truth = plan.exact.as_ref().ok_or("the suite states no exact motion")?;
     let d = plan.scene.dimension();
     let mut state = start.clone();

@@ -5,7 +5,7 @@ use crate::exact::{Forcing, Problem};
 use crate::fem;
 use crate::fem::{Bar, BarLaw, Sampling};
 use crate::mpm::MaterialPlan;
-use crate::subject::Start;
+use crate::subject::{Start, SubjectError};
 use crate::suite::grammar::EquationName;
 use crate::suite::model::method::Method;
 use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene};
@@ -13,9 +13,9 @@ use crate::suite::scene::grid_size::cell_size;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
 /// The FEM bar of `method`, which is also used for references.
-pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, String> {
+pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, SubjectError> {
     let Method::Fem { element, mass, law, start, sampling } = method else {
-        return Err("not an FEM method".to_owned());
+        return Err("not an FEM method".into());
     };
     let scene = &plan.scene;
     let (from, to) = (scene.from[0], scene.to[0]);
@@ -37,7 +37,7 @@ pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
         start,
         sampling,
     };
-    Bar::new(setup).map_err(|error| error.to_string())
+    Bar::new(setup).map_err(|error| error.to_string().into())
 }
 
 /// Stated and manufactured forces of a bar, if it has any.
@@ -84,7 +84,7 @@ fn end_traction(scene: &Scene, end: usize) -> Option<fem::TimeFunction> {
 }
 
 /// P(F) (Pa) of a bar in uniaxial strain.
-fn piola(law: EquationName, material: &MaterialPlan) -> Result<fem::ScalarFunction, String> {
+fn piola(law: EquationName, material: &MaterialPlan) -> Result<fem::ScalarFunction, SubjectError> {
     let (young, poisson) = material.elasticity().ok_or("the material has no Young's modulus")?;
     let law = BarLaw::find(law.name())
         .ok_or_else(|| format!("the reference FEM has no `{}`", law.name()))?;

@@ -8,7 +8,7 @@ use crate::mpm::{
     BasisName, BodyForce, Boundary, Effect, Grid, HeatSolver, Hoop, Kernel, Particles, QuasiStatic,
     QuasiStaticSetup, Setup, Side, Vector, kernel,
 };
-use crate::subject::PlaneState;
+use crate::subject::{PlaneState, SubjectError};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::LatticeEdits;
@@ -57,9 +57,9 @@ pub(crate) fn setup<const D: usize>(
     body: &Body<'_>,
     method: Method,
     level: LevelPlan,
-) -> Result<Setup<D>, String> {
+) -> Result<Setup<D>, SubjectError> {
     let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, .. } = method else {
-        return Err("not an MPM method".to_owned());
+        return Err("not an MPM method".into());
     };
     let scene = body.scene;
     let (kernel, grid, mut particles) = discretisation::<D>(body, basis, level)?;
@@ -96,7 +96,7 @@ fn discretisation<const D: usize>(
     body: &Body<'_>,
     basis: BasisName,
     level: LevelPlan,
-) -> Result<(Box<dyn Kernel<D>>, Grid<D>, Particles<D>), String> {
+) -> Result<(Box<dyn Kernel<D>>, Grid<D>, Particles<D>), SubjectError> {
     let h = cell_size(body.scene, level.cells);
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
     let kernel = kernel::<D>(basis);
@@ -115,13 +115,13 @@ pub(crate) fn quasi_static<const D: usize>(
     basis: BasisName,
     level: LevelPlan,
     load_steps: u64,
-) -> Result<QuasiStatic<D>, String> {
+) -> Result<QuasiStatic<D>, SubjectError> {
     let body = Body::of(plan, &plan.scene);
     let (kernel, grid, mut particles) = discretisation::<D>(&body, basis, level)?;
     let effects = effects_of(&body, (&grid, basis), &mut particles)?;
     let boundary = boundary(&plan.scene, &grid, basis);
     let material = plan.scene.material.build();
-    QuasiStatic::new(QuasiStaticSetup {
+    Ok(QuasiStatic::new(QuasiStaticSetup {
         grid,
         particles,
         kernel,
@@ -129,8 +129,7 @@ pub(crate) fn quasi_static<const D: usize>(
         effects,
         boundary,
         load_steps,
-    })
-    .map_err(|failure| failure.to_string())
+    })?)
 }
 
 /// The effects that the scene of `suite` lists, on `particles` and a `grid` of the caller's.
@@ -141,7 +140,7 @@ pub fn effects<const D: usize>(
     suite: &Suite,
     (grid, basis): (&Grid<D>, BasisName),
     particles: &mut Particles<D>,
-) -> Result<Vec<Box<dyn Effect<D>>>, String> {
+) -> Result<Vec<Box<dyn Effect<D>>>, SubjectError> {
     let plan = suite.plan::<ConvergencePlan>().ok_or("the suite is no convergence study")?;
     let site = BodySite { grid, basis, heat: plan.heat_problem(), particles };
     built(&plan.scene.loads, site)
@@ -152,7 +151,7 @@ pub(crate) fn conductor<const D: usize>(
     plan: &ConvergencePlan,
     basis: BasisName,
     level: LevelPlan,
-) -> Result<HeatSolver<D>, String> {
+) -> Result<HeatSolver<D>, SubjectError> {
     let h = cell_size(&plan.scene, level.cells);
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
     let kernel = kernel::<D>(basis);
@@ -161,7 +160,7 @@ pub(crate) fn conductor<const D: usize>(
     let site =
         BodySite { grid: &grid, basis, heat: plan.heat_problem(), particles: &mut particles };
     let effects = built(&plan.scene.loads, site)?;
-    HeatSolver::new(kernel, grid, particles, effects).map_err(|failure| failure.to_string())
+    Ok(HeatSolver::new(kernel, grid, particles, effects)?)
 }
 
 fn manufactured_force<const D: usize>(
@@ -187,7 +186,7 @@ fn effects_of<const D: usize>(
     body: &Body<'_>,
     (grid, basis): (&Grid<D>, BasisName),
     particles: &mut Particles<D>,
-) -> Result<Vec<Box<dyn Effect<D>>>, String> {
+) -> Result<Vec<Box<dyn Effect<D>>>, SubjectError> {
     let on_set = |load: &ListedLoad| matches!(load.target(), LoadTarget::Set(_));
     let loads = &body.own.loads;
     let (whole, sets) = loads.split_at(loads.partition_point(|load| !on_set(load)));
@@ -201,7 +200,7 @@ fn effects_of<const D: usize>(
 fn built<const D: usize>(
     loads: &[ListedLoad],
     mut site: BodySite<'_, D>,
-) -> Result<Vec<Box<dyn Effect<D>>>, String> {
+) -> Result<Vec<Box<dyn Effect<D>>>, SubjectError> {
     loads.iter().map(|load| Ok(load::build(load, &mut site)?)).collect()
 }
 

@@ -4,7 +4,7 @@ use super::bar::bar;
 use super::body::{Body, conductor, quasi_static, setup};
 use crate::dimension::with_dimension;
 use crate::mpm::{BasisName, Bodies, Setup, SinglePrecision, Solver, Vector};
-use crate::subject::{Failure, Perturbable, Profile, Subject};
+use crate::subject::{Perturbable, Profile, Subject, SubjectError};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
@@ -17,11 +17,11 @@ pub fn subject(
     plan: &ConvergencePlan,
     method: Method,
     level: LevelPlan,
-) -> Result<Box<dyn Subject>, String> {
+) -> Result<Box<dyn Subject>, SubjectError> {
     match (method, plan.scene.dimension()) {
         (Method::Fem { .. }, 1) => Ok(Box::new(bar(plan, method, level.cells)?)),
-        (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D")),
-        (Method::External { .. }, _) => Err("no solver was named on the command line".to_owned()),
+        (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D").into()),
+        (Method::External { .. }, _) => Err("no solver was named on the command line".into()),
         (Method::Mpm { .. }, d) => with_dimension!(d, D => mpm::<D>(plan, method, level)),
         (Method::QuasiStatic { basis, load_steps }, d) => with_dimension!(d, D => {
             Ok(Box::new(quasi_static::<D>(plan, basis, level, load_steps)?))
@@ -91,7 +91,7 @@ pub(crate) fn stable_time_step(
     method: Method,
     level: LevelPlan,
     rounds: u32,
-) -> Result<f64, String> {
+) -> Result<f64, SubjectError> {
     plan.scene.each().iter().try_fold(f64::INFINITY, |least, own| {
         // A given force does not affect the result, and is expensive to prepare.
         let body = Body { manufactured: None, ..Body::of(plan, own) };
@@ -106,17 +106,17 @@ pub(crate) fn stable_time_step_of(
     method: Method,
     level: LevelPlan,
     rounds: u32,
-) -> Result<f64, String> {
+) -> Result<f64, SubjectError> {
     fn of<const D: usize>(
         body: &Body<'_>,
         method: Method,
         level: LevelPlan,
         rounds: u32,
-    ) -> Result<f64, String> {
+    ) -> Result<f64, SubjectError> {
         let solver = solver::<D>(body, method, level)?;
         let fastest = solver.particles().v.iter().map(Vector::norm).fold(0.0, f64::max);
         let longest = level.h / (body.own.wave_speed() + fastest);
-        solver.stable_time_step(longest, rounds).map_err(|failure| failure.to_string())
+        Ok(solver.stable_time_step(longest, rounds)?)
     }
     with_dimension!(body.scene.dimension(), D => of::<D>(body, method, level, rounds))
 }
@@ -129,19 +129,19 @@ pub(crate) fn perturbable(
     bodies: &[Body<'_>],
     method: Method,
     level: LevelPlan,
-) -> Result<Box<dyn Perturbable>, String> {
+) -> Result<Box<dyn Perturbable>, SubjectError> {
     fn of<const D: usize>(
         bodies: &[Body<'_>],
         method: Method,
         level: LevelPlan,
-    ) -> Result<Box<dyn Perturbable>, String> {
+    ) -> Result<Box<dyn Perturbable>, SubjectError> {
         if let [one] = bodies {
             return Ok(Box::new(solver::<D>(one, method, level)?));
         }
-        let setups: Result<Vec<Setup<D>>, String> =
+        let setups: Result<Vec<Setup<D>>, SubjectError> =
             bodies.iter().map(|body| setup(body, method, level)).collect();
         let contact = bodies.first().and_then(|body| body.scene.contact);
-        Ok(Box::new(Bodies::new(setups?, contact).map_err(|failure| failure.to_string())?))
+        Ok(Box::new(Bodies::new(setups?, contact)?))
     }
     let dimension = bodies.first().map_or(1, |body| body.scene.dimension());
     with_dimension!(dimension, D => of::<D>(bodies, method, level))
@@ -151,25 +151,24 @@ fn solver<const D: usize>(
     body: &Body<'_>,
     method: Method,
     level: LevelPlan,
-) -> Result<Solver<D>, String> {
-    Solver::new(setup(body, method, level)?).map_err(|failure| failure.to_string())
+) -> Result<Solver<D>, SubjectError> {
+    Ok(Solver::new(setup(body, method, level)?)?)
 }
 
 fn mpm<const D: usize>(
     plan: &ConvergencePlan,
     method: Method,
     level: LevelPlan,
-) -> Result<Box<dyn Subject>, String> {
+) -> Result<Box<dyn Subject>, SubjectError> {
     let mut setups = setups::<D>(plan, method, level)?;
-    let said = |failure: Failure| failure.to_string();
     Ok(match (setups.pop(), setups.is_empty(), plan.scene.contact) {
         (Some(one), true, None) if method.is_single_precision() => {
-            Box::new(SinglePrecision::new(one).map_err(said)?)
+            Box::new(SinglePrecision::new(one)?)
         }
-        (Some(one), true, None) => Box::new(Solver::new(one).map_err(said)?),
+        (Some(one), true, None) => Box::new(Solver::new(one)?),
         (last, _, contact) => {
             setups.extend(last);
-            Box::new(Bodies::new(setups, contact).map_err(said)?)
+            Box::new(Bodies::new(setups, contact)?)
         }
     })
 }
@@ -179,6 +178,6 @@ fn setups<const D: usize>(
     plan: &ConvergencePlan,
     method: Method,
     level: LevelPlan,
-) -> Result<Vec<Setup<D>>, String> {
+) -> Result<Vec<Setup<D>>, SubjectError> {
     plan.scene.each().iter().map(|own| setup(&Body::of(plan, own), method, level)).collect()
 }

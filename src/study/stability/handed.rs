@@ -5,7 +5,7 @@ use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};
 use crate::study::handover::{HandedRun, is_deformed, of_scene, problem, start, unloaded};
 use crate::study::setup::body::Body;
 use crate::study::setup::initial_state::Initial;
-use crate::subject::{Perturbable, Samples, Subject};
+use crate::subject::{Perturbable, Samples, Subject, SubjectError};
 use crate::suite::compile::stability::setup::RunSetup;
 use crate::suite::model::Scene;
 use crate::verify::is_looked_at;
@@ -40,15 +40,15 @@ pub(super) fn subject(
     solver: &dyn SolverFactory,
     suite: &str,
     setup: &RunSetup,
-) -> Result<Box<dyn Subject>, String> {
+) -> Result<Box<dyn Subject>, SubjectError> {
     let subject = solver.subject(handed(suite, setup)?)?;
     let mut samples = Samples::default();
     subject.sample(&mut samples);
     // Without either, growth of the energy could not be detected.
     match (subject.totals(), samples.stress.is_empty()) {
-        (None, _) => Err("it gives no totals, from which the kinetic energy is read".to_owned()),
+        (None, _) => Err("it gives no totals, from which the kinetic energy is read".into()),
         (_, true) => {
-            Err("it gives no stress at the start, from which the energy is computed".to_owned())
+            Err("it gives no stress at the start, from which the energy is computed".into())
         }
         _ => Ok(subject),
     }
@@ -58,7 +58,7 @@ pub(super) fn subject(
 ///
 /// # Errors
 /// One line with the reason why there is none.
-fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, String> {
+fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, SubjectError> {
     let dt = *setup.dt.first().ok_or("the run has no time step")?;
     let bare = unloaded(&setup.scene);
     let mut disturb = |subject: &mut dyn Perturbable| perturb(subject, setup);

@@ -6,7 +6,7 @@ use crate::study::convergence::time_steps::ROUNDS;
 use crate::study::kind::{RunContext, ShownRun};
 use crate::study::setup::body::Body;
 use crate::study::setup::dispatch::{perturbable, stable_time_step_of};
-use crate::subject::{Perturbable, Subject};
+use crate::subject::{Perturbable, Subject, SubjectError};
 use crate::suite::compile::stability::setup::{ParameterValues, RunSetup};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::Extent;
@@ -55,11 +55,11 @@ impl CaseRun<'_> {
                 .critical(value, sought)
                 .map(|critical| StabilityRow { critical: Some(critical), ..empty.clone() }),
         };
-        found.unwrap_or_else(|reason| StabilityRow { refused: Some(reason), ..empty })
+        found.unwrap_or_else(|reason| StabilityRow { refused: Some(reason.to_string()), ..empty })
     }
 
     /// The set-up with these values of the parameters.
-    pub(super) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, String> {
+    pub(super) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, SubjectError> {
         let setup = self.plan.template.setup(values);
         let mut setup = setup.map_err(|diagnostic| diagnostic.one_line())?;
         if self.context.extent == Extent::Full {
@@ -72,7 +72,7 @@ impl CaseRun<'_> {
     }
 
     /// The stable time step (s); for an external solver, the transit time of a wave through a cell.
-    fn stable_time_step(&self, setup: &RunSetup) -> Result<f64, String> {
+    fn stable_time_step(&self, setup: &RunSetup) -> Result<f64, SubjectError> {
         let of_body = |body: &Body<'_>| match self.case.method {
             Method::External { .. } => Ok(setup.level.h / body.own.wave_speed()),
             method => stable_time_step_of(body, method, setup.level, ROUNDS),
@@ -81,7 +81,7 @@ impl CaseRun<'_> {
         all.iter().try_fold(f64::INFINITY, |least, body| Ok(least.min(of_body(body)?)))
     }
 
-    fn subject(&self, setup: &RunSetup) -> Result<Box<dyn Perturbable>, String> {
+    fn subject(&self, setup: &RunSetup) -> Result<Box<dyn Perturbable>, SubjectError> {
         let all = bodies(setup, setup.scene.each());
         let mut subject = perturbable(&all, self.case.method, setup.level)?;
         if setup.frozen {
@@ -91,7 +91,7 @@ impl CaseRun<'_> {
     }
 
     /// The run with these values of the parameters.
-    fn run(&self, values: &ParameterValues<'_>) -> Result<Trial, String> {
+    fn run(&self, values: &ParameterValues<'_>) -> Result<Trial, SubjectError> {
         let run = || {
             let setup = self.setup(values)?;
             let mut subject = self.started(&setup)?;
@@ -106,7 +106,7 @@ impl CaseRun<'_> {
     }
 
     /// The subject of a run, at its start.
-    fn started(&self, setup: &RunSetup) -> Result<Box<dyn Subject>, String> {
+    fn started(&self, setup: &RunSetup) -> Result<Box<dyn Subject>, SubjectError> {
         if let Some(solver) = self.context.solver {
             return handed::subject(solver, self.context.suite, setup);
         }
@@ -116,7 +116,10 @@ impl CaseRun<'_> {
     }
 
     /// The run with these values of the parameters, for output as files.
-    pub(super) fn shown(&self, values: &ParameterValues<'_>) -> Result<ShownRun<'static>, String> {
+    pub(super) fn shown(
+        &self,
+        values: &ParameterValues<'_>,
+    ) -> Result<ShownRun<'static>, SubjectError> {
         let setup = self.setup(values)?;
         Ok(ShownRun {
             name: said(values),
@@ -133,12 +136,12 @@ impl CaseRun<'_> {
         &self,
         value: f64,
         (name, low, high): &(String, f64, f64),
-    ) -> Result<Critical, String> {
+    ) -> Result<Critical, SubjectError> {
         let with = |sought: f64| [(self.plan.swept.as_str(), value), (name.as_str(), sought)];
         if self.plan.frozen {
             return self.predicted((*low, *high), with);
         }
-        let stable = |sought: f64| -> Result<bool, String> {
+        let stable = |sought: f64| -> Result<bool, SubjectError> {
             Ok(self.run(&with(sought))?.verdict == Stability::Stable)
         };
         let observed = stability_limit(*low, *high, SCAN_OF_RUNS, SHARP_OF_RUNS, stable)?;
@@ -149,9 +152,9 @@ impl CaseRun<'_> {
         &self,
         range: (f64, f64),
         with: impl Fn(f64) -> [(&'v str, f64); 2],
-    ) -> Result<Critical, String> {
+    ) -> Result<Critical, SubjectError> {
         let mut leaves = None;
-        let stable = |sought: f64| -> Result<bool, String> {
+        let stable = |sought: f64| -> Result<bool, SubjectError> {
             let setup = self.setup(&with(sought))?;
             let mut subject = self.subject(&setup)?;
             let Scales { speed, modulus, .. } = setup.scales;
@@ -173,7 +176,7 @@ impl CaseRun<'_> {
             StabilityLimit::Above(end) | StabilityLimit::Below(end) => vec![(1.0, end)],
         };
         let confirm = |(share, sought)| Ok((share, self.run(&with(sought))?));
-        let confirmed = shares.into_iter().map(confirm).collect::<Result<_, String>>()?;
+        let confirmed = shares.into_iter().map(confirm).collect::<Result<_, SubjectError>>()?;
         Ok(Critical { predicted: Some(Prediction { limit, leaves }), confirmed, observed: None })
     }
 }

@@ -5,6 +5,7 @@ use super::run::CaseRun;
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::study::describe::statement::{Rows, push, scene};
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, Study};
+use crate::study::time_series::SeriesError;
 use crate::suite::compile::stability::setup::RunSetup;
 use crate::suite::evaluator::shown;
 use crate::suite::model::stability::StabilityPlan;
@@ -68,11 +69,16 @@ impl CaseRunner for StabilityRunner<'_> {
         }
     }
 
-    fn shown(&self, case: usize, outcome: &CaseOutcome, show: ShowRun<'_>) -> Result<(), String> {
+    fn shown(
+        &self,
+        case: usize,
+        outcome: &CaseOutcome,
+        show: ShowRun<'_>,
+    ) -> Result<(), SeriesError> {
         let (plan, case) = (self.plan, &self.plan.cases[case]);
         let study: &StabilityStudy = outcome.results().ok_or("it could not be run")?;
         if study.sought.is_some() {
-            return Err("it looks for a limit, by many runs".to_owned());
+            return Err("it looks for a limit, by many runs".into());
         }
         let trial = |row: &StabilityRow| row.trial.as_ref().map(|trial| trial.verdict);
         let grows = |row: &&StabilityRow| trial(row) != Some(Stability::Stable);

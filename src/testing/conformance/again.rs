@@ -2,10 +2,10 @@
 
 use super::course::ROUNDING;
 use super::record::{Breach, RunState, difference, largest, record};
-use crate::subject::{Checkpoint, Samples, Subject};
+use crate::subject::{Checkpoint, Samples, Subject, SubjectError};
 
 /// Makes the subject in its initial state.
-pub(super) type Make<'a> = &'a dyn Fn() -> Result<Box<dyn Subject>, String>;
+pub(super) type Make<'a> = &'a dyn Fn() -> Result<Box<dyn Subject>, SubjectError>;
 
 /// A breach if a second call of `sample` gives other samples, or adds to those it was given.
 pub(super) fn sample(subject: &dyn Subject, first: &Samples) -> Option<Breach> {

@@ -15,6 +15,7 @@ pub use record::Breach;
 
 use crate::external::{LevelProblem, SolverFactory};
 use crate::study::{lacking, level_problem};
+use crate::subject::SubjectError;
 use crate::suite::{ConvergencePlan, Suite, embedded};
 use record::{RunState, record};
 
@@ -54,7 +55,7 @@ pub fn conformance(solver: &dyn SolverFactory) -> Vec<Breach> {
 pub fn conformance_on(solver: &dyn SolverFactory, suite: &Suite) -> Vec<Breach> {
     examined(solver, suite).unwrap_or_else(|why| {
         let wanted = format!("a solver that can be put to `{}`", suite.name);
-        vec![Breach::new("problem", wanted, why)]
+        vec![Breach::new("problem", wanted, why.to_string())]
     })
 }
 
@@ -62,7 +63,10 @@ pub fn conformance_on(solver: &dyn SolverFactory, suite: &Suite) -> Vec<Breach> 
 ///
 /// # Errors
 /// One line with the reason why the solver cannot run the suite.
-pub(crate) fn examined(solver: &dyn SolverFactory, suite: &Suite) -> Result<Vec<Breach>, String> {
+pub(crate) fn examined(
+    solver: &dyn SolverFactory,
+    suite: &Suite,
+) -> Result<Vec<Breach>, SubjectError> {
     Ok(breaches(solver, &problem(solver, suite)?))
 }
 
@@ -70,11 +74,11 @@ pub(crate) fn examined(solver: &dyn SolverFactory, suite: &Suite) -> Result<Vec<
 ///
 /// # Errors
 /// One line with the reason if it cannot.
-fn problem(solver: &dyn SolverFactory, suite: &Suite) -> Result<LevelProblem, String> {
+fn problem(solver: &dyn SolverFactory, suite: &Suite) -> Result<LevelProblem, SubjectError> {
     let plan = suite.plan::<ConvergencePlan>().ok_or("it is no convergence study")?;
     let lacks = lacking(suite, solver);
     if !lacks.is_empty() {
-        return Err(format!("the solver lacks {}", lacks.join(", ")));
+        return Err(format!("the solver lacks {}", lacks.join(", ")).into());
     }
     let level = plan.refine.levels.first().ok_or("it has no level")?;
     let case = plan.cases.first().ok_or("it has no case")?;
@@ -87,7 +91,9 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
     let make = || solver.subject(problem.clone());
     let mut subject = match make() {
         Ok(subject) => subject,
-        Err(why) => return vec![Breach::new("problem", "the problem to be taken again", why)],
+        Err(why) => {
+            return vec![Breach::new("problem", "the problem to be taken again", why.to_string())];
+        }
     };
     let mut states = vec![RunState::from_subject(subject.as_ref())];
     let mut breaches = course::counts(problem, &states[0].samples);

@@ -4,7 +4,7 @@ use super::course::Course;
 use super::finding::SolverFinding;
 use super::scene::{BoxScene, Kind};
 use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};
-use crate::subject::Precision;
+use crate::subject::{Precision, SubjectError};
 use rayon::prelude::*;
 
 /// Result of an examination.
@@ -21,6 +21,15 @@ pub(super) enum Hindrance {
     Lacks(String),
     /// Message of a solver that did not complete a run.
     Broke(String),
+}
+
+impl From<SubjectError> for Hindrance {
+    fn from(error: SubjectError) -> Self {
+        match error {
+            SubjectError::Unsupported(reason) => Self::Lacks(reason),
+            SubjectError::Failed(failure) => Self::Broke(failure.to_string()),
+        }
+    }
 }
 
 /// A solver under examination.
@@ -65,7 +74,7 @@ impl Patient<'_> {
         let mut fewest: Option<Vec<String>> = None;
         for kind in dimensions.iter().flat_map(|d| laws.iter().map(|law| (*d, *law))) {
             let scene = scene(kind);
-            let (_, mut needs) = scene.problem().map_err(Hindrance::Lacks)?;
+            let (_, mut needs) = scene.problem()?;
             more(&mut needs);
             let lacks = self.solver.lacks(&needs);
             if lacks.is_empty() {
@@ -80,7 +89,7 @@ impl Patient<'_> {
 
     /// Runs `scene`, which may end early with a failure.
     pub(super) fn run(&self, scene: &BoxScene) -> Result<Course, Hindrance> {
-        let (problem, _) = scene.problem().map_err(Hindrance::Lacks)?;
+        let (problem, _) = scene.problem()?;
         self.run_problem(scene, problem)
     }
 
@@ -108,7 +117,7 @@ impl Patient<'_> {
         let mut course = Course::new(&problem);
         let (steps, dt) = (problem.steps, problem.dt);
         let instants = problem.instants.clone();
-        let mut subject = self.solver.subject(problem).map_err(Hindrance::Lacks)?;
+        let mut subject = self.solver.subject(problem)?;
         course.look(0.0, subject.as_ref());
         course.start(&scene.displacement, &scene.velocity);
         for step in 1..=steps {

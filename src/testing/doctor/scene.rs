@@ -3,6 +3,7 @@
 use super::course::{AffineField, Course};
 use crate::external::{LevelProblem, ProblemNeeds};
 use crate::study::{level_problem, needs, subject};
+use crate::subject::SubjectError;
 use crate::suite::yaml::Source;
 use crate::suite::{ConvergencePlan, Suite};
 
@@ -197,7 +198,7 @@ impl BoxScene {
     ///
     /// # Errors
     /// One line with the reason why the scene is not a valid problem.
-    pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), String> {
+    pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), SubjectError> {
         let suite = self.suite("basis: linear, transfer: flip, scheme: musl")?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
         let level = plan.refine.levels.first().ok_or("no level")?;
@@ -207,17 +208,17 @@ impl BoxScene {
         Ok((problem, needs(plan)))
     }
 
-    fn suite(&self, method: &str) -> Result<Suite, String> {
+    fn suite(&self, method: &str) -> Result<Suite, SubjectError> {
         let source = Source::from_text("doctor.yaml", self.text(method));
         let suite = source.and_then(|source| Suite::load(&source));
-        suite.map_err(|diagnostic| diagnostic.to_string())
+        suite.map_err(|diagnostic| diagnostic.to_string().into())
     }
 
     /// A run of the built-in MPM with PIC and the named basis: the effect of averaging alone.
     ///
     /// # Errors
     /// One line with the reason why there is none.
-    pub(super) fn averaged(&self, basis: &str) -> Result<Course, String> {
+    pub(super) fn averaged(&self, basis: &str) -> Result<Course, SubjectError> {
         let suite = self.suite(&format!("basis: {basis}, transfer: pic, scheme: usl"))?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
         let level = plan.refine.levels.first().ok_or("no level")?;
@@ -226,7 +227,7 @@ impl BoxScene {
         let mut course = Course::new(&level_problem(&suite.name, plan, case, *level)?);
         course.look(0.0, subject.as_ref());
         for step in 1..=self.steps {
-            subject.step(self.dt).map_err(|failure| failure.to_string())?;
+            subject.step(self.dt)?;
             course.look(step as f64 * self.dt, subject.as_ref());
         }
         Ok(course)

@@ -7,7 +7,7 @@ use mpm_verify::external::{
 };
 use mpm_verify::study::Runner;
 use mpm_verify::subject::{
-    Failure, Functional, GradientParameter, Precision, RunCounters, Samples, Subject,
+    Failure, Functional, GradientParameter, Precision, RunCounters, Samples, Subject, SubjectError,
 };
 use mpm_verify::suite::{ExternalMethod, GateTerms, Suite};
 use mpm_verify::verify::{CaseOutcome, GradientState, GradientStudy};
@@ -139,7 +139,7 @@ impl SolverFactory for Differentiable {
         Capabilities { gradients, ..of }.lacking(needs)
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         Ok(Box::new(Moving { problem, steps: 0, solver: self.clone() }))
     }
 

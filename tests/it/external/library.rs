@@ -3,7 +3,7 @@
 use super::bar;
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::study::{Runner, level_problem};
-use mpm_verify::subject::{Failure, RunCounters, Samples, Subject};
+use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{ConvergencePlan, Extent, ExternalMethod, Suite, embedded};
 use mpm_verify::verify::CaseOutcome;
@@ -59,9 +59,9 @@ impl SolverFactory for Maker {
         self.0
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         if problem.faces[0].condition != "fixed" {
-            return Err("a left end that is not held".to_owned());
+            return Err("a left end that is not held".into());
         }
         let u = vec![0.0; problem.particles.len()];
         let v = problem.particles.velocity.clone();

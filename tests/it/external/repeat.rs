@@ -5,7 +5,7 @@ use super::library::{Maker, loaded};
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::report;
 use mpm_verify::study::Runner;
-use mpm_verify::subject::{Failure, RunCounters, Samples, Subject};
+use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::{Extent, ExternalMethod, Suite};
 use mpm_verify::verify::{CaseOutcome, Exclusion, LevelOutcome, SuiteOutcome};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -49,7 +49,7 @@ impl SolverFactory for Unsteady {
         "unsteady"
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         let solver = Maker("differences").subject(problem)?;
         let run = self.runs.fetch_add(1, Ordering::Relaxed);
         Ok(Box::new(Perturbed { solver, noise: self.noise, run }))

@@ -4,7 +4,7 @@ use super::library::loaded;
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::report;
 use mpm_verify::study::Runner;
-use mpm_verify::subject::{Failure, Precision, RunCounters, Samples, Subject};
+use mpm_verify::subject::{Failure, Precision, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::{Extent, ExternalMethod};
 use mpm_verify::verify::{Exclusion, LevelOutcome, SuiteOutcome};
 
@@ -77,7 +77,7 @@ impl SolverFactory for Single {
         self.precision
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         let material = &problem.materials[0];
         let c2 = material.parameters[0].1 / material.density;
         let stiffness = (c2 * (1.0 + self.defect * problem.grid.h)) as f32;

@@ -6,7 +6,7 @@ use mpm_verify::mpm::{
     Block, BodyForce, Boundary, Effect, Fixed, Grid, MaterialParameter, MaterialPlan, Matrix,
     Particles, Roller, Setup, Side, Solver, TransferName, Vector, kernel, mass_matrix,
 };
-use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, Totals};
+use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError, Totals};
 use mpm_verify::suite::Method;
 
 /// Makes the solver of one method.
@@ -35,7 +35,7 @@ impl SolverFactory for ChangedSolver {
         able.lacking(needs)
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         match problem.dimension {
             1 => made::<1>(self, problem),
             2 => made::<2>(self, problem),
@@ -55,14 +55,14 @@ fn is_known(method: Method) -> bool {
 fn made<const D: usize>(
     factory: &ChangedSolver,
     problem: LevelProblem,
-) -> Result<Box<dyn Subject>, String> {
+) -> Result<Box<dyn Subject>, SubjectError> {
     let change = factory.change;
     if let Some(why) = change.excluded(&problem) {
-        return Err(why.to_owned());
+        return Err(why.into());
     }
     let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, .. } = factory.method
     else {
-        return Err("no MPM".to_owned());
+        return Err("no MPM".into());
     };
     let kernel = kernel::<D>(basis);
     let (origin, h, cells) = grid_of::<D>(&change, &problem);

@@ -183,7 +183,7 @@ impl SolverFactory for OurSolver {
         "ours"
     }
 
-    fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         let plan = self.suite.plan::<ConvergencePlan>().expect("a convergence study");
         let sound = study::subject(plan, plan.cases[0].method, plan.refine.levels[0])?;
         let number = self.made.fetch_add(1, Ordering::Relaxed);
@@ -271,8 +271,8 @@ impl SolverFactory for Refuses {
         if needs.dimension == 2 { vec!["dimensions: 2".to_owned()] } else { Vec::new() }
     }
 
-    fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, String> {
-        Err("a bad day".to_owned())
+    fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
+        Err("a bad day".into())
     }
 }
 

@@ -100,7 +100,7 @@ impl SolverFactory for Idle {
         "idle"
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         Ok(Box::new(IdleSubject(OwnSolver.subject(problem)?)))
     }
 }

@@ -71,7 +71,7 @@ impl SolverFactory for WatchedSolver {
         able.lacking(needs)
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         let (grid, start) = (problem.grid, problem.particles);
         for (name, column) in start.columns() {
             assert_eq!(column.len(), start.len(), "{name}");
@@ -99,7 +99,7 @@ impl SolverFactory for Silent {
         "silent"
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         OwnSolver.subject(problem)
     }
 }

@@ -7,6 +7,7 @@ use crate::fem::TimeFunction;
 use crate::members::each_effect;
 use crate::mpm::{BasisName, Effect, Grid, Particles};
 use crate::named::named;
+use crate::subject::SubjectError;
 use crate::suite::scene::boundary::thermal::SceneHeat;
 use crate::suite::scene::numbers::LoadNumbers;
 use std::ops::Deref;
@@ -100,10 +101,9 @@ pub(crate) enum BuildError {
     Dimension(usize),
 }
 
-/// One line, for studies that report why a level does not run.
-impl From<BuildError> for String {
+impl From<BuildError> for SubjectError {
     fn from(error: BuildError) -> Self {
-        error.to_string()
+        Self::Unsupported(error.to_string())
     }
 }
 

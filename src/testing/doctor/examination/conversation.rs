@@ -29,7 +29,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         scene.velocity = AffineField::uniform(velocity);
         BoxScene { steps: STEPS, dt: 0.05, ..scene }
     })?;
-    let (problem, _) = scene.problem().map_err(Hindrance::Lacks)?;
+    let (problem, _) = scene.problem()?;
     let stepwise = patient.run_problem(&scene, problem.clone())?;
     if let Some(failure) = stepwise.failure {
         return Err(Hindrance::Broke(failure));
@@ -112,7 +112,7 @@ fn grouped_under_acceleration(
     };
     let is_manufactured = is_able(false, &|needs| needs.manufactured = true);
     let scene = accelerated(!is_manufactured && is_able(true, &|_| ()));
-    let (mut problem, _) = scene.problem().map_err(Hindrance::Lacks)?;
+    let (mut problem, _) = scene.problem()?;
     if is_manufactured {
         ramp(&mut problem);
     }

@@ -117,7 +117,7 @@ fn run(
     checks_places: bool,
     force: ForceAlong,
 ) -> Result<Course, Hindrance> {
-    let (mut problem, _) = scene.problem().map_err(Hindrance::Lacks)?;
+    let (mut problem, _) = scene.problem()?;
     let asked = Arc::clone(asked);
     problem.body_force = Some(BodyForceField(Arc::new(AskedForce { asked, force })));
     if !checks_places {

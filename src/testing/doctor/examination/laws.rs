@@ -197,7 +197,7 @@ fn law_at(scene: &BoxScene, f: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Hindrance
     let d = scene.dimension;
     let displacement = field(scene, &|i, j| f[i * d + j] - f64::from(u8::from(i == j)));
     let deformed = BoxScene { displacement, velocity: AffineField::default(), ..scene.clone() };
-    let (problem, _) = deformed.problem().map_err(Hindrance::Lacks)?;
+    let (problem, _) = deformed.problem()?;
     let particles = problem.particles;
     Ok((particles.stress[..d * d].to_vec(), particles.deformation_gradient[..d * d].to_vec()))
 }

@@ -86,9 +86,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         );
         return Ok(Examined::new(seen.to_owned(), vec![finding]));
     }
-    let averaging: Result<Vec<Losses>, String> =
-        BASES.iter().map(|basis| Ok(losses_of(&plain.averaged(basis)?, &plain))).collect();
-    let averaging = averaging.map_err(Hindrance::Lacks)?;
+    let averaging = |basis: &&str| Ok(losses_of(&plain.averaged(basis)?, &plain));
+    let averaging = BASES.iter().map(averaging).collect::<Result<Vec<Losses>, Hindrance>>()?;
     let measured = format!(
         "in units of h2, the moment falls by {} in the first step and {} in later ones while the body \
          stretches, and by {} and {} while it turns",

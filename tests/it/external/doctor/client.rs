@@ -2,7 +2,7 @@
 
 use super::defect::{Defect, Defect::*};
 use mpm_verify::external::{Capabilities, LevelProblem, ProblemNeeds, SolverFactory};
-use mpm_verify::subject::{Failure, RunCounters, Samples, Subject};
+use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 type Vector = [f64; 2];
@@ -34,7 +34,7 @@ impl SolverFactory for Clinic {
         able.lacking(needs)
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         let run = self.runs.fetch_add(1, Ordering::Relaxed);
         Ok(Box::new(Client::new(problem, self.defect, run)))
     }

@@ -5,7 +5,7 @@ use super::leaf::{Change, Place, changed};
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::mpm::TransferChoice;
 use mpm_verify::study::{self, Runner};
-use mpm_verify::subject::Subject;
+use mpm_verify::subject::{Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{ConvergencePlan, LevelPlan, Method, StabilityPlan, Suite};
 use mpm_verify::verify::CaseOutcome;
@@ -174,7 +174,7 @@ impl SolverFactory for Ours<'_> {
         "ours"
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         let first = self.plan.refine.levels[0];
         let h = problem.grid.h;
         let cells = (first.cells as f64 * first.h / h).round() as u64;

@@ -110,7 +110,7 @@ pub(super) fn walls_across(
     }
     let gravity = std::array::from_fn::<f64, 3, _>(|i| if i == axis { GRAVITY } else { 0.0 });
     let falling = BoxScene { gravity: Some(gravity[..d].to_vec()), ..plain.clone() };
-    let (_, needs) = falling.problem().map_err(Hindrance::Lacks)?;
+    let (_, needs) = falling.problem()?;
     let falls = patient.solver.lacks(&needs).is_empty();
     if falls {
         scenes.push(falling.clone());
