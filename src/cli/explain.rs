@@ -4,7 +4,7 @@ use super::arguments::{FormatArgs, Targets};
 use super::status::{CommandError, Status};
 use super::{select, show};
 use clap::Args;
-use mpm_verify::study::describe::profiles::Dispensable;
+use mpm_verify::study::describe::Dispensable;
 use mpm_verify::study::describe::sketch::{sketch_svg, sketch_text};
 use mpm_verify::study::{self, Estimate, PlannedLevel, planned_levels};
 use mpm_verify::suite::Suite;

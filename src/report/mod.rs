@@ -27,11 +27,11 @@ pub(crate) mod text;
 
 #[cfg(feature = "cli")]
 pub use csv::csv;
+pub use figure::Figure;
 pub use figure::cost::cost_figures;
-pub use figure::drawing::Figure;
-pub use json::diagnosis::diagnosis_json;
+pub use json::diagnosis_json;
 pub use json::schema::report_schema;
-pub use json::timed_suite::timed_json;
+pub use json::timed_json;
 #[cfg(feature = "cli")]
 pub use junit::junit;
 pub use latex::latex;

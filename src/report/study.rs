@@ -3,7 +3,7 @@
 use crate::report::columns::stability::json_columns;
 use crate::report::columns::{force, gradient, json_object, level};
 use crate::report::columns::{interval, number};
-use crate::report::figure::drawing::Figure;
+use crate::report::figure::Figure;
 use crate::report::figure::{study, sweep};
 use crate::report::text::table::Table;
 use crate::report::text::{levels, stability};

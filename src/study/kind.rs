@@ -1,16 +1,15 @@
 //! Kinds of study: the interface of each, and the list of all.
 
 use super::cache::ResultCache;
-use super::describe::profiles::Dispensable;
+use super::describe::Dispensable;
 use super::describe::statement::{Rows, head};
-use super::time_series::SeriesError;
-use crate::exact::Truth;
+use super::time_series::{SeriesError, ShownRun};
 use crate::external::{ProblemNeeds, SolverFactory};
-use crate::subject::{Profile, Subject, SubjectError};
+use crate::subject::{Profile, SubjectError};
+use crate::suite::model::StudyPlan;
 use crate::suite::model::gradient::GradientPlan;
 use crate::suite::model::refine_plan::Extent;
 use crate::suite::model::stability::StabilityPlan;
-use crate::suite::model::study_plan::StudyPlan;
 use crate::suite::model::{ConvergencePlan, ForcePlan, Suite};
 use crate::verify::CaseOutcome;
 use serde::Serialize;
@@ -50,20 +49,6 @@ pub struct StepWarning {
     pub text: String,
     /// Whether the step is too long. A suite may intend this, with an expectation of it.
     pub is_too_long: bool,
-}
-
-/// A run for output as files.
-pub(crate) struct ShownRun<'a> {
-    /// Name of the run in its case: `64 cells`.
-    pub(crate) name: String,
-    /// The solver at t = 0.
-    pub(crate) subject: Box<dyn Subject>,
-    /// Lengths of the steps (s), used cyclically.
-    pub(crate) dt: Vec<f64>,
-    /// Number of steps.
-    pub(crate) steps: u64,
-    /// The exact solution, if there is one.
-    pub(crate) truth: Option<&'a dyn Truth>,
 }
 
 /// Callback that shows a run.

@@ -13,7 +13,6 @@
 //! exact_motion     amplitude, extremes and linearisation of an exact motion
 //! handover         a level as a problem that any solver can be handed
 //! preflight        warnings about a suite before anything runs
-//! shard            parts of a run of about the same cost
 //! time_series      a case as files for ParaView: particles and grid over time
 //! ```
 
@@ -30,7 +29,6 @@ pub(crate) mod kind;
 pub(crate) mod preflight;
 pub(crate) mod runner;
 pub(crate) mod setup;
-pub(crate) mod shard;
 pub(crate) mod stability;
 pub(crate) mod time_series;
 
@@ -42,7 +40,7 @@ pub use handover::{exact_state, lacking, level_problem, needs, under, under_on};
 pub use kind::{Progress, StepWarning, profile, statement};
 pub use preflight::{Estimate, estimate, estimates, preflight, unit_seconds};
 pub use runner::Runner;
+pub use runner::{Shard, ShardError};
 pub use setup::body::effects;
 pub use setup::dispatch::subject;
-pub use shard::{Shard, ShardError};
 pub use time_series::{SeriesError, SeriesFile};

@@ -1,7 +1,6 @@
 //! A run as files for ParaView: particles and nodes of the grid at instants, and the time series
 //! that lists them.
 
-use super::kind::ShownRun;
 use crate::exact::Truth;
 use crate::subject::{BodyFields, Samples, StateField, Subject, SubjectError};
 use crate::verify::{Quantity, is_instant};
@@ -11,6 +10,20 @@ use thiserror::Error;
 
 /// Maximum number of instants of a series, in addition to its start.
 const INSTANTS: u64 = 20;
+
+/// A run for output as files.
+pub(crate) struct ShownRun<'a> {
+    /// Name of the run in its case: `64 cells`.
+    pub(crate) name: String,
+    /// The solver at t = 0.
+    pub(crate) subject: Box<dyn Subject>,
+    /// Lengths of the steps (s), used cyclically.
+    pub(crate) dt: Vec<f64>,
+    /// Number of steps.
+    pub(crate) steps: u64,
+    /// The exact solution, if there is one.
+    pub(crate) truth: Option<&'a dyn Truth>,
+}
 
 /// A file of a time series.
 #[derive(Debug, Clone, PartialEq)]

@@ -23,11 +23,11 @@ pub mod yaml;
 #[cfg(feature = "schemas")]
 pub use compile::schema::suite_schema;
 pub use grammar::{CrossingLevels, EquationName, NormName, WarningName};
+pub use model::StudyPlan;
 pub use model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan};
 pub use model::method::{AnyMethod, ExternalMethod, GateTerms, Method};
 pub use model::refine_plan::{Extent, LevelPlan, RefinePlan};
 pub use model::stability::{StabilityCase, StabilityPlan};
-pub use model::study_plan::StudyPlan;
 pub use model::{
     Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan,
     SameMethod, Suite,

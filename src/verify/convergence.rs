@@ -1,7 +1,7 @@
 //! The results of a convergence study.
 
 use super::conservation::Conserved;
-use super::error::error_scale::ErrorScale;
+use super::error::norm::ErrorScale;
 use super::error::norm::NormName;
 use super::error::observer::History;
 use super::error::quantity::Quantity;

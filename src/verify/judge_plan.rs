@@ -2,7 +2,7 @@
 
 use super::conservation::Conserved;
 use super::convergence::LevelOutcome;
-use super::error::error_scale::ErrorScale;
+use super::error::norm::ErrorScale;
 use super::error::norm::NormName;
 use super::error::quantity::Quantity;
 use super::error::run::RunResult;

@@ -1,7 +1,7 @@
 //! Files of a run: `--out`, `--html` and `--vtu`.
 
 use super::args::ReportArgs;
-use super::labels::labelled;
+use super::printing::labelled;
 use super::progress::RunProgress;
 use crate::cli::output;
 use crate::cli::status::CommandError;

@@ -3,7 +3,6 @@
 mod args;
 mod files;
 mod gate;
-mod labels;
 mod printing;
 mod progress;
 
@@ -92,7 +91,7 @@ fn report(
         suites.into_iter().filter_map(Result::ok).unzip();
     let names: Vec<String> = suites.iter().map(|suite| suite.name.clone()).collect();
     let (runs, judging) = choose(suites)?;
-    labels::check(args, &runs)?;
+    printing::check(args, &runs)?;
     let suites: Vec<Suite> = runs.iter().map(|runs| runs.suite().clone()).collect();
     // Suites without a selected case are skipped; the order of the others does not change.
     let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);

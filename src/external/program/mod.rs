@@ -16,7 +16,6 @@ mod answer;
 mod connection;
 mod error;
 mod frame;
-mod gradient;
 mod inquiry;
 mod schema;
 mod solver;

@@ -8,7 +8,6 @@ mod gimp;
 #[cfg(test)]
 pub(in crate::mpm) mod laws;
 mod linear;
-mod node_accumulator;
 mod product;
 mod weights_1d;
 

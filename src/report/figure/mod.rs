@@ -29,7 +29,6 @@
 //! ```
 
 pub(crate) mod cost;
-pub(crate) mod drawing;
 pub(crate) mod map;
 pub(crate) mod plot;
 pub(crate) mod study;
@@ -47,3 +46,21 @@ pub use history::{Curve, HistoryPlot};
 pub use log_log::LogLogPlot;
 pub use map::{Map, MapField};
 pub use series::{Mark, PlotPoint, PlotSeries};
+
+/// A figure and the name of its file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// File name, without a folder.
+    pub file: String,
+    /// The SVG document.
+    pub svg: String,
+    /// This figure as a LaTeX document that uses the package PGFPlots.
+    pub pgfplots: String,
+}
+
+impl Figure {
+    /// Name of the file of the LaTeX document, without a folder.
+    pub fn pgfplots_file(&self) -> String {
+        format!("{}.tex", self.file.strip_suffix(".svg").unwrap_or(&self.file))
+    }
+}

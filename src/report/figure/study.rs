@@ -1,6 +1,6 @@
 //! The figures of convergence and internal-force studies.
 
-use super::drawing::Figure;
+use super::Figure;
 use super::plot::style;
 use super::plot::svg::SvgElement;
 use super::{Curve, ErrorMap, HistoryPlot, LogLogPlot, Mark, PlotPoint, PlotSeries};

@@ -1,6 +1,6 @@
 //! Figures of runs over a swept parameter: curves for many values, a map for few.
 
-use super::drawing::Figure;
+use super::Figure;
 use super::map::{column_head, merged_fields};
 use super::{Curve, HistoryPlot, Map, MapField};
 use crate::verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome};

@@ -55,7 +55,7 @@
 //! or null if it could not be determined. Keys may be added; no key is renamed or removed without a
 //! new major version. `docs/columns.md` lists the keys of rows.
 
-use crate::report::json::cost;
+use crate::report::json::rankings;
 use crate::report::study::KINDS;
 use crate::report::study::members;
 use crate::subject::{ColumnSize, Holder, Profile};
@@ -85,7 +85,7 @@ fn suite(outcome: &SuiteOutcome) -> Value {
         "statement": outcome.statement,
         "passed": outcome.passed(),
         "cases": outcome.cases.iter().map(case).collect::<Vec<_>>(),
-        "cost": cost::rankings(&crate::verify::by_transfers(&outcome.cases), "transfers"),
+        "cost": rankings(&crate::verify::by_transfers(&outcome.cases), "transfers"),
     })
 }
 

@@ -2,6 +2,341 @@
 
 pub(crate) mod judge_plan;
 pub(crate) mod reference;
-pub(crate) mod runner;
 pub(crate) mod statement;
 pub(crate) mod time_steps;
+use self::judge_plan::{judge_plan, rounding_sizes};
+use self::reference::{FineGrid, FineSteps, Reference};
+use self::statement::{described, not_applicable, refused};
+use self::time_steps::StableSteps;
+use crate::exact::{Problem, Truth};
+use crate::external::ProblemNeeds;
+use crate::study::describe::statement::{Dispensable, Rows, step_profile, without_effect};
+use crate::study::handover::{needs, subject_under};
+use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, StepWarning, Study};
+use crate::study::time_series::{SeriesError, ShownRun};
+use crate::subject::{Profile, SubjectError};
+use crate::suite::compile::check::size;
+use crate::suite::compile::truth::conservation_only::Unknown;
+use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
+use crate::verify;
+use crate::verify::{
+    Axis, CaseOutcome, Comparison, Convergence, Expectation, Gating, JudgePlan, LevelOutcome,
+    LevelSizes, Reruns, RoundingSizes, RunResult, judge_case,
+};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
+
+/// Runs cases of a convergence study. Data of several cases are computed once: a reference, and
+/// manufactured forces at equal places and times.
+pub(crate) struct ConvergenceRunner<'a> {
+    plan: ConvergencePlan,
+    /// Number of cases that have not run yet.
+    left: AtomicUsize,
+    context: RunContext<'a>,
+    references: Vec<(f64, OnceLock<Result<Reference, SubjectError>>)>,
+    steps: StableSteps,
+}
+
+impl Study for ConvergencePlan {
+    fn statement(&self) -> Rows {
+        statement::rows(self)
+    }
+
+    fn needs(&self) -> Option<ProblemNeeds> {
+        Some(needs(self))
+    }
+
+    fn profile(&self, case: usize, without: Option<Dispensable>) -> Option<Profile> {
+        let case = &self.cases[case];
+        match without {
+            None => step_profile(self, case),
+            Some(without) => step_profile(&without_effect(self, without), case),
+        }
+    }
+
+    fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
+        Box::new(ConvergenceRunner::new(self, context))
+    }
+}
+
+impl CaseRunner for ConvergenceRunner<'_> {
+    fn units(&self) -> u64 {
+        (self.plan.cases.len() * self.plan.refine.levels(self.context.extent).len()) as u64
+    }
+
+    fn warnings(&self) -> Vec<StepWarning> {
+        self.steps.warnings(&self.plan, self.context.extent)
+    }
+
+    fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
+        let outcome = self.outcome(index, progress);
+        // A gate stores the runners of all suites until its end.
+        let exact = self.plan.exact.as_ref();
+        if self.left.fetch_sub(1, Ordering::Relaxed) == 1
+            && let Some(forces) = exact.and_then(|exact| exact.shared_forces.as_ref())
+        {
+            forces.clear();
+        }
+        outcome
+    }
+
+    fn shown(
+        &self,
+        case: usize,
+        outcome: &CaseOutcome,
+        show: ShowRun<'_>,
+    ) -> Result<(), SeriesError> {
+        let (plan, case) = (&self.plan, &self.plan.cases[case]);
+        let study: &Convergence = outcome.results().ok_or("it could not be run")?;
+        let broke = study.levels.iter().position(|level| level.run.failure.is_some());
+        let index = broke.unwrap_or(study.levels.len().saturating_sub(1));
+        let levels = plan.refine.levels(self.context.extent);
+        let level = *levels.get(index).ok_or("it has no levels")?;
+        let (level, _) = self.steps.of(plan, case, level)?;
+        let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
+        let same_method;
+        let truth = match case.against {
+            Against::Nothing => None,
+            Against::SameMethod(same) => {
+                same_method = self.same_method(case, same)?;
+                Some(same_method.as_ref())
+            }
+            Against::Exact | Against::Reference => Some(self.truth(case)?),
+        };
+        let RunContext { solver, suite, .. } = self.context;
+        show(ShownRun {
+            name: study.levels[index].name(plan.refine.axis),
+            subject: subject_under(solver, suite, plan, case, level)?,
+            dt: vec![clock.dt()],
+            steps: clock.steps,
+            truth,
+        })
+    }
+}
+
+impl<'a> ConvergenceRunner<'a> {
+    fn new(plan: &'a ConvergencePlan, context: RunContext<'a>) -> Self {
+        let mut ends: Vec<f64> = plan.cases.iter().map(|case| case.until).collect();
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
+        let mut plan = plan.clone();
+        // If each case has its own steps, times differ.
+        let same_times = plan.cases.len() > 1 && plan.refine.rule.is_none();
+        if let Some(exact) = plan.exact.as_mut().filter(|exact| same_times && exact.manufactured) {
+            exact.shared_forces = Some(Arc::default());
+        }
+        let left = AtomicUsize::new(plan.cases.len());
+        Self { plan, left, context, references, steps: StableSteps::default() }
+    }
+
+    /// The outcome of a case, whether it can be run or not.
+    fn outcome(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
+        let (plan, case) = (&self.plan, &self.plan.cases[index]);
+        let expectation = match (self.context.extent, &case.expectation_in_full) {
+            (Extent::Full, Some(full)) => Some(full),
+            _ => case.expectation.as_ref(),
+        };
+        let Some(solver) = self.context.solver else {
+            if case.solver.is_some() {
+                let lacks = vec!["`--solver COMMAND`".to_owned()];
+                return not_applicable(plan, case, lacks, "is not there without");
+            }
+            return self
+                .run(case, expectation, progress)
+                .unwrap_or_else(|reason| refused(plan, case, expectation, &reason));
+        };
+        let lacks = solver.lacks(&needs(plan));
+        let mut outcome = if let Some(Gating::Excepted(reason)) = &case.gating {
+            described(plan, case, None).excepted(reason.clone())
+        } else if lacks.is_empty() {
+            // A problem that the solver refuses is not a failure.
+            self.run(case, expectation, progress).unwrap_or_else(|reason| {
+                not_applicable(plan, case, vec![reason.to_string()], "refuses the problem:")
+            })
+        } else {
+            not_applicable(plan, case, lacks, "lacks")
+        };
+        outcome.settings.splice(0..0, solver.settings());
+        outcome
+    }
+
+    /// Runs every level of a case and judges the case.
+    ///
+    /// # Errors
+    /// One line with the reason why the case cannot be run.
+    fn run(
+        &self,
+        case: &Case,
+        expectation: Option<&Expectation>,
+        progress: Progress<'_>,
+    ) -> Result<CaseOutcome, SubjectError> {
+        let plan = &self.plan;
+        let same_method;
+        let truth = if let Against::SameMethod(same) = case.against {
+            same_method = self.same_method(case, same)?;
+            same_method.as_ref()
+        } else {
+            self.truth(case)?
+        };
+        let judging = judge_plan(plan, case, expectation, truth);
+        let runs = CaseRuns { runner: self, case, truth, judging: &judging };
+        let all = plan.refine.levels(self.context.extent);
+        let count = all.len();
+        let levels: Result<Vec<LevelOutcome>, SubjectError> = all
+            .par_iter()
+            .enumerate()
+            .map(|(index, level)| {
+                let is_shown = index + 1 == count && case.against != Against::Nothing;
+                let level = self.steps.of(plan, case, *level).and_then(|(level, limit)| {
+                    let outcome = runs.repeated(level, is_shown)?;
+                    Ok(LevelOutcome { stable_time_step: limit, ..outcome })
+                });
+                progress();
+                level
+            })
+            .collect();
+        Ok(described(plan, case, expectation).judged(judge_case(&judging, levels?, &runs)))
+    }
+
+    /// Runs this case with a shorter spacing, as the reference of the case.
+    fn same_method(&self, case: &Case, same: SameMethod) -> Result<Box<dyn Truth>, SubjectError> {
+        let plan = &self.plan;
+        Ok(match same {
+            SameMethod::ShorterSteps(dt) => Box::new(FineSteps::compute(plan, case, dt)?),
+            SameMethod::FineGrid(level) => {
+                let (level, _) = self.steps.of(plan, case, level)?;
+                Box::new(FineGrid::compute(plan, case, level)?)
+            }
+        })
+    }
+
+    fn truth(&self, case: &Case) -> Result<&dyn Truth, SubjectError> {
+        if case.against == Against::Nothing {
+            return Ok(&Unknown);
+        }
+        if case.against == Against::Exact {
+            if let Some(heat) = &self.plan.conduction {
+                return Ok(heat);
+            }
+            let exact = self.plan.exact.as_ref().ok_or("the suite declares no exact solution")?;
+            return Ok(exact);
+        }
+        let found = self.references.iter().find(|(until, _)| *until == case.until);
+        let (until, reference) = found.ok_or("no reference for this case")?;
+        match reference.get_or_init(|| Reference::compute(&self.plan, *until)) {
+            Ok(reference) => Ok(reference),
+            Err(reason) => Err(reason.clone()),
+        }
+    }
+}
+
+/// Runs the levels of one case.
+struct CaseRuns<'r, 'a> {
+    runner: &'r ConvergenceRunner<'a>,
+    case: &'r Case,
+    truth: &'r dyn Truth,
+    judging: &'r JudgePlan<'r>,
+}
+
+impl CaseRuns<'_, '_> {
+    /// Runs one level; `keeps_field`: also stores its errors over the body.
+    fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, SubjectError> {
+        let (plan, case) = (&self.runner.plan, self.case);
+        let RunContext { suite, fingerprint, solver, .. } = self.runner.context;
+        let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
+        let name = format!("{suite}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
+        let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
+        let comparison = self.comparison(keeps_field);
+        let run = || {
+            let mut subject = subject_under(solver, suite, plan, case, level)?;
+            Ok(verify::run(subject.as_mut(), self.truth, &clock, &comparison))
+        };
+        let broken = |run: &RunResult| run.failure.is_some();
+        let run = self.runner.context.cached(&key, &name, broken, run)?;
+        Ok(self.outcome(level, clock.dt(), run))
+    }
+
+    /// Runs one level as often as the context requires, and measures the spread between the runs.
+    fn repeated(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, SubjectError> {
+        let (plan, case) = (&self.runner.plan, self.case);
+        let RunContext { suite, solver, repeat, .. } = self.runner.context;
+        if repeat < 2 {
+            return self.level(level, keeps_field);
+        }
+        let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
+        let comparison = self.comparison(keeps_field);
+        let mut first = None;
+        let mut records = Vec::new();
+        for number in 1..=repeat {
+            let mut subject = subject_under(solver, suite, plan, case, level)?;
+            let subject = subject.as_mut();
+            let (run, record) =
+                verify::run_recorded(subject, self.truth, &clock, &comparison, plan.norm);
+            if let Some(reason) = &run.failure {
+                let failure = Some(format!("run {number} of {repeat}: {reason}"));
+                return Ok(self.outcome(level, clock.dt(), RunResult { failure, ..run }));
+            }
+            records.push(record);
+            first.get_or_insert(run);
+        }
+        let run = first.ok_or("the level has no run")?;
+        let outcome = self.outcome(level, clock.dt(), run);
+        let spread = verify::spread(&records, plan.norm) / plan.scale.unwrap_or(1.0);
+        let spread = (case.against != Against::Nothing).then_some(spread);
+        Ok(LevelOutcome { spread, ..outcome })
+    }
+
+    /// The quantities that are compared in a run.
+    fn comparison(&self, keeps_field: bool) -> Comparison<'_> {
+        let plan = &self.runner.plan;
+        let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
+        let (sum, observe) = (plan.sum.as_deref(), plan.observe.as_deref());
+        let by_load_steps = plan.by_load_steps;
+        Comparison { of: plan.of, sum, observe, at_rest, by_load_steps, keeps_field }
+    }
+
+    /// The outcome of a level with steps of `dt` (s).
+    fn outcome(&self, level: LevelPlan, dt: f64, run: RunResult) -> LevelOutcome {
+        let particle_spacing = level.particle_spacing(self.runner.plan.scene.dimension());
+        let LevelPlan { cells, h, ppc, .. } = level;
+        self.judging.level(LevelSizes { cells, h, dt, ppc, particle_spacing }, run)
+    }
+}
+
+/// The sizes of a level with its actual step.
+fn taken(level: &LevelOutcome) -> LevelPlan {
+    let LevelOutcome { cells, h, dt, ppc, .. } = *level;
+    LevelPlan { cells, h, dt, ppc }
+}
+
+impl Reruns for CaseRuns<'_, '_> {
+    type Error = SubjectError;
+
+    fn can_halve(&self) -> bool {
+        !matches!(self.case.against, Against::SameMethod(_))
+    }
+
+    fn run_halved(
+        &self,
+        level: &LevelOutcome,
+        axis: Axis,
+    ) -> Option<Result<LevelOutcome, SubjectError>> {
+        let scene = &self.runner.plan.scene;
+        let halved = taken(level).halved(axis, scene.dimension())?;
+        Some(match size::too_large(scene, halved) {
+            Some((what, amount)) => Err(format!("{amount:.1e} {what} are too many").into()),
+            None => self.level(halved, false),
+        })
+    }
+
+    fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, SubjectError> {
+        self.repeated(LevelPlan { dt, ..taken(level) }, false)
+    }
+
+    fn rounding(&self) -> Option<RoundingSizes> {
+        rounding_sizes(&self.runner.plan, self.case, self.truth)
+    }
+}

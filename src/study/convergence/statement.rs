@@ -1,8 +1,7 @@
 //! The rows that state a convergence study, and outcomes of cases that have not run.
 
 use crate::exact::heat::Conduction;
-use crate::study::describe::profiles;
-use crate::study::describe::statement::{Rows, push, scene, stated};
+use crate::study::describe::statement::{Rows, push, scene, stated, step_profile};
 use crate::study::exact_motion::{self, amplitude};
 use crate::subject::SubjectError;
 use crate::suite::compile::truth::conservation_only;
@@ -178,7 +177,7 @@ pub(crate) fn described(
         });
     let (expected, because) = expected.unzip();
     CaseOutcome {
-        profile: profiles::of(plan, case),
+        profile: step_profile(plan, case),
         expected,
         because: because.unwrap_or_default(),
         ..CaseOutcome::new(&case.name, case.method.subject(), settings(plan, case))

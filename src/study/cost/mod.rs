@@ -5,10 +5,9 @@
 
 pub(crate) mod budget;
 pub(crate) mod candidate;
-pub(crate) mod goal;
 pub(crate) mod machine;
 pub(crate) mod measure;
 
 pub use budget::{BudgetError, best_candidate};
-pub use goal::{Goal, goals};
+pub use measure::{Goal, goals};
 pub use measure::{TimedPart, price};

@@ -1,5 +1,5 @@
 //! The rows of name and value that state a problem.
 
-pub mod profiles;
 pub mod sketch;
 pub(crate) mod statement;
+pub use statement::Dispensable;

@@ -2,9 +2,11 @@
 
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialParameter, MaterialPlan};
-use crate::subject::PlaneState;
+use crate::study::setup::dispatch;
+use crate::subject::{PlaneState, Profile};
+use crate::suite::EffectName;
 use crate::suite::evaluator::shown;
-use crate::suite::model::{Scene, Suite};
+use crate::suite::model::{Case, ConvergencePlan, Scene, Suite};
 use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::sources;
 use crate::verify::rounded;
@@ -134,4 +136,54 @@ fn material(plan: &MaterialPlan) -> String {
     };
     let parameters: String = plan.parameters().into_iter().map(written).collect();
     plan.name().replace('_', " ") + &parameters
+}
+
+/// A part that a scene may do without.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dispensable {
+    /// An effect.
+    Effect(EffectName),
+    /// Contact between bodies, which share one velocity field without it.
+    Contact,
+}
+
+impl Dispensable {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        EffectName::ALL.iter().map(|effect| Self::Effect(*effect)).chain([Self::Contact])
+    }
+
+    /// The name in suites and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Effect(effect) => effect.name(),
+            Self::Contact => "contact",
+        }
+    }
+}
+
+/// Cost profile of a step of `case` on the coarsest level.
+pub(crate) fn step_profile(plan: &ConvergencePlan, case: &Case) -> Option<Profile> {
+    dispatch::profile(plan, case.method, *plan.refine.levels.first()?)
+}
+
+/// The plan with a scene that does not list `without`.
+pub(crate) fn without_effect(plan: &ConvergencePlan, without: Dispensable) -> ConvergencePlan {
+    let mut plan = plan.clone();
+    let Dispensable::Effect(effect) = without else {
+        plan.scene.contact = None;
+        return plan;
+    };
+    if let (EffectName::BodyForce, Some(problem)) = (effect, &mut plan.exact) {
+        problem.manufactured = false;
+    }
+    remove(&mut plan.scene, effect);
+    plan
+}
+
+/// Removes an effect from a scene, with the effects that need it.
+fn remove(scene: &mut Scene, effect: EffectName) {
+    let goes = |other: &EffectName| *other == effect || other.needs().contains(&effect);
+    scene.loads.retain(|load| !goes(&load.effect));
+    scene.bodies.iter_mut().for_each(|body| remove(body, effect));
 }

@@ -1,6 +1,162 @@
 //! Gradient studies: derivatives of a differentiable solver, compared with its own values, with
 //! exact sensitivities, and over an interval of a parameter.
 
-mod exact;
 mod run;
-mod runner;
+use self::run::GradientRun;
+use crate::external::{GradientError, ProblemNeeds, SolverFactory};
+use crate::study::convergence::statement;
+use crate::study::describe::statement::{Rows, push};
+use crate::study::handover::needs;
+use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
+use crate::subject::GradientParameter;
+use crate::suite::evaluator::shown;
+use crate::suite::model::gradient::{GradientCase, GradientPlan};
+use crate::verify::{CaseOutcome, FIRST_LEVEL, Gating, GradientStudy, LAST_LEVEL};
+use std::sync::Arc;
+
+impl Study for GradientPlan {
+    fn statement(&self) -> Rows {
+        rows(self)
+    }
+
+    fn needs(&self) -> Option<ProblemNeeds> {
+        Some(needs(&self.problem))
+    }
+
+    fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
+        Box::new(GradientRunner { plan: self, context })
+    }
+}
+
+/// Runs cases of a gradient study.
+struct GradientRunner<'a> {
+    plan: &'a GradientPlan,
+    context: RunContext<'a>,
+}
+
+impl CaseRunner for GradientRunner<'_> {
+    fn units(&self) -> u64 {
+        let levels = self.plan.problem.refine.levels(self.context.extent).len() as u64;
+        let perturbed = u64::from(LAST_LEVEL - FIRST_LEVEL + 1);
+        let points = |case: &GradientCase| {
+            let parameter = self.plan.parameters[case.parameter].parameter;
+            let sweep = self.plan.sweep.filter(|sweep| sweep.parameter == parameter);
+            sweep.map_or(0, |sweep| sweep.points)
+        };
+        self.plan.cases.iter().map(|case| levels + perturbed + points(case)).sum()
+    }
+
+    fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
+        let (plan, case) = (self.plan, &self.plan.cases[index]);
+        let described = described(plan, case, self.context.solver);
+        let Some(solver) = self.context.solver else {
+            let lacks = vec!["a solver with gradients (`--solver COMMAND`)".to_owned()];
+            return CaseOutcome {
+                reason: "needs a solver with gradients".to_owned(),
+                ..described.not_applicable(lacks, "is not there without")
+            };
+        };
+        if let Some(Gating::Excepted(reason)) = &case.gating {
+            return described.excepted(reason.clone());
+        }
+        let lacks = lacking(plan, case, solver);
+        if !lacks.is_empty() {
+            return described.not_applicable(lacks, "lacks");
+        }
+        let all = plan.parameters.iter().map(|one| one.parameter);
+        let request = all.filter(|one| has_gradient(solver, *one)).collect();
+        let context = self.context;
+        let run = GradientRun { context, plan, case, solver, request };
+        match run.study(progress) {
+            Ok(study) => judged(described, case, study),
+            // A solver's statement that it cannot do something is not a fault.
+            Err(GradientError::Cannot(reason)) => {
+                described.not_applicable(vec![reason], "refuses the problem:")
+            }
+            Err(GradientError::Failed(reason)) => failed(described, &reason),
+        }
+    }
+}
+
+/// Whether `solver` has gradients with respect to a parameter.
+fn has_gradient(solver: &dyn SolverFactory, parameter: GradientParameter) -> bool {
+    let of = |gradients| ProblemNeeds { gradients, ..ProblemNeeds::default() };
+    let without = solver.lacks(&of(Vec::new())).len();
+    solver.lacks(&of(vec![parameter.name()])).len() == without
+}
+
+/// Everything that a case needs and `solver` lacks.
+fn lacking(plan: &GradientPlan, case: &GradientCase, solver: &dyn SolverFactory) -> Vec<String> {
+    let one = &plan.parameters[case.parameter];
+    let mut gradients = vec![one.parameter.name()];
+    let velocity = GradientParameter::InitialVelocity.name();
+    if one.velocity_factor != 0.0 && gradients != [velocity] {
+        gradients.push(velocity);
+    }
+    solver.lacks(&ProblemNeeds { gradients, ..needs(&plan.problem) })
+}
+
+/// The part of an outcome that is known before the case runs.
+fn described(
+    plan: &GradientPlan,
+    case: &GradientCase,
+    solver: Option<&dyn SolverFactory>,
+) -> CaseOutcome {
+    let one = &plan.parameters[case.parameter];
+    let mut settings = solver.map_or(Vec::new(), SolverFactory::settings);
+    settings.extend(case.solver.method.settings());
+    push(&mut settings, "derivative", &format!("with respect to {}", one.parameter.name()));
+    let (expected, because) =
+        case.expected.as_ref().map(|(terms, because)| (terms.summary(), because.clone())).unzip();
+    CaseOutcome {
+        expected,
+        because: because.unwrap_or_default(),
+        ..CaseOutcome::new(&case.name, case.solver.method.subject(), settings)
+    }
+}
+
+/// The outcome of a case that has run.
+fn judged(described: CaseOutcome, case: &GradientCase, study: GradientStudy) -> CaseOutcome {
+    let (state, reason) = study.state();
+    let unmet = case.expected.as_ref().map_or(Vec::new(), |(terms, _)| terms.unmet(&study));
+    CaseOutcome {
+        verdict: state.name().replace('_', " "),
+        reason: format!("{reason}; order of the derivative {:.2}", study.order()),
+        unmet,
+        study: Some(Arc::new(study)),
+        ..described
+    }
+}
+
+/// The outcome of a case whose solver broke.
+fn failed(described: CaseOutcome, reason: &str) -> CaseOutcome {
+    let reason = format!("the solver {reason}");
+    let is_expected = described.expected.is_some();
+    let unmet = if is_expected { vec![reason.clone()] } else { Vec::new() };
+    CaseOutcome { verdict: "failed".to_owned(), reason, unmet, ..described }
+}
+
+/// Rows of the study.
+fn rows(plan: &GradientPlan) -> Rows {
+    let mut rows = statement::rows(&plan.problem);
+    rows.retain(|(key, _)| !["instants", "judged", "crossing levels"].contains(&key.as_str()));
+    push(&mut rows, "functional", &plan.of.name().replace('_', " "));
+    for one in &plan.parameters {
+        let follows = match one.velocity_factor {
+            _ if one.parameter == GradientParameter::InitialVelocity => "",
+            factor if factor != 0.0 => ", which the initial velocity follows",
+            _ => "",
+        };
+        let (name, value) = (&one.name, shown(one.motion.value));
+        let text = format!("{} ({name} = {value}){follows}", one.parameter.name());
+        push(&mut rows, "with respect to", &text);
+    }
+    let cells = plan.problem.refine.levels.get(plan.level).map_or(0, |level| level.cells);
+    push(&mut rows, "perturbed", &format!("on {cells} cells, by 2^-4 to 2^-16 of the parameter"));
+    if let Some(sweep) = plan.sweep {
+        let (name, within) = (sweep.parameter.name(), shown(sweep.within));
+        let text = format!("{name} within {within} of its value, {} points", sweep.points);
+        push(&mut rows, "sweep", &text);
+    }
+    rows
+}

@@ -1,10 +1,10 @@
 //! The runs of one case: gradients and perturbed values.
 
-use super::exact;
+use crate::exact::{ParametricMotion, ParametricState};
 use crate::external::{Gradient, GradientError, GradientRequest, LevelProblem, SolverFactory};
 use crate::study::handover::level_problem;
 use crate::study::kind::{Progress, RunContext};
-use crate::subject::{FunctionalValue, GradientParameter, Precision, Samples};
+use crate::subject::{Functional, FunctionalValue, GradientParameter, Precision, Samples};
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan};
 use crate::suite::model::refine_plan::LevelPlan;
@@ -174,7 +174,7 @@ impl GradientRun<'_> {
     /// One level with the reported value, and with the partial derivative as it is reported.
     fn level(&self, level: LevelPlan) -> Result<(GradientLevel, f64, f64), GradientError> {
         let (problem, one) = (self.problem(level)?, self.parameter());
-        let exact = exact::derivative(self.plan, one, &problem);
+        let exact = exact_derivative(self.plan, one, &problem);
         let dt = problem.dt;
         let Gradient { value, gradient } = self.gradient(&problem)?;
         let of = |parameter: GradientParameter| {
@@ -309,4 +309,71 @@ impl GradientRun<'_> {
 fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, GradientError> {
     let lacks = || GradientError::Cannot(format!("the problem has no `{}`", parameter.name()));
     problem.parameter(parameter).filter(|q| *q != 0.0).ok_or_else(lacks)
+}
+
+/// A value and its derivative.
+type Dual = (f64, f64);
+
+/// Exact derivative, at the end of the run, of the functional with respect to a parameter of the
+/// problem. It is total: where the suite's initial velocity follows the parameter, so does that of
+/// the exact motion.
+pub(super) fn exact_derivative(
+    plan: &GradientPlan,
+    one: &Differentiated,
+    problem: &LevelProblem,
+) -> f64 {
+    let slope = slope(plan.of, one, problem);
+    match one.parameter {
+        // The parameter of the problem is a factor on the parameter of the suite.
+        GradientParameter::InitialVelocity => one.motion.value * slope,
+        _ => slope,
+    }
+}
+
+/// Derivative of the functional with respect to the parameter of the suite.
+fn slope(of: Functional, one: &Differentiated, problem: &LevelProblem) -> f64 {
+    let (motion, t) = (&one.motion, problem.until);
+    match of {
+        Functional::MeanDisplacement { axis } => {
+            mean(motion, t, &|state| (state.displacement[axis], state.displacement_slope[axis])).1
+        }
+        Functional::MeanSquareDisplacement => {
+            mean(motion, t, &|state| square(&state.displacement, &state.displacement_slope)).1
+        }
+        Functional::KineticEnergy => {
+            let density = problem.materials.first().map_or(f64::NAN, |one| one.density);
+            let (integral, slope) =
+                integral(motion, t, &|state| square(&state.velocity, &state.velocity_slope));
+            let mass =
+                if one.parameter == GradientParameter::Density { 0.5 * integral } else { 0.0 };
+            0.5 * density * slope + mass
+        }
+        Functional::PositionOf { particle, axis } => {
+            let d = problem.dimension;
+            let label = problem.particles.reference_position.get(particle * d..(particle + 1) * d);
+            label.map_or(f64::NAN, |label| motion.at(label, t).displacement_slope[axis])
+        }
+    }
+}
+
+/// Square of a vector, with its derivative.
+fn square(vector: &[f64], slope: &[f64]) -> Dual {
+    let both = vector.iter().zip(slope);
+    both.fold((0.0, 0.0), |(sum, rise), (x, dx)| (sum + x * x, rise + 2.0 * x * dx))
+}
+
+/// Integral over the body, with its derivative.
+fn integral(motion: &ParametricMotion, t: f64, of: &dyn Fn(&ParametricState) -> Dual) -> Dual {
+    let states = motion.states(t);
+    states.iter().fold((0.0, 0.0), |(sum, rise), (state, weight)| {
+        let (value, slope) = of(state);
+        (sum + weight * value, rise + weight * slope)
+    })
+}
+
+/// Mean over the body, with its derivative.
+fn mean(motion: &ParametricMotion, t: f64, of: &dyn Fn(&ParametricState) -> Dual) -> Dual {
+    let (sum, slope) = integral(motion, t, of);
+    let volume: f64 = motion.from.iter().zip(&motion.to).map(|(from, to)| to - from).product();
+    (sum / volume, slope / volume)
 }

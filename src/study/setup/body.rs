@@ -1,21 +1,22 @@
 //! Converts the model to the inputs of the solver of one body, in any number of dimensions.
 
 use super::initial_state::Initial;
-use super::seeding;
 use crate::exact::heat::Conduction;
-use crate::exact::{Forcing, Problem};
+use crate::exact::{Cut, Forcing, Piece, Problem, Random, join_small};
 use crate::mpm::{
-    BasisName, BodyForce, Boundary, Effect, Grid, HeatSolver, Hoop, Kernel, Particles, QuasiStatic,
-    QuasiStaticSetup, Setup, Side, Vector, kernel,
+    BasisName, BodyForce, Boundary, Effect, Fragment, Grid, HeatSolver, Hoop, Kernel, Matrix,
+    Particles, QuasiStatic, QuasiStaticSetup, Setup, Side, Vector, kernel,
 };
 use crate::subject::{PlaneState, SubjectError};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::LatticeEdits;
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace, Suite};
-use crate::suite::scene::boundary::{self, FaceSite};
+use crate::suite::scene::boundary::{FaceSite, build as build_boundary};
 use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
-use crate::suite::scene::load::{self, BodySite, ListedLoad, LoadTarget};
+use crate::suite::scene::lattice::{LatticeOffsets, block};
+use crate::suite::scene::load;
+use crate::suite::scene::load::{BodySite, ListedLoad, LoadTarget};
 
 /// A body at the start of a run.
 pub(crate) struct Body<'a> {
@@ -101,7 +102,7 @@ fn discretisation<const D: usize>(
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
     let kernel = kernel::<D>(basis);
     let grid = grid(body.scene, h, kernel.as_ref());
-    let mut particles = seeding::particles(body.own, &grid.origin, h, per_axis);
+    let mut particles = seeded_particles(body.own, &grid.origin, h, per_axis);
     body.lattice.apply(&mut particles);
     Ok((kernel, grid, particles))
 }
@@ -156,7 +157,7 @@ pub(crate) fn conductor<const D: usize>(
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
     let kernel = kernel::<D>(basis);
     let grid = grid(&plan.scene, h, kernel.as_ref());
-    let mut particles = seeding::particles(&plan.scene, &grid.origin, h, per_axis);
+    let mut particles = seeded_particles(&plan.scene, &grid.origin, h, per_axis);
     let site =
         BodySite { grid: &grid, basis, heat: plan.heat_problem(), particles: &mut particles };
     let effects = built(&plan.scene.loads, site)?;
@@ -220,7 +221,77 @@ pub(crate) fn boundary<const D: usize>(
     faces.sort_by_key(|face| face.hold.strength());
     let build = |face: &SceneFace| {
         let side = if face.high { Side::High } else { Side::Low };
-        boundary::build(&face.hold, &FaceSite { grid, basis, at: (face.axis, side) })
+        build_boundary(&face.hold, &FaceSite { grid, basis, at: (face.axis, side) })
     };
     faces.into_iter().filter_map(build).collect()
+}
+
+/// The particles of a scene on a grid that starts at `origin`, with cells of size `h`.
+pub(crate) fn seeded_particles<const D: usize>(
+    scene: &Scene,
+    origin: &Vector<D>,
+    h: f64,
+    per_axis: usize,
+) -> Particles<D> {
+    if let Some(panel) = &scene.mapped {
+        return panel.fill(scene.density, h, per_axis);
+    }
+    let block = block(scene, origin, h);
+    let Some(outline) = &scene.outline else { return Particles::fill(&block, h, per_axis) };
+    let half = block.spacing(h, per_axis) * 0.5;
+    let centres: Vec<Vector<D>> = block.centres(h, per_axis).collect();
+    let cut = |centre: &Vector<D>| outline.cut(centre.as_slice(), half.as_slice());
+    let mut cuts: Vec<Cut> = centres.iter().map(cut).collect();
+    if let [x, y] = half.as_slice() {
+        let along = block.counts(h, per_axis)[0];
+        let place = |p: usize| [centres[p][0], centres[p][1]];
+        join_small(&mut cuts, along, [*x, *y], &place, &|label| outline.holds(label));
+    }
+    let mut fragments = Vec::new();
+    let mut all = cuts.iter();
+    let mut particles = Particles::fill_where(&block, h, per_axis, |_| match all.next() {
+        Some(Cut::Pieces(pieces)) => {
+            fragments.extend(pieces.iter().map(fragment));
+            false
+        }
+        cut => cut == Some(&Cut::Whole),
+    });
+    particles.add_fragments(&fragments, scene.density);
+    particles
+}
+
+/// The particle of a piece of a body in the plane; a further axis would be its thickness of one.
+fn fragment<const D: usize>(piece: &Piece) -> Fragment<D> {
+    let domain = piece.domain();
+    Fragment {
+        volume: piece.volume,
+        place: Vector::from_fn(|i, _| piece.place.get(i).copied().unwrap_or(0.0)),
+        domain: Matrix::from_fn(|i, j| match (i, j) {
+            (0 | 1, 0 | 1) => domain[2 * i + j],
+            _ => 0.5 * f64::from(u8::from(i == j)),
+        }),
+    }
+}
+
+impl LatticeEdits {
+    /// Moves and adds particles.
+    pub(crate) fn apply<const D: usize>(&self, particles: &mut Particles<D>) {
+        let vector =
+            |numbers: &[f64]| Vector::<D>::from_fn(|i, _| numbers.get(i).copied().unwrap_or(0.0));
+        let shift = vector(&self.shift);
+        particles.x0.iter_mut().for_each(|x| *x += shift);
+        if !self.scatter.is_none() {
+            let LatticeOffsets { shift, perturb, seed } = &self.scatter;
+            let (shift, spacing) = (vector(shift), particles.spacing);
+            let mut random = Random::new(*seed);
+            for x in &mut particles.x0 {
+                let mut share = |axis: usize| shift[axis] + perturb * random.between(-1.0, 1.0);
+                *x += Vector::from_fn(|axis, _| share(axis) * spacing[axis]);
+            }
+        }
+        for place in &self.extra {
+            particles.add(vector(place));
+        }
+        particles.x.clone_from(&particles.x0);
+    }
 }

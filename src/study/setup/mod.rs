@@ -4,4 +4,3 @@ pub(crate) mod bar;
 pub(crate) mod body;
 pub(crate) mod dispatch;
 pub(crate) mod initial_state;
-pub(crate) mod seeding;

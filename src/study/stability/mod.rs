@@ -2,4 +2,186 @@
 
 mod handed;
 pub(crate) mod run;
-pub(crate) mod runner;
+use self::run::CaseRun;
+use crate::external::{ProblemNeeds, SolverFactory};
+use crate::study::describe::statement::{Rows, push, scene};
+use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, Study};
+use crate::study::time_series::SeriesError;
+use crate::suite::compile::stability::setup::RunSetup;
+use crate::suite::evaluator::shown;
+use crate::suite::model::stability::StabilityPlan;
+use crate::verify::{CaseOutcome, Gating, Stability, StabilityRow, StabilityStudy};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+impl Study for StabilityPlan {
+    fn statement(&self) -> Rows {
+        rows(self)
+    }
+
+    fn needs(&self) -> Option<ProblemNeeds> {
+        let setup = self.template.setup(&[(&self.swept, *self.values.first()?)]);
+        Some(handed::needs(&setup.ok()?))
+    }
+
+    fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
+        Box::new(StabilityRunner { plan: self, context })
+    }
+}
+
+/// Runs cases of a stability study.
+struct StabilityRunner<'a> {
+    plan: &'a StabilityPlan,
+    context: RunContext<'a>,
+}
+
+impl CaseRunner for StabilityRunner<'_> {
+    fn units(&self) -> u64 {
+        (self.plan.cases.len() * self.plan.values.len()) as u64
+    }
+
+    fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
+        let (plan, context, case) = (self.plan, self.context, &self.plan.cases[index]);
+        let run = CaseRun { plan, case, context };
+        let lacks = context.solver.map_or(Vec::new(), |solver| {
+            plan.needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
+        });
+        if let Some(Gating::Excepted(reason)) = &case.gating {
+            return described(&run).excepted(reason.clone());
+        }
+        if !lacks.is_empty() {
+            return described(&run).not_applicable(lacks, "lacks");
+        }
+        let row = |value: &f64| {
+            let row = run.row(*value);
+            progress();
+            row
+        };
+        let rows: Vec<StabilityRow> = plan.values.par_iter().map(row).collect();
+        // A problem that the solver refuses is not a failure.
+        let refused = rows.iter().find_map(|row| row.refused.clone());
+        if let Some(reason) = refused.filter(|_| context.solver.is_some()) {
+            return described(&run).not_applicable(vec![reason], "refuses the problem:");
+        }
+        let outcome = outcome(&run, rows);
+        match &case.gating {
+            Some(Gating::NotGated(reason)) => outcome.not_gated(reason),
+            _ => outcome,
+        }
+    }
+
+    fn shown(
+        &self,
+        case: usize,
+        outcome: &CaseOutcome,
+        show: ShowRun<'_>,
+    ) -> Result<(), SeriesError> {
+        let (plan, case) = (self.plan, &self.plan.cases[case]);
+        let study: &StabilityStudy = outcome.results().ok_or("it could not be run")?;
+        if study.sought.is_some() {
+            return Err("it looks for a limit, by many runs".into());
+        }
+        let trial = |row: &StabilityRow| row.trial.as_ref().map(|trial| trial.verdict);
+        let grows = |row: &&StabilityRow| trial(row) != Some(Stability::Stable);
+        let row = study.rows.iter().find(grows).or(study.rows.last()).ok_or("it has no runs")?;
+        let run = CaseRun { plan, case, context: self.context };
+        show(run.shown(&[(&plan.swept, row.value)])?)
+    }
+}
+
+/// The part of an outcome that is known before the case runs.
+fn described(run: &CaseRun<'_>) -> CaseOutcome {
+    let case = run.case;
+    // Without a fixed face there is no statement about walls.
+    let walls = run.setup(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
+    let mut settings = case.method.settings();
+    settings.retain(|(key, _)| walls || key != "walls");
+    let mut all = run.context.solver.map_or(Vec::new(), SolverFactory::settings);
+    all.extend(settings);
+    CaseOutcome {
+        expected: case.summary.clone(),
+        because: case.because.clone(),
+        ..CaseOutcome::new(&case.name, case.method.subject(), all)
+    }
+}
+
+/// The outcome of a case, from its rows.
+fn outcome(run: &CaseRun<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
+    let CaseRun { plan, case, .. } = run;
+    let unmet: Vec<String> = case
+        .expected
+        .iter()
+        .zip(&rows)
+        .flat_map(|(expected, row)| {
+            let place = format!("{} = {}", plan.swept, row.value);
+            expected.unmet(row).into_iter().map(move |unmet| format!("{place}: {unmet}"))
+        })
+        .collect();
+    let study = StabilityStudy {
+        swept: plan.swept.clone(),
+        sought: plan.sought.as_ref().map(|(name, ..)| name.clone()),
+        figures: plan.figures.clone(),
+        rows,
+    };
+    CaseOutcome {
+        verdict: study.verdict(),
+        reason: study.reason(),
+        unmet,
+        study: Some(Arc::new(study)),
+        ..described(run)
+    }
+}
+
+/// Rows of the study, with the set-up of its first row.
+pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
+    let mut rows = Rows::new();
+    let first = |value: &f64| plan.template.setup(&[(&plan.swept, *value)]).ok();
+    if let Some(first) = plan.values.first().and_then(first) {
+        scene(&first.scene, &mut rows);
+        of_setup(plan, &first, &mut rows);
+    }
+    rows
+}
+
+fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
+    let mut push = |key: &str, value: String| push(rows, key, &value);
+    let values: Vec<String> = plan.values.iter().map(|value| shown(*value)).collect();
+    push("swept", format!("{} = {}", plan.swept, values.join(", ")));
+    if let Some((name, from, to)) = &plan.sought {
+        push(
+            "sought",
+            format!("the largest stable {name}, from {} to {}", shown(*from), shown(*to)),
+        );
+    }
+    let ppc = setup.level.ppc.unwrap_or(0);
+    push("cells", format!("{} of size {} m", setup.level.cells, shown(setup.level.h)));
+    push("particles", format!("{ppc} per cell"));
+    let full = if setup.full_steps == setup.steps {
+        String::new()
+    } else {
+        format!(", {} with --full", setup.full_steps)
+    };
+    push("run", format!("{} steps{full}", setup.steps));
+    if let Some(share) = setup.rule {
+        push("dt", format!("{} of the stable time step", shown(share)));
+    }
+    if let (Some(first), Some(last)) = (setup.dt.first(), setup.dt.last()) {
+        let turns = setup.dt.len() / 2;
+        if turns > 0 {
+            push("steps in turn", format!("{turns} of {first:e} s, {turns} of {last:e} s"));
+        }
+    }
+    if setup.frozen {
+        push("configuration", "frozen: no step moves a particle or its domain".to_owned());
+    }
+    if setup.perturb > 0.0 {
+        push("start", format!("random, of size {:e} in every number of the state", setup.perturb));
+    }
+    push(
+        "verdicts",
+        format!(
+            "stable: energy up to {:e} times that at the start; unstable: beyond {:e}",
+            setup.scales.stable_below, setup.scales.unstable_above
+        ),
+    );
+}

@@ -3,9 +3,10 @@
 use super::handed;
 use super::handed::{bodies, perturb};
 use crate::study::convergence::time_steps::ROUNDS;
-use crate::study::kind::{RunContext, ShownRun};
+use crate::study::kind::RunContext;
 use crate::study::setup::body::Body;
 use crate::study::setup::dispatch::{perturbable, stable_time_step_of};
+use crate::study::time_series::ShownRun;
 use crate::subject::{Perturbable, Subject, SubjectError};
 use crate::suite::compile::stability::setup::{ParameterValues, RunSetup};
 use crate::suite::model::method::Method;

@@ -7,8 +7,8 @@ use crate::suite::evaluator::{DeclaredParameter, Evaluator};
 use crate::suite::grammar::{
     ConvergenceSpec, GradientSpec, InternalForceSpec, StabilitySpec, SuiteSpec,
 };
+use crate::suite::model::StudyPlan;
 use crate::suite::model::fingerprint::fingerprint;
-use crate::suite::model::study_plan::StudyPlan;
 use crate::suite::model::{Scene, Suite};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path, Source};
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 //! A gradient study whose keys have all been checked.
 
 use super::method::{ExternalMethod, GateTerms, Method};
-use super::study_plan::{StudyPlan, kept};
 use super::{Case, ConvergencePlan};
+use super::{StudyPlan, kept};
 use crate::exact::ParametricMotion;
 use crate::subject::{Functional, GradientParameter};
 use crate::verify::{Gating, GradientTerms};

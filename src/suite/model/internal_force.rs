@@ -1,6 +1,6 @@
 //! An internal-force study whose keys have all been checked.
 
-use super::study_plan::{StudyPlan, kept};
+use super::{StudyPlan, kept};
 use crate::exact::formula::Formula;
 use crate::mpm::BasisName;
 use std::sync::Arc;

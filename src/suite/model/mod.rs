@@ -7,7 +7,6 @@ pub(crate) mod internal_force;
 pub(crate) mod method;
 pub(crate) mod refine_plan;
 pub(crate) mod stability;
-pub(crate) mod study_plan;
 
 pub(crate) use super::scene::{Scene, SceneFace};
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
@@ -15,7 +14,6 @@ pub use refine_plan::SameMethod;
 
 use self::method::{AnyMethod, ExternalMethod, GateTerms, Method};
 use self::refine_plan::{LevelPlan, RefinePlan};
-use self::study_plan::{StudyPlan, kept};
 use super::grammar::{CrossingLevels, EquationName, NormName, WarningName};
 use super::scene::lattice::LatticeOffsets;
 use crate::exact::Problem;
@@ -24,6 +22,7 @@ use crate::exact::heat::Conduction;
 use crate::fem::{Element, Mass};
 use crate::verify::{Clock, Expectation, Gating, JudgedSum, Quantity};
 use std::any::Any;
+use std::fmt::Debug;
 use std::sync::Arc;
 
 /// A suite, ready to run.
@@ -249,4 +248,36 @@ impl ConvergencePlan {
     pub fn heat_problem(&self) -> Option<&Conduction> {
         self.conduction.as_ref().or_else(|| self.exact.as_ref()?.heat.as_ref())
     }
+}
+
+/// Checked values of one kind of study.
+pub trait StudyPlan: Any + Debug + Send + Sync {
+    /// Names of the cases, in order.
+    fn case_names(&self) -> Vec<&str>;
+
+    /// Summary of the expectation of the case with this index, and its reason; `None` if the suite
+    /// explores.
+    ///
+    /// # Panics
+    /// If there is no such case.
+    fn expectation(&self, case: usize) -> Option<(String, &str)>;
+
+    /// This study with only the cases for whose index `keep` returns true.
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan>;
+
+    /// The study with an external solver in place of its methods, gated on `terms`, if any; `None`
+    /// for a study of the inside of a method.
+    fn of_external(
+        &self,
+        _solver: ExternalMethod<'_>,
+        _terms: Option<&GateTerms>,
+    ) -> Option<Arc<dyn StudyPlan>> {
+        None
+    }
+}
+
+/// The members of a list for whose index `keep` returns true.
+pub(super) fn kept<T: Clone>(all: &[T], keep: &dyn Fn(usize) -> bool) -> Vec<T> {
+    let kept = all.iter().enumerate().filter(|(i, _)| keep(*i));
+    kept.map(|(_, member)| member.clone()).collect()
 }

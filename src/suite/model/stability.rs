@@ -1,7 +1,7 @@
 //! A stability study whose keys have all been checked.
 
 use super::method::{ExternalMethod, GateTerms, Method};
-use super::study_plan::{StudyPlan, kept};
+use super::{StudyPlan, kept};
 use crate::suite::grammar::StabilitySpec;
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::yaml::Source;

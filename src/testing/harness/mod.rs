@@ -28,7 +28,9 @@ const WAITING: usize = 4;
 /// #     pub struct MySolver;
 /// #     impl SolverFactory for MySolver {
 /// #         fn name(&self) -> &str { "mine" }
-/// #         fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> { todo!() }
+/// #         fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
+/// #             todo!()
+/// #         }
 /// #     }
 /// # }
 /// # use of_yours::MySolver;

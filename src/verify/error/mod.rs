@@ -3,7 +3,6 @@
 pub(crate) mod clock;
 pub(crate) mod declaration;
 pub(crate) mod error_field;
-pub(crate) mod error_scale;
 pub(crate) mod judged_sum;
 /// The quantity that `docs/exercises/quantity.md` adds.
 #[cfg(test)]
