@@ -2,7 +2,7 @@
 //! shows about it.
 
 use super::conservation::ConservationError;
-use super::convergence::{Convergence, LevelOutcome, StepKind};
+use super::convergence::{Convergence, LevelOutcome};
 use super::exclusion::leaves_too_few;
 use super::expectation::gate::{Acceptance, GateResult, Gating};
 use super::expectation::limits::{Limits, Measured};
@@ -119,7 +119,7 @@ impl JudgePlan<'_> {
             scale: self.scale,
             error_scale: self.error_scale.clone(),
             compared: self.is_compared,
-            steps: if self.by_load_steps { StepKind::Load } else { StepKind::Time },
+            steps: self.steps,
             bounded: self.expectation.is_some_and(|expectation| expectation.verdict.is_none())
                 || accepted.is_some_and(|accepted| accepted != Acceptance::Order)
                 || gate.is_some_and(|gate| gate.remark.is_some()),

@@ -1,6 +1,7 @@
 //! The results of a convergence study.
 
 use super::conservation::Conserved;
+use super::error::clock::StepKind;
 use super::error::norm::ErrorScale;
 use super::error::norm::NormName;
 use super::error::observer::History;
@@ -14,15 +15,6 @@ use super::study_results::StudyResults;
 use super::verdict::floor::Floor;
 use super::verdict::judge::Judgement;
 use super::verdict::name::Verdict;
-
-/// Kind of the steps of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StepKind {
-    /// Steps in time.
-    Time,
-    /// Load steps, without time.
-    Load,
-}
 
 /// Results of a convergence study.
 #[derive(Debug, Clone)]

@@ -2,6 +2,7 @@
 
 use super::conservation::Conserved;
 use super::convergence::LevelOutcome;
+use super::error::clock::StepKind;
 use super::error::norm::ErrorScale;
 use super::error::norm::NormName;
 use super::error::quantity::Quantity;
@@ -30,8 +31,8 @@ pub struct JudgePlan<'a> {
     pub error_scale: ErrorScale,
     /// Whether errors are measured against an exact solution or a reference.
     pub is_compared: bool,
-    /// Whether the steps are load steps, without time.
-    pub by_load_steps: bool,
+    /// Kind of the steps.
+    pub steps: StepKind,
     /// Whether levels on which particles change their cell are excluded.
     pub excludes_crossings: bool,
     /// Distance (m) of neighbouring positions of a solver in single precision, if its displacement

@@ -44,14 +44,14 @@ pub(crate) mod verdict;
 
 pub use case::{CaseJudgement, judge_case};
 pub use conservation::{ConservationError, Conserved};
-pub use convergence::{Convergence, LevelOutcome, StepKind};
+pub use convergence::{Convergence, LevelOutcome};
 pub use cost::{
     Agreement, BestCandidate, ConvergingPart, End, Exponent, Machine, MethodCost, Model,
     PredictedError, Ranked, Ranking, Reach, Sample, TARGETS, TimedSuite, Timing, Unpredicted,
     Workload, by_transfers, pareto_front, rankings,
 };
 pub(crate) use error::clock::is_instant;
-pub use error::clock::{Clock, MOST_STEPS, STEP_TOLERANCE};
+pub use error::clock::{Clock, MOST_STEPS, STEP_TOLERANCE, StepKind};
 pub(crate) use error::declaration::SumNeed;
 pub use error::error_field::ErrorField;
 pub use error::judged_sum::JudgedSum;

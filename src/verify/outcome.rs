@@ -29,6 +29,17 @@ pub struct SuiteOutcome {
     pub cases: Vec<CaseOutcome>,
 }
 
+impl SuiteOutcome {
+    /// Appends the cases of `other`, a run of the same suite with another solver, to those of
+    /// `joined`.
+    pub fn join(joined: &mut Option<Self>, other: Self) {
+        match joined {
+            None => *joined = Some(other),
+            Some(joined) => joined.cases.extend(other.cases),
+        }
+    }
+}
+
 /// Result of one case.
 #[derive(Debug, Clone)]
 #[non_exhaustive]

@@ -124,10 +124,7 @@ fn report(
             if let Some(number) = part.solver {
                 of_solvers[number].push(outcome.clone());
             }
-            match &mut joined {
-                None => joined = Some(outcome),
-                Some(joined) => joined.cases.extend(outcome.cases),
-            }
+            SuiteOutcome::join(&mut joined, outcome);
         }
         if let Some(outcome) = joined {
             bar.suspend(|| printing.of_suite(&outcome));

@@ -6,7 +6,7 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, vectorized};
 use crate::mpm::foundation::threads::{FEW, join};
-use crate::subject::{Checkpoint, Column, Failure, Memory, Site};
+use crate::subject::{Checkpoint, Column, Failure, Memory, RunCounters, Site};
 use std::array;
 
 /// The cells of all particles, with counters.
@@ -31,6 +31,16 @@ impl<const D: usize> CellTracker<D> {
         let mut cells = particles.x.iter().enumerate().map(find).collect::<Result<Vec<_>, _>>()?;
         cells.shrink_to_fit();
         Ok(Self { cells, crossings: 0, left_domain: 0 })
+    }
+
+    /// `counters` of a run, with the number of particles and the counters of their cells.
+    pub(in crate::mpm) fn counters(&self, counters: RunCounters) -> RunCounters {
+        RunCounters {
+            particles: Some(self.cells.len() as u64),
+            crossings: Some(self.crossings),
+            left_domain: Some(self.left_domain),
+            ..counters
+        }
     }
 
     /// Columns for particles.

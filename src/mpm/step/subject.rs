@@ -131,13 +131,8 @@ impl<const D: usize> Subject for Solver<D> {
     }
 
     fn counters(&self) -> RunCounters {
-        RunCounters {
-            particles: Some(self.setup.particles.len() as u64),
-            transfers: self.transfers,
-            crossings: Some(self.cell_tracker.crossings),
-            left_domain: Some(self.cell_tracker.left_domain),
-            min_j: self.min_j,
-        }
+        let transfers = RunCounters::new(self.transfers);
+        self.cell_tracker.counters(RunCounters { min_j: self.min_j, ..transfers })
     }
 
     fn passes(&self) -> Vec<String> {

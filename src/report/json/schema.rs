@@ -147,7 +147,7 @@ fn gradient_study() -> Value {
         ("functional", text(), "the functional that is differentiated"),
         ("parameter", text(), "the parameter of the problem"),
         ("state", json!({"enum": states}), "the state of the derivative"),
-        ("value", number(), "value of the functional after a plain run"),
+        ("value", number(), "value of the functional after a run without derivatives"),
         ("reported_value", number(), "value that the solver reports with the gradient"),
         ("order", number(), "order of the error of the derivative"),
         ("levels", list(row(&gradient::levels())), "the derivative on all levels"),

@@ -27,7 +27,7 @@ pub(super) fn judge_plan<'a>(
         scale: plan.scale,
         error_scale: error_scale(plan, case, truth),
         is_compared: case.against != Against::Nothing,
-        by_load_steps: plan.by_load_steps,
+        steps: plan.steps,
         excludes_crossings: plan.crossing_levels == CrossingLevels::Excluded,
         position_spacing: position_spacing(plan, case),
         observed_at: plan.observe.as_deref(),

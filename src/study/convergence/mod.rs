@@ -294,8 +294,7 @@ impl CaseRuns<'_, '_> {
         let plan = &self.runner.plan;
         let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
         let (sum, observe) = (plan.sum.as_deref(), plan.observe.as_deref());
-        let by_load_steps = plan.by_load_steps;
-        Comparison { of: plan.of, sum, observe, at_rest, by_load_steps, keeps_field }
+        Comparison { of: plan.of, sum, observe, at_rest, steps: plan.steps, keeps_field }
     }
 
     /// The outcome of a level with steps of `dt` (s).

@@ -9,7 +9,7 @@ use crate::suite::evaluator::shown;
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
 use crate::suite::model::{Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
-use crate::verify::{self, Axis, CaseOutcome, Expectation, Gating};
+use crate::verify::{self, Axis, CaseOutcome, Expectation, Gating, StepKind};
 
 /// Rows of the whole study.
 pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
@@ -117,7 +117,7 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
         let share = shown(share);
         format!("{share} of the stable time step, case by case and level by level")
     });
-    if !study.by_load_steps {
+    if study.steps == StepKind::Time {
         push(rows, "dt", &format!("{dt}, adjusted to a whole number of steps"));
         push(rows, "instants", &format!("{instants}"));
     }

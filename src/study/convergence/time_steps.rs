@@ -15,7 +15,7 @@ use crate::suite::compile::check::size::particles;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
-use crate::verify::{Clock, STEP_TOLERANCE};
+use crate::verify::{Clock, STEP_TOLERANCE, StepKind};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -93,7 +93,7 @@ pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
             particles: level.ppc.map_or(0.0, |_| particles(&plan.scene, level)),
             dt: clock.dt(),
             steps: clock.steps,
-            courant: (!plan.by_load_steps).then(|| waves * clock.dt() / level.h),
+            courant: (plan.steps == StepKind::Time).then(|| waves * clock.dt() / level.h),
         };
         match all.last_mut().filter(|(known, _)| *known == case) {
             Some((_, levels)) => levels.push(planned),

@@ -123,11 +123,7 @@ pub fn price(
             Some(solver) => runner.judging(solver),
             None => runner,
         };
-        let ran = runner.run(progress);
-        match &mut outcome {
-            None => outcome = Some(ran),
-            Some(outcome) => outcome.cases.extend(ran.cases),
-        }
+        SuiteOutcome::join(&mut outcome, runner.run(progress));
     }
     let outcome = outcome?;
     let observed = alone(|| {

@@ -7,7 +7,7 @@ use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::yaml::NumberText;
-use crate::verify::{Axis, KnownCause, KnownCauseKind, LevelOutcome};
+use crate::verify::{Axis, KnownCause, KnownCauseKind, LevelOutcome, StepKind};
 
 /// Share of a stable step that is predicted, at which levels are run again.
 const OF_PREDICTED: f64 = 0.5;
@@ -120,7 +120,7 @@ fn mended<'a>(known: &Known<'a>) -> Option<Vec<Mended<'a>>> {
 
 /// The step (s) above which the step of a level is in question.
 fn limit(plan: &ConvergencePlan, level: &LevelOutcome) -> Option<f64> {
-    if plan.by_load_steps {
+    if plan.steps == StepKind::Load {
         return None;
     }
     // Steps of the built-in MPM are stable unless they are predicted to be too long.

@@ -116,7 +116,7 @@ impl GradientRun<'_> {
         Ok(study)
     }
 
-    /// Figures of further plain runs, with which a wrong derivative is compared.
+    /// Figures of further runs without derivatives, with which a wrong derivative is compared.
     fn evidence(&self, problem: &LevelProblem) -> Result<GradientEvidence, GradientError> {
         let Gradient { gradient, .. } = self.gradient(problem)?;
         let value = |problem: LevelProblem| Ok(self.value(&problem)?.value);
@@ -161,7 +161,7 @@ impl GradientRun<'_> {
         ROUNDING * half
     }
 
-    /// Allowed difference between the reported value and that of a plain run.
+    /// Allowed difference between the reported value and that of a run without derivatives.
     fn tolerance(&self, plain: FunctionalValue) -> f64 {
         let relative = match self.solver.precision() {
             Precision::Double => 1e-12,
@@ -211,7 +211,7 @@ impl GradientRun<'_> {
         Err(GradientError::Failed(reason))
     }
 
-    /// Value of the functional after a plain run.
+    /// Value of the functional after a run without derivatives.
     fn value(&self, problem: &LevelProblem) -> Result<FunctionalValue, GradientError> {
         let run = |problem| self.plain_run(problem).map(|done| vec![done.value, done.scale]);
         match self.kept(problem, "value", run)?[..] {
@@ -248,7 +248,7 @@ impl GradientRun<'_> {
         answer.map_err(|error| GradientError::Failed(error.to_string()))?.numbers()
     }
 
-    /// Value of the functional after a plain run of the solver.
+    /// Value of the functional after a run of the solver without derivatives.
     fn plain_run(&self, problem: LevelProblem) -> Result<FunctionalValue, GradientError> {
         let (steps, dt) = (problem.steps, problem.dt);
         let mass = problem.particles.mass.clone();

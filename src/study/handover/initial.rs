@@ -16,6 +16,7 @@ use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace};
 use crate::suite::scene::grid_size::{cell_size, grid_axis};
 use crate::suite::scene::load::{EffectName, ListedLoad, LoadTarget};
 use crate::suite::scene::numbers::LoadNumbers;
+use crate::verify::StepKind;
 use std::sync::Arc;
 
 /// The problem of one level of a case, of the suite called `suite`.
@@ -35,7 +36,7 @@ pub fn level_problem(
         plan.manufactured(),
         level,
         HandedRun {
-            load_steps: plan.by_load_steps.then_some(clock.steps),
+            load_steps: (plan.steps == StepKind::Load).then_some(clock.steps),
             steps: clock.steps,
             dt: clock.dt(),
             until: clock.until,

@@ -12,7 +12,7 @@ use crate::suite::model::method::{ExternalMethod, GateTerms};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace, Suite};
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
-use crate::verify::{Quantity, SumNeed};
+use crate::verify::{Quantity, StepKind, SumNeed};
 use std::sync::Arc;
 
 /// The needs of a convergence study.
@@ -21,7 +21,7 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
         column: column(plan.of),
         manufactured: plan.manufactured().is_some(),
         initial_deformation: starts_deformed(plan),
-        load_steps: plan.by_load_steps,
+        load_steps: plan.steps == StepKind::Load,
         ..of_scene(&plan.scene)
     };
     let energy_or_wall = [SumNeed::StoredEnergy, SumNeed::Wall];

@@ -10,6 +10,7 @@ use crate::suite::model::{Case, ConvergencePlan, Scene};
 use crate::suite::scene::load::EffectName;
 use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
+use crate::verify::StepKind;
 
 /// Minimum share of the final load at the start that counts as sudden loading.
 const SUDDEN: f64 = 0.1;
@@ -46,7 +47,9 @@ pub(crate) const HELP: &str = "list `damping` or `local_damping` in `loads`, and
 /// dissipation. An external solver is assumed to have no dissipation.
 pub(crate) fn oscillates(plan: &ConvergencePlan, case: &Case) -> bool {
     let Some(problem) = plan.exact.as_ref().filter(|exact| exact.at_rest) else { return false };
-    !plan.by_load_steps && !removes_energy(&plan.scene, case) && starts_away(plan, case, problem)
+    plan.steps == StepKind::Time
+        && !removes_energy(&plan.scene, case)
+        && starts_away(plan, case, problem)
 }
 
 /// Whether a load, a viscous material, friction or the transfer of velocities dissipates energy.

@@ -11,6 +11,7 @@ use crate::suite::grammar::{AcknowledgeSpec, ConvergenceSpec, WarningName};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::AnyMethod;
 use crate::suite::yaml::{Diagnostic, Path};
+use crate::verify::StepKind;
 
 /// Default number of instants at which the error is measured.
 const INSTANTS: u64 = 50;
@@ -80,7 +81,7 @@ pub(crate) fn convergence_plan(
         same_method,
         refine,
         scatter,
-        by_load_steps: spec.run.load_steps.is_some(),
+        steps: spec.run.load_steps.as_ref().map_or(StepKind::Time, |_| StepKind::Load),
         instants,
         norm: spec.judge.norm,
         of: spec.judge.of,

@@ -42,7 +42,8 @@ pub(crate) fn plan(
 fn methods(evaluator: &Evaluator<'_>, spec: &GradientSpec) -> Result<Vec<MethodSpec>, Diagnostic> {
     let is_other = |method: &MethodSpec| !matches!(method, MethodSpec::External { .. });
     if let Some(i) = spec.methods.iter().position(is_other) {
-        let message = "gradients are those of external solvers; this crate has none";
+        let message =
+            "a gradient study needs an external solver: the built-in solvers have no gradients";
         let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), message);
         return Err(diagnostic.with_help("write `external: {name: my-solver}`"));
     }
@@ -63,9 +64,9 @@ fn refuse_unfit_problem(
     let (key, truth) = spec.truth();
     let top = |key: &str| Path::top("scene").then(key);
     let refused = [
-        (!scene.bodies.is_empty(), top("bodies"), "gradients are those of one body"),
-        (scene.outline.is_some(), top("body"), "gradients are those of a box"),
-        (scene.plane != PlaneState::Strain, top("plane"), "gradients are those of plane strain"),
+        (!scene.bodies.is_empty(), top("bodies"), "a gradient study has one body"),
+        (scene.outline.is_some(), top("body"), "the body of a gradient study is a box"),
+        (scene.plane != PlaneState::Strain, top("plane"), "a gradient study is in plane strain"),
         (
             !scene.initial_displacement.is_empty(),
             top("initial_displacement"),

@@ -184,12 +184,23 @@ impl<'a> Evaluator<'a> {
         text: &NumberText,
         what: &str,
     ) -> Result<u64, Diagnostic> {
+        self.count_up_to(MOST, path, text, what)
+    }
+
+    /// A number of items from 1 to `most`.
+    pub(crate) fn count_up_to(
+        &self,
+        most: f64,
+        path: &Path,
+        text: &NumberText,
+        what: &str,
+    ) -> Result<u64, Diagnostic> {
         let value = self.number(path, text)?;
-        if (1.0..=MOST).contains(&value) && value.fract() == 0.0 {
+        if (1.0..=most).contains(&value) && value.fract() == 0.0 {
             return Ok(value as u64);
         }
         let message = format!("{what} is {}", shown(value));
-        let label = format!("expected a whole number from 1 to {MOST:e}");
+        let label = format!("expected a whole number from 1 to {most:e}");
         Err(self.unusable(path, text, &message, &label))
     }
 

@@ -55,8 +55,9 @@ impl GradientSpec {
     /// The key of the stated solution, and the solution if there is one.
     pub(crate) fn truth(&self) -> (&'static str, Option<&ExactSpec>) {
         match (&self.exact, &self.equilibrium) {
+            (Some(exact), _) => ("exact", Some(exact)),
             (None, Some(rest)) => ("equilibrium", Some(rest)),
-            (exact, _) => ("exact", exact.as_ref()),
+            (None, None) => ("study", None),
         }
     }
 

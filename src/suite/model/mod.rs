@@ -20,7 +20,7 @@ use crate::exact::Problem;
 use crate::exact::formula::Formula;
 use crate::exact::heat::Conduction;
 use crate::fem::{Element, Mass};
-use crate::verify::{Clock, Expectation, Gating, JudgedSum, Quantity};
+use crate::verify::{Clock, Expectation, Gating, JudgedSum, Quantity, StepKind};
 use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -65,9 +65,9 @@ pub struct ConvergencePlan {
     pub refine: RefinePlan,
     /// Offsets of particles from their lattice.
     pub scatter: LatticeOffsets,
-    /// Whether runs have load steps in place of time. A load step then takes one unit of time, so
-    /// that a run of N load steps ends at time N.
-    pub by_load_steps: bool,
+    /// Kind of the steps. A load step takes one unit of time, so that a run of N load steps ends at
+    /// time N.
+    pub steps: StepKind,
     /// Instants at which the error is measured.
     pub instants: u64,
     /// The judged error.
@@ -178,7 +178,7 @@ impl ConvergencePlan {
 impl Case {
     /// Number of load steps; `None` for a run in time.
     pub fn load_steps(&self, plan: &ConvergencePlan) -> Option<u64> {
-        plan.by_load_steps.then_some(self.until as u64)
+        (plan.steps == StepKind::Load).then_some(self.until as u64)
     }
 
     /// The steps of a run, for a requested step `dt` (s).

@@ -12,6 +12,16 @@ pub struct Clock {
     pub instants: u64,
 }
 
+/// Kind of the steps of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StepKind {
+    /// Steps in time.
+    #[default]
+    Time,
+    /// Load steps, without time.
+    Load,
+}
+
 /// Maximum number of steps of a run, so that a misspelt dt does not run for years.
 pub const MOST_STEPS: f64 = 1e9;
 

@@ -1,6 +1,7 @@
 //! One subject on one level: the run, the comparison with the exact solution, and the results.
 
 use super::clock::Clock;
+use super::clock::StepKind;
 use super::error_field::ErrorField;
 use super::judged_sum::{JudgedSum, over_instants};
 use super::norm::{NormName, Norms, RunErrors, larger, largest_length};
@@ -26,8 +27,8 @@ pub struct Comparison<'a> {
     /// If the exact solution is a state of rest: the speed (m/s) that residual speeds are divided
     /// by. Errors are then measured at the end only.
     pub at_rest: Option<f64>,
-    /// Whether the steps are load steps, without time.
-    pub by_load_steps: bool,
+    /// Kind of the steps.
+    pub steps: StepKind,
     /// Whether the errors over the body are stored.
     pub keeps_field: bool,
 }
@@ -209,10 +210,9 @@ impl<'a> RunMonitor<'a> {
     fn failed(mut self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
         subject.sample(&mut self.samples);
         let field = self.field(t);
-        let reason = if self.comparison.by_load_steps {
-            format!("{failure} (load step {step})")
-        } else {
-            format!("{failure} (step {step}, t = {t:.4} s)")
+        let reason = match self.comparison.steps {
+            StepKind::Load => format!("{failure} (load step {step})"),
+            StepKind::Time => format!("{failure} (step {step}, t = {t:.4} s)"),
         };
         RunResult {
             field,
@@ -344,7 +344,7 @@ mod tests {
     #[test]
     fn failure_in_load_steps_names_the_load_step() {
         let clock = Clock::new(5.0, 1.0, 5).unwrap();
-        let comparison = Comparison { by_load_steps: true, ..Comparison::default() };
+        let comparison = Comparison { steps: StepKind::Load, ..Comparison::default() };
         let result = run(&mut Unbalanced(0), &AtRest, &clock, &comparison);
         let expected = "Newton's method did not converge: the largest residual is 2.5e-1 of the \
                         load, at node 7 (load step 3)";

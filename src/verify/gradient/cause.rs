@@ -15,7 +15,7 @@ pub struct GradientEntry {
     pub parameter: &'static str,
     /// The reported derivative.
     pub reported: f64,
-    /// Central difference of plain runs.
+    /// Central difference of runs without derivatives.
     pub difference: f64,
 }
 
@@ -29,7 +29,7 @@ impl GradientEntry {
     }
 }
 
-/// Figures of plain runs with which a wrong derivative is compared.
+/// Figures of runs without derivatives with which a wrong derivative is compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradientEvidence {
     /// All entries of the reported gradient, on the level on which parameters are perturbed.

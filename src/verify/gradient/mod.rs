@@ -36,12 +36,12 @@ named! {
 }
 
 /// Value of the functional as the solver reports it with the gradient, and as the harness computes
-/// it from the state of a plain run.
+/// it from the state of a run without derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ValueCheck {
     /// Value reported with the gradient.
     pub reported: f64,
-    /// Value computed from the state of a plain run.
+    /// Value computed from the state of a run without derivatives.
     pub computed: f64,
     /// Allowed difference.
     pub tolerance: f64,

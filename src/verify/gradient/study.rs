@@ -51,7 +51,7 @@ pub struct GradientStudy {
     pub sweep: Option<Sweep>,
     /// The points of the sweep.
     pub points: Vec<SweepPoint>,
-    /// Figures of further plain runs, if the derivative is wrong.
+    /// Figures of further runs without derivatives, if the derivative is wrong.
     pub evidence: Option<GradientEvidence>,
 }
 
@@ -63,7 +63,7 @@ impl StudyResults for GradientStudy {
 
 impl GradientStudy {
     /// The state of the derivative, and the figures that lead to it, with the cause of a wrong one
-    /// if plain runs show it.
+    /// if runs without derivatives show it.
     pub fn state(&self) -> (GradientState, String) {
         let (state, reason) = self.measured_state();
         let evidence = self.evidence.as_ref().filter(|_| state == GradientState::Wrong);
@@ -77,7 +77,7 @@ impl GradientStudy {
         if !self.value.agrees() {
             let ValueCheck { reported, computed, .. } = self.value;
             let reason = format!(
-                "the value {reported:e} that comes with the gradient is not that of a plain run, \
+                "the value {reported:e} that comes with the gradient is not that of a run without derivatives, \
                  {computed:e}"
             );
             return (GradientState::Wrong, reason);
@@ -220,7 +220,7 @@ mod tests {
         assert!(first(&study(1.0, |_| f64::NAN)).starts_with("order: expected"));
         let mut other = study(1.0, |h| h * h);
         other.value.reported = 1.0 + 1e-11;
-        assert!(first(&other).contains("is not that of a plain run"));
+        assert!(first(&other).contains("is not that of a run without derivatives"));
         other.value.reported = f64::NAN;
         assert_eq!(other.state().0, GradientState::Wrong);
     }

@@ -21,7 +21,7 @@ const LOAD: &str = "    - gravity: [\"-g\"]";
 )]
 #[case::of_no_step(&[("[1, 20]", "▸0")], &["the number of load steps"])]
 #[case::of_half_a_step(&[("[1, 20]", "[1, ▸2.5]")], &["the number of load steps"])]
-#[case::of_too_many(&[("[1, 20]", "▸1000000")], &["expected at most 100000"])]
+#[case::of_too_many(&[("[1, 20]", "▸1000000")], &["expected a whole number from 1 to 1e5"])]
 #[case::twice(&[("[1, 20]", "[20, ▸20]")], &["20 load steps appear twice"])]
 #[case::with_a_motion(
     &[("equilibrium:\n", "▸exact:\n")], &["an `exact` solution is a motion in time", "`equilibrium`"]

@@ -160,7 +160,7 @@ fn a_misspelt_parameter_among_the_capabilities_is_reported() {
 #[case::a_method_of_this_crate(
     "external: {name: numpy-mpm}",
     "mpm: {basis: linear, transfer: flip, scheme: musl}",
-    "gradients are those of external solvers"
+    "a gradient study needs an external solver"
 )]
 #[case::an_unknown_state("state: smooth", "state: smoth", "did you mean `smooth`?")]
 #[case::a_velocity_of_another_shape(
@@ -185,6 +185,15 @@ fn a_problem_without_sensitivities_is_refused(
 ) {
     let said = refusal(&SUITE.replace(old, new));
     assert!(said.contains(words), "no `{words}` in\n{said}");
+}
+
+/// The refusal points at the kind of study, since there is no exact solution to point at.
+#[test]
+fn a_suite_without_an_exact_solution_is_refused_with_a_place() {
+    let (before, truth) = SUITE.split_once("exact:\n").expect("the suite has an exact solution");
+    let (_, after) = truth.split_once("\ngradient:").expect("the functional follows");
+    let said = refusal(&format!("{before}gradient:{after}"));
+    assert!(said.contains("the exact solution of a gradient study is a displacement"), "{said}");
 }
 
 #[test]

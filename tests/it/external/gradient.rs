@@ -244,7 +244,11 @@ fn a_wrong_gradient_is_wrong_for_its_parameters(#[case] edit: Edit, #[case] wron
 fn a_value_of_another_step_is_wrong() {
     let cases = cases(&Differentiable { short: 1, ..Differentiable::sound() });
     assert_eq!(states(&cases), [GradientState::Wrong; 3]);
-    assert!(cases[0].reason.contains("is not that of a plain run"), "{}", cases[0].reason);
+    assert!(
+        cases[0].reason.contains("is not that of a run without derivatives"),
+        "{}",
+        cases[0].reason
+    );
 }
 
 #[rstest]

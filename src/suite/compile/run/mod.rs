@@ -22,7 +22,7 @@ use methods::{NamedMethod, count, methods, named};
 const MOST_CASES: usize = 1000;
 
 /// Maximum number of load steps of a run.
-const MOST_LOAD_STEPS: u64 = 100_000;
+const MOST_LOAD_STEPS: f64 = 1e5;
 
 /// The ends of the runs: their part of names, and value (s, or number of load steps).
 pub(crate) fn ends(
@@ -54,11 +54,8 @@ fn load_steps(
     let mut counts: Vec<(String, f64)> = Vec::new();
     for (i, text) in spec.as_slice().iter().enumerate() {
         let path = path.alternative(spec, i);
-        let count = evaluator.count(&path, text, "the number of load steps")?;
-        if count > MOST_LOAD_STEPS {
-            let diagnostic = evaluator.diagnostic(&path, &format!("{count} load steps"));
-            return Err(diagnostic.with_label(&format!("expected at most {MOST_LOAD_STEPS}")));
-        }
+        let what = "the number of load steps";
+        let count = evaluator.count_up_to(MOST_LOAD_STEPS, &path, text, what)?;
         let name = format!("load-steps-{count}");
         if counts.iter().any(|(known, _)| *known == name) {
             let message = format!("{count} load steps appear twice");
