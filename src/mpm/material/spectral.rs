@@ -106,6 +106,132 @@ impl<const D: usize> MatrixBatch<D> {
     }
 }
 
+impl<const D: usize> MatrixBatch<D> {
+    /// `f` of the entries of two matrices, entry by entry.
+    #[inline(always)]
+    pub(in crate::mpm::material) fn zip(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let mut all = *self;
+        for i in 0..D {
+            for j in 0..D {
+                for lane in 0..BATCH {
+                    all.0[i][j].0[lane] = f(self.0[i][j].0[lane], other.0[i][j].0[lane]);
+                }
+            }
+        }
+        all
+    }
+
+    /// `f` of the lane and the number, for every entry.
+    #[inline(always)]
+    pub(in crate::mpm::material) fn map_lanes(mut self, f: impl Fn(usize, f64) -> f64) -> Self {
+        for i in 0..D {
+            for j in 0..D {
+                for lane in 0..BATCH {
+                    self.0[i][j].0[lane] = f(lane, self.0[i][j].0[lane]);
+                }
+            }
+        }
+        self
+    }
+
+    /// Transposed matrices.
+    #[inline(always)]
+    pub(in crate::mpm::material) fn transposed(&self) -> Self {
+        let mut all = *self;
+        for i in 0..D {
+            for j in 0..D {
+                all.0[i][j] = self.0[j][i];
+            }
+        }
+        all
+    }
+
+    /// Products with the matrices `other` on the right.
+    #[inline(always)]
+    pub(in crate::mpm::material) fn product(&self, other: &Self) -> Self {
+        let mut all = *self;
+        for i in 0..D {
+            for j in 0..D {
+                for lane in 0..BATCH {
+                    let mut sum = self.0[i][0].0[lane] * other.0[0][j].0[lane];
+                    for k in 1..D {
+                        sum += self.0[i][k].0[lane] * other.0[k][j].0[lane];
+                    }
+                    all.0[i][j].0[lane] = sum;
+                }
+            }
+        }
+        all
+    }
+
+    /// `X` of `S X = self` for positive definite matrices `S`, which need no pivots (Golub & Van
+    /// Loan 2013, section 4.2.2).
+    #[inline(always)]
+    pub(in crate::mpm::material) fn solved_by(mut self, mut s: Self) -> Self {
+        for k in 0..D {
+            for i in 0..D {
+                if i == k {
+                    continue;
+                }
+                let mut factor = F64Batch::ZERO;
+                for lane in 0..BATCH {
+                    factor.0[lane] = s.0[i][k].0[lane] / s.0[k][k].0[lane];
+                }
+                for j in 0..D {
+                    for lane in 0..BATCH {
+                        s.0[i][j].0[lane] -= factor.0[lane] * s.0[k][j].0[lane];
+                        self.0[i][j].0[lane] -= factor.0[lane] * self.0[k][j].0[lane];
+                    }
+                }
+            }
+        }
+        for i in 0..D {
+            for j in 0..D {
+                for lane in 0..BATCH {
+                    self.0[i][j].0[lane] /= s.0[i][i].0[lane];
+                }
+            }
+        }
+        self
+    }
+
+    /// Squares of the Frobenius norms.
+    #[inline(always)]
+    pub(in crate::mpm::material) fn norms_squared(&self) -> F64Batch {
+        let mut sums = F64Batch::ZERO;
+        for i in 0..D {
+            for j in 0..D {
+                for lane in 0..BATCH {
+                    sums.0[lane] += self.0[i][j].0[lane] * self.0[i][j].0[lane];
+                }
+            }
+        }
+        sums
+    }
+
+    /// Adds `numbers` to the diagonals.
+    #[inline(always)]
+    pub(in crate::mpm::material) fn add_to_diagonal(&mut self, numbers: &F64Batch) {
+        for i in 0..D {
+            for lane in 0..BATCH {
+                self.0[i][i].0[lane] += numbers.0[lane];
+            }
+        }
+    }
+
+    /// Traces.
+    #[inline(always)]
+    pub(in crate::mpm::material) fn traces(&self) -> F64Batch {
+        let mut sums = self.0[0][0];
+        for i in 1..D {
+            for lane in 0..BATCH {
+                sums.0[lane] += self.0[i][i].0[lane];
+            }
+        }
+        sums
+    }
+}
+
 /// One vector for each particle of a batch.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm::material) struct VectorBatch<const D: usize>(
