@@ -8,6 +8,7 @@ use crate::external::{ProblemNeeds, SolverFactory};
 use crate::subject::{Profile, Subject};
 use crate::suite::model::gradient::GradientPlan;
 use crate::suite::model::refine_plan::Extent;
+use crate::suite::model::spectrum::SpectrumPlan;
 use crate::suite::model::stability::StabilityPlan;
 use crate::suite::model::study_plan::StudyPlan;
 use crate::suite::model::{ConvergencePlan, ForcePlan, Suite};
@@ -144,8 +145,13 @@ impl RunContext<'_> {
 type AsStudy = for<'a> fn(&'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study>;
 
 /// Every kind of study.
-const KINDS: [AsStudy; 4] =
-    [of::<ConvergencePlan>, of::<ForcePlan>, of::<StabilityPlan>, of::<GradientPlan>];
+const KINDS: [AsStudy; 5] = [
+    of::<ConvergencePlan>,
+    of::<ForcePlan>,
+    of::<StabilityPlan>,
+    of::<GradientPlan>,
+    of::<SpectrumPlan>,
+];
 
 fn of<'a, P: Study>(plan: &'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study> {
     let plan: &dyn Any = plan;

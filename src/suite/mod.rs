@@ -26,6 +26,7 @@ pub use grammar::{CrossingLevels, EquationName, NormName, WarningName};
 pub use model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan};
 pub use model::method::{AnyMethod, ExternalMethod, GateTerms, Method};
 pub use model::refine_plan::{Extent, LevelPlan, RefinePlan};
+pub use model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
 pub use model::stability::{StabilityCase, StabilityPlan};
 pub use model::study_plan::StudyPlan;
 pub use model::{

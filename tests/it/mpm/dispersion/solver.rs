@@ -275,6 +275,7 @@ fn a_wrong_formula_is_detected() {
     let method = WaveMethod {
         spline: Spline::Quadratic,
         ppc: 2,
+        shift: 0.0,
         transfer: WaveTransfer::Blend(0.99),
         scheme: SchemeName::Usl,
     };
