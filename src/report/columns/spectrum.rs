@@ -3,7 +3,7 @@
 use super::{Cell, TableColumn, decimals};
 use crate::verify::{SpectrumRow, WaveFigures};
 
-type RowColumn<'a> = TableColumn<'a, SpectrumRow>;
+type WaveColumn<'a> = TableColumn<'a, SpectrumRow>;
 
 /// A number of a row, with its text by `format`.
 fn figure<'a>(
@@ -12,8 +12,8 @@ fn figure<'a>(
     about: &'static str,
     format: fn(f64) -> String,
     value: fn(&SpectrumRow) -> Option<f64>,
-) -> RowColumn<'a> {
-    RowColumn::new(heading, key, about, move |row| Cell::number(value(row), format))
+) -> WaveColumn<'a> {
+    WaveColumn::new(heading, key, about, move |row| Cell::number(value(row), format))
 }
 
 /// A relative error, in per cent.
@@ -33,7 +33,7 @@ fn measured(row: &SpectrumRow) -> Option<&WaveFigures> {
     row.measured.as_ref().ok()
 }
 
-fn cells<'a>() -> RowColumn<'a> {
+fn cells<'a>() -> WaveColumn<'a> {
     figure(
         "cells",
         "cells",
@@ -43,7 +43,7 @@ fn cells<'a>() -> RowColumn<'a> {
     )
 }
 
-fn courant<'a>() -> RowColumn<'a> {
+fn courant<'a>() -> WaveColumn<'a> {
     figure(
         "C",
         "courant",
@@ -54,11 +54,11 @@ fn courant<'a>() -> RowColumn<'a> {
 }
 
 /// One row for each wave.
-pub(crate) fn waves<'a>() -> Vec<RowColumn<'a>> {
+pub(crate) fn waves<'a>() -> Vec<WaveColumn<'a>> {
     vec![
         cells(),
         courant(),
-        RowColumn::new("steps", "steps", "steps of the run", |row| Cell::plain(row.steps)),
+        WaveColumn::new("steps", "steps", "steps of the run", |row| Cell::plain(row.steps)),
         figure(
             "phase error",
             "phase_error",
@@ -91,7 +91,7 @@ pub(crate) fn waves<'a>() -> Vec<RowColumn<'a>> {
 }
 
 /// One row for each Courant number: figures of the closed form that no run confirms.
-pub(crate) fn curves<'a>() -> Vec<RowColumn<'a>> {
+pub(crate) fn curves<'a>() -> Vec<WaveColumn<'a>> {
     vec![
         courant(),
         figure(
@@ -112,10 +112,10 @@ pub(crate) fn curves<'a>() -> Vec<RowColumn<'a>> {
 }
 
 /// All columns with a JSON key.
-pub(crate) fn json_columns<'a>() -> Vec<RowColumn<'a>> {
+pub(crate) fn json_columns<'a>() -> Vec<WaveColumn<'a>> {
     let mut columns = waves();
     columns.extend(curves().into_iter().skip(1));
-    columns.push(RowColumn::json("failure", "reason why nothing is measured", |row| {
+    columns.push(WaveColumn::json("failure", "reason why nothing is measured", |row| {
         row.measured.as_ref().err().cloned()
     }));
     columns

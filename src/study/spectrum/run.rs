@@ -28,8 +28,25 @@ pub(super) struct WaveRun<'a> {
 }
 
 impl WaveRun<'_> {
+    /// Cells per wavelength for a phase error of 1 % at the Courant number of each wave.
+    pub(super) fn cells_for_one_percent(&self) -> Vec<Option<f64>> {
+        let mut known: Vec<(f64, Option<f64>)> = Vec::new();
+        let of = |wave: &Wave| {
+            let same = known.iter().find(|(courant, _)| *courant == wave.courant);
+            if let Some((_, cells)) = same {
+                return *cells;
+            }
+            let curve = self.case.curve.as_ref();
+            let cells =
+                curve.and_then(|curve| curve.cells_for_phase_error(wave.courant, ONE_PERCENT));
+            known.push((wave.courant, cells));
+            cells
+        };
+        self.plan.waves.iter().map(of).collect()
+    }
+
     /// The row of one wave.
-    pub(super) fn row(&self, wave: &Wave) -> SpectrumRow {
+    pub(super) fn row(&self, wave: &Wave, cells_for_one_percent: Option<f64>) -> SpectrumRow {
         let (cells, courant) = (wave.cells, wave.courant);
         let predicted = self.case.curve.map(|curve| {
             let step = curve.step(TAU / cells);
@@ -41,16 +58,14 @@ impl WaveRun<'_> {
             let step = Recurrence::new(measured.trace, measured.determinant);
             WaveFigures::of(&step, cells, courant)
         });
-        let of_curve = self.case.curve.as_ref();
         SpectrumRow {
             cells,
             courant,
             steps,
             predicted,
             measured,
-            cells_for_one_percent: of_curve
-                .and_then(|curve| curve.cells_for_phase_error(courant, ONE_PERCENT)),
-            limit: of_curve.map(|curve| curve.stability_limit()),
+            cells_for_one_percent,
+            limit: self.case.limit,
         }
     }
 
@@ -120,7 +135,7 @@ impl WaveRun<'_> {
     }
 }
 
-/// What `solver` lacks for the study of `plan`.
+/// Capabilities that the study of `plan` requires and `solver` does not have.
 pub(super) fn lacking(plan: &SpectrumPlan, solver: &dyn SolverFactory) -> Vec<String> {
     let mut lacks = solver.lacks(&needs(plan));
     if solver.precision() == crate::subject::Precision::Single {

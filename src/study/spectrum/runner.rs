@@ -46,12 +46,13 @@ impl CaseRunner for SpectrumRunner<'_> {
             return described.not_applicable(lacks, "lacks");
         }
         let run = WaveRun { plan, case, context };
-        let row = |wave| {
-            let row = run.row(wave);
+        let row = |(wave, cells)| {
+            let row = run.row(wave, cells);
             progress();
             row
         };
-        let rows: Vec<SpectrumRow> = plan.waves.par_iter().map(row).collect();
+        let rows: Vec<SpectrumRow> =
+            plan.waves.par_iter().zip(run.cells_for_one_percent()).map(row).collect();
         let outcome = outcome(described, case, rows);
         match &case.gating {
             Some(Gating::NotGated(reason)) => outcome.not_gated(reason),

@@ -22,7 +22,7 @@ use std::f64::consts::TAU;
 /// Maximum number of cases, and of waves of a case.
 const MOST: usize = 500;
 
-/// Maximum number of particles per cell, of each of which the closed form has a term.
+/// Maximum number of particles per cell. The closed form has a term for each of them.
 const MOST_PPC: u64 = 64;
 
 /// Smallest symbol of the mass of a wave that the grid represents.
@@ -189,8 +189,9 @@ fn cases(
     let expected = expected.collect::<Result<Vec<_>, Diagnostic>>()?;
     let case = |((draft, curve), owner): ((NamedMethod, WaveMethod), Option<usize>)| {
         let expected = owner.map(|owner| expected[owner].clone());
+        let limit = Some(curve.stability_limit());
         let (name, method, curve) = (draft.name, draft.method, Some(curve));
-        SpectrumCase { name, method, curve, expected, gating: None }
+        SpectrumCase { name, method, curve, limit, expected, gating: None }
     };
     Ok(named.into_iter().zip(curves).zip(owners).map(case).collect())
 }
@@ -271,9 +272,9 @@ fn refuse_unfit_waves(
     plan: &SpectrumPlan,
     case: &SpectrumCase,
 ) -> Result<(), Diagnostic> {
-    let (Some(curve), path) = (&case.curve, Path::top("spectrum")) else { return Ok(()) };
+    let (Some(curve), Some(limit)) = (&case.curve, case.limit) else { return Ok(()) };
+    let path = Path::top("spectrum");
     let (listed, courants) = (&spec.spectrum.cells_per_wavelength, &spec.spectrum.courant);
-    let limit = curve.stability_limit();
     for (i, wave) in plan.waves.iter().enumerate() {
         let (length, k) = (i / courants.as_slice().len(), i % courants.as_slice().len());
         let symbols = curve.symbols(TAU / wave.cells);

@@ -15,7 +15,7 @@ use std::sync::Arc;
 pub struct SpectrumPlan {
     /// The body at rest.
     pub scene: Scene,
-    /// Number of cells (the row), their size, and particles per cell.
+    /// Number of cells.
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
@@ -51,6 +51,8 @@ pub struct SpectrumCase {
     pub method: Method,
     /// The method in closed form; `None` for an external solver of unknown method.
     pub curve: Option<WaveMethod>,
+    /// Stability limit of the Courant number, by the closed form.
+    pub limit: Option<f64>,
     /// Expectation, and the reason for it; `None` if the suite explores.
     pub expected: Option<(SpectrumExpectation, String)>,
     /// Treatment by `run --gate`, of an external solver.
@@ -117,6 +119,7 @@ impl StudyPlan for SpectrumPlan {
             name: name.to_owned(),
             method: Method::External { formal_order, precision },
             curve: same.and_then(|case| case.curve),
+            limit: same.and_then(|case| case.limit),
             expected: same.and_then(|case| case.expected.clone()),
             gating,
         };

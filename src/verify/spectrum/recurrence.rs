@@ -1,7 +1,7 @@
 //! Trace and determinant of a linear step, from a series of its state.
 //!
-//! A Fourier mode of a linear scheme has two numbers on the grid, which a step multiplies by a 2 x 2
-//! matrix. By the theorem of Cayley and Hamilton each linear functional of the state satisfies
+//! A Fourier mode of a linear scheme has two numbers on the grid, and a step multiplies them by a
+//! 2 x 2 matrix. By the theorem of Cayley and Hamilton each linear functional of the state satisfies
 //! `y(k+2) = tr y(k+1) - det y(k)`. Velocities of particles also have a part that the grid does not
 //! resolve; it is constant, so that the fit has a constant as well.
 
@@ -23,8 +23,8 @@ impl Recurrence {
     /// The recurrence that fits a series best, by least squares. NaN for a series that is too short
     /// or does not change.
     ///
-    /// The unknowns are `det` and `1 - tr + det`, the coefficients in `e = det d - (1 - tr + det) a`
-    /// of the increments `d = y(k+1) - y(k)`, `e = y(k+2) - y(k+1)` and of `a = y(k+1)`. These
+    /// The unknowns are `det` and `1 - tr + det`. They are the coefficients of the increment
+    /// `d = y(k+1) - y(k)` and of `a = y(k+1)` in `y(k+2) - y(k+1) = det d - (1 - tr + det) a`. These
     /// columns are nearly orthogonal for an oscillation, so that the normal equations are accurate.
     /// Means are subtracted, which eliminates the constant.
     pub fn fit(series: &[f64]) -> Self {
@@ -90,7 +90,7 @@ impl Recurrence {
         libm::log(0.5 * (self.trace().abs() + (-discriminant).sqrt()))
     }
 
-    /// Relative error of the phase speed of a wave of `cells` cells at the Courant number `courant`;
+    /// Relative error of the phase speed of a wave of `cells` cells at the Courant number `courant`.
     /// `None` if the wave has no phase.
     pub fn phase_error(&self, cells: f64, courant: f64) -> Option<f64> {
         Some(self.angle()? / (TAU / cells * courant) - 1.0)
