@@ -76,12 +76,15 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
     let fills = scene.grid.as_ref().is_none_or(|(from, to)| *from == scene.from && *to == scene.to);
     let is_linear = matches!(scene.material, MaterialPlan::LinearElastic { .. });
     let is_periodic = scene.faces.iter().all(|face| face.hold.is_periodic());
+    // A scene without the key has free faces.
+    let is_free = scene.faces.iter().all(|face| face.hold.is_free());
+    let boundary = if is_free { Path::top("scene") } else { top("boundary") };
     let starts_at_rest = scene.initial_displacement.is_empty() && scene.initial_velocity.is_empty();
     let refused = [
         (scene.dimension() != 1, top("dimension"), "one dimension"),
         (!scene.bodies.is_empty(), top("bodies"), "one body"),
         (!is_linear, top("material"), "a linear law: `linear_elastic`"),
-        (!is_periodic, top("boundary"), "periodic faces: `{left: periodic, right: periodic}`"),
+        (!is_periodic, boundary, "periodic faces: `{left: periodic, right: periodic}`"),
         (!fills, top("grid"), "a body that fills the grid"),
         (!scene.loads.is_empty(), top("loads"), "a body without loads"),
         (!scene.initial_stress.is_none(), top("initial_stress"), "a body without stress"),
