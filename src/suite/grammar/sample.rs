@@ -159,8 +159,8 @@ impl StudyName {
     }
 }
 
-/// The error of an unknown key of a spectrum study. For a key of irregular particles the help states
-/// that there are none.
+/// The error of an unknown key of a spectrum study. For a key of irregular particles the help
+/// states that there are none.
 fn with_regular_particles(diagnostic: Diagnostic) -> Diagnostic {
     let is_irregular = ["perturb", "seed", "extra"]
         .iter()

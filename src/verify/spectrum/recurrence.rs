@@ -1,9 +1,9 @@
 //! Trace and determinant of a linear step, from a series of its state.
 //!
 //! A Fourier mode of a linear scheme has two numbers on the grid, and a step multiplies them by a
-//! 2 x 2 matrix. By the theorem of Cayley and Hamilton each linear functional of the state satisfies
-//! `y(k+2) = tr y(k+1) - det y(k)`. Velocities of particles also have a part that the grid does not
-//! resolve; it is constant, so that the fit has a constant as well.
+//! 2 x 2 matrix. By the theorem of Cayley and Hamilton each linear functional of the state
+//! satisfies `y(k+2) = tr y(k+1) - det y(k)`. Velocities of particles also have a part that the
+//! grid does not resolve; it is constant, so that the fit has a constant as well.
 
 use std::f64::consts::TAU;
 
@@ -24,8 +24,9 @@ impl Recurrence {
     /// or does not change.
     ///
     /// The unknowns are `det` and `1 - tr + det`. They are the coefficients of the increment
-    /// `d = y(k+1) - y(k)` and of `a = y(k+1)` in `y(k+2) - y(k+1) = det d - (1 - tr + det) a`. These
-    /// columns are nearly orthogonal for an oscillation, so that the normal equations are accurate.
+    /// `d = y(k+1) - y(k)` and of `a = y(k+1)` in `y(k+2) - y(k+1) = det d - (1 - tr + det) a`.
+    /// These columns are nearly orthogonal for an oscillation, so that the normal equations are
+    /// accurate.
     /// Means are subtracted, which eliminates the constant.
     pub fn fit(series: &[f64]) -> Self {
         if series.len() < FEWEST {
@@ -90,8 +91,8 @@ impl Recurrence {
         libm::log(0.5 * (self.trace().abs() + (-discriminant).sqrt()))
     }
 
-    /// Relative error of the phase speed of a wave of `cells` cells at the Courant number `courant`.
-    /// `None` if the wave has no phase.
+    /// Relative error of the phase speed of a wave of `cells` cells at the Courant number
+    /// `courant`. `None` if the wave has no phase.
     pub fn phase_error(&self, cells: f64, courant: f64) -> Option<f64> {
         Some(self.angle()? / (TAU / cells * courant) - 1.0)
     }
