@@ -1,21 +1,21 @@
 //! Tables, remarks, JSON and figures of each kind of study.
 
 use crate::report::columns::stability::json_columns;
-use crate::report::columns::{force, gradient, json_object, level};
-use crate::report::columns::{interval, number};
+use crate::report::columns::{TableColumn, interval, number};
+use crate::report::columns::{force, gradient, json_object, level, spectrum};
 use crate::report::figure::Figure;
 use crate::report::figure::{study, sweep};
 use crate::report::text::table::Table;
 use crate::report::text::{levels, stability};
 use crate::verify::{
     Axis, CaseOutcome, Convergence, Floor, FloorCause, GradientStudy, InternalForce, LevelOutcome,
-    Probe, StabilityStudy, StudyResults, SuiteOutcome,
+    Probe, SpectrumRow, SpectrumStudy, StabilityStudy, StudyResults, SuiteOutcome,
 };
 use serde_json::{Map, Value, json};
 
 /// Every kind of study.
-pub(crate) const KINDS: [&dyn StudyReport; 4] =
-    [&ConvergenceReport, &InternalForceReport, &StabilityReport, &GradientReport];
+pub(crate) const KINDS: [&dyn StudyReport; 5] =
+    [&ConvergenceReport, &InternalForceReport, &StabilityReport, &GradientReport, &SpectrumReport];
 
 /// Report of one kind of study; cases of other kinds add nothing.
 pub(crate) trait StudyReport: Sync {
@@ -216,4 +216,61 @@ fn gradient_json(study: &GradientStudy) -> Value {
         "sweep": gradient::sweep(study),
         "points": study.points.iter().map(|row| json_object(&points, row)).collect::<Vec<_>>(),
     })
+}
+
+/// Shows [`SpectrumStudy`].
+pub(crate) struct SpectrumReport;
+
+impl StudyReport for SpectrumReport {
+    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+        let mut waves: Vec<NamedWave> = Vec::new();
+        let mut curves: Vec<NamedWave> = Vec::new();
+        for (name, study) in studies::<SpectrumStudy>(cases) {
+            for row in &study.rows {
+                let is_known =
+                    |(case, known): &NamedWave| case == name && known.courant == row.courant;
+                if row.limit.is_some() && !curves.iter().any(is_known) {
+                    curves.push((name.to_owned(), row.clone()));
+                }
+                waves.push((name.to_owned(), row.clone()));
+            }
+        }
+        for (columns, rows) in [(spectrum::waves(), waves), (spectrum::curves(), curves)] {
+            if !rows.is_empty() {
+                lines.push(String::new());
+                lines.extend(Table::new(&with_case(columns), rows).merged().lines());
+            }
+        }
+    }
+
+    fn remarks(&self, case: &CaseOutcome) -> Vec<String> {
+        let remark = |row: &SpectrumRow| {
+            let reason = row.measured.as_ref().err()?;
+            Some(format!("{} cells, C = {}: {reason}", row.cells, row.courant))
+        };
+        let study: Option<&SpectrumStudy> = case.results();
+        study.map_or(Vec::new(), |study| study.rows.iter().filter_map(remark).collect())
+    }
+
+    fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
+        let columns = spectrum::json_columns();
+        let objects = |study: &SpectrumStudy| -> Value {
+            study.rows.iter().map(|row| json_object(&columns, row)).collect()
+        };
+        members(json!({"spectrum": case.results().map(objects)}))
+    }
+
+    fn figures(&self, _: &SuiteOutcome) -> Vec<Figure> {
+        Vec::new()
+    }
+}
+
+/// The name of a case and one of its waves.
+type NamedWave = (String, SpectrumRow);
+
+/// A column of names of cases, followed by `columns`.
+fn with_case(columns: Vec<TableColumn<'_, SpectrumRow>>) -> Vec<TableColumn<'_, NamedWave>> {
+    let name = TableColumn::text("case", "case", |(name, _): &NamedWave| name.clone());
+    let of_row = columns.into_iter().map(|column| column.within(|(_, row)| Some(row)));
+    std::iter::once(name.flush_left()).chain(of_row).collect()
 }

@@ -9,6 +9,7 @@ use crate::subject::{Profile, SubjectError};
 use crate::suite::model::StudyPlan;
 use crate::suite::model::gradient::GradientPlan;
 use crate::suite::model::refine_plan::Extent;
+use crate::suite::model::spectrum::SpectrumPlan;
 use crate::suite::model::stability::StabilityPlan;
 use crate::suite::model::{ConvergencePlan, ForcePlan, Suite};
 use crate::verify::CaseOutcome;
@@ -130,8 +131,13 @@ impl RunContext<'_> {
 type AsStudy = for<'a> fn(&'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study>;
 
 /// Every kind of study.
-const KINDS: [AsStudy; 4] =
-    [of::<ConvergencePlan>, of::<ForcePlan>, of::<StabilityPlan>, of::<GradientPlan>];
+const KINDS: [AsStudy; 5] = [
+    of::<ConvergencePlan>,
+    of::<ForcePlan>,
+    of::<StabilityPlan>,
+    of::<GradientPlan>,
+    of::<SpectrumPlan>,
+];
 
 fn of<'a, P: Study>(plan: &'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study> {
     let plan: &dyn Any = plan;

@@ -5,6 +5,7 @@
 //! convergence      errors over a refinement plan, judged
 //! internal_force   the internal force on a node while a particle crosses it
 //! gradient         derivatives that a differentiable solver reports
+//! spectrum         phase speed and damping of waves, measured and predicted
 //! stability        runs watched for growth, limits by bisection
 //! cost             seconds of every level, and what they buy
 //! cache            results of finished levels kept on disk
@@ -29,6 +30,7 @@ pub(crate) mod kind;
 pub(crate) mod preflight;
 pub(crate) mod runner;
 pub(crate) mod setup;
+pub(crate) mod spectrum;
 pub(crate) mod stability;
 pub(crate) mod time_series;
 

@@ -27,6 +27,7 @@ pub use model::StudyPlan;
 pub use model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan};
 pub use model::method::{AnyMethod, ExternalMethod, GateTerms, Method};
 pub use model::refine_plan::{Extent, LevelPlan, RefinePlan};
+pub use model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
 pub use model::stability::{StabilityCase, StabilityPlan};
 pub use model::{
     Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan,

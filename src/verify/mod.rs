@@ -15,6 +15,7 @@
 //! | [`richardson`](Richardson) | order and limit from three values |
 //! | [`limit_estimate`](LimitEstimate) | order and limit of a series, with intervals |
 //! | [`cost`](Ranking) | cost of accuracy, in transfers or seconds |
+//! | [`spectrum`](SpectrumStudy) | phase speed and damping of a wave, measured and predicted |
 //! | [`stability`](StabilityStudy) | growth in runs, amplification matrix, limits by bisection |
 //! | [`gradient`](GradientStudy) | derivatives that a solver reports |
 //! | [`expectation`](Expectation), [`limits`](Limits) | expectations of suites |
@@ -38,6 +39,7 @@ mod judge_plan;
 pub(crate) mod order;
 mod outcome;
 mod rerun;
+mod spectrum;
 mod stability;
 mod study_results;
 pub(crate) mod verdict;
@@ -86,6 +88,10 @@ pub use order::t_quantile::two_sided_95;
 pub(crate) use order::window::FEWEST_LEVELS;
 pub use outcome::{CaseOutcome, Exemption, SuiteOutcome};
 pub use rerun::{Reruns, RoundingSizes};
+pub use spectrum::{
+    AMPLITUDE, MeasuredWave, PERIODS, Recurrence, SpectrumExpectation, SpectrumRow, SpectrumStudy,
+    WaveFigures, run_wave, steps_of_run,
+};
 pub(crate) use stability::is_looked_at;
 pub use stability::{
     AmplificationError, Critical, FigureBounds, Prediction, Radius, Scales, Stability,

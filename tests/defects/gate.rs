@@ -1,6 +1,6 @@
 //! Name of the gate that reports an unmet expectation.
 
-use mpm_verify::verify::{CaseOutcome, InternalForce, StabilityStudy};
+use mpm_verify::verify::{CaseOutcome, InternalForce, SpectrumStudy, StabilityStudy};
 
 /// Gates of convergence studies by the beginning of their messages; the first match applies.
 const GATES: [(&str, &str); 12] = [
@@ -28,6 +28,10 @@ pub(crate) fn gate(case: &CaseOutcome, line: &str) -> &'static str {
     }
     if case.results::<InternalForce>().is_some() {
         return "force";
+    }
+    // Deviations from the closed form are bounded.
+    if case.results::<SpectrumStudy>().is_some() {
+        return "bound";
     }
     let of_order = ["got `too low`", "got `too good`", "got `converging`"];
     let should_converge = line.starts_with("expected the verdict `converging`");

@@ -20,7 +20,9 @@
 //! CMAME 318) and FMPM (Nairn & Hammerquist 2021, CMAME 374).
 
 use super::wave_symbols::{Spline, WaveSymbols};
+use crate::mpm::mass::MassName;
 use crate::mpm::scheme::SchemeName;
+use crate::mpm::transfer::{TransferChoice, TransferName, WithParameter};
 use std::f64::consts::{PI, TAU};
 
 /// Number of wave numbers at which a stability limit is computed before the least is refined.
@@ -55,6 +57,38 @@ pub enum WaveTransfer {
     Xpic(u32),
     /// FMPM with this number of terms.
     Fmpm(u32),
+}
+
+impl WaveTransfer {
+    /// The transfer of the solver with this name and this mass matrix; `None` if its step has no
+    /// closed form.
+    pub fn of(transfer: TransferChoice, mass: MassName) -> Option<Self> {
+        use TransferChoice::{Named, With};
+        match (transfer, mass) {
+            (Named(TransferName::Flip), MassName::Consistent) => Some(Self::FlipConsistent),
+            (_, MassName::Consistent) => None,
+            (Named(name), MassName::Lumped) => Self::named(name),
+            (With(WithParameter::Xpic, terms), MassName::Lumped) => Some(Self::Xpic(terms)),
+            (With(WithParameter::Fmpm, terms), MassName::Lumped) => Some(Self::Fmpm(terms)),
+        }
+    }
+
+    /// The transfer with this name and a lumped mass matrix.
+    fn named(name: TransferName) -> Option<Self> {
+        match name {
+            TransferName::Flip => Some(Self::Flip),
+            TransferName::Flip99 => Some(Self::Blend(0.99)),
+            TransferName::Flip95 => Some(Self::Blend(0.95)),
+            TransferName::Pic => Some(Self::Pic),
+            TransferName::Apic => Some(Self::Apic),
+            TransferName::Xpic2 => Some(Self::Xpic(2)),
+            TransferName::Xpic5 => Some(Self::Xpic(5)),
+            TransferName::Fmpm2 => Some(Self::Fmpm(2)),
+            TransferName::Fmpm4 => Some(Self::Fmpm(4)),
+            // Their particles have further numbers, or their gradients come from a fit.
+            TransferName::Mls | TransferName::Tpic | TransferName::Tls => None,
+        }
+    }
 }
 
 /// One step of a wave: trace and determinant are linear in the squared Courant number.
@@ -179,8 +213,10 @@ fn neumann(s: f64, terms: u32) -> f64 {
 pub struct WaveMethod {
     /// Basis functions.
     pub spline: Spline,
-    /// Particles per cell, at [`WaveSymbols::regular_positions`].
+    /// Particles per cell, at [`WaveSymbols::shifted_positions`].
     pub ppc: u32,
+    /// Translation of all particles (cells).
+    pub shift: f64,
     /// Transfer and mass matrix.
     pub transfer: WaveTransfer,
     /// Time scheme. USF has the eigenvalues of MUSL: its step starts at another stage.
@@ -190,8 +226,13 @@ pub struct WaveMethod {
 impl WaveMethod {
     /// The step of a wave with `theta = k h` (rad).
     pub fn step(&self, theta: f64) -> WaveStep {
-        let positions = WaveSymbols::regular_positions(self.ppc);
-        WaveStep::new(self.transfer, self.scheme, &WaveSymbols::new(self.spline, theta, &positions))
+        WaveStep::new(self.transfer, self.scheme, &self.symbols(theta))
+    }
+
+    /// The symbols of a wave with `theta` (rad).
+    pub fn symbols(&self, theta: f64) -> WaveSymbols {
+        let positions = WaveSymbols::shifted_positions(self.ppc, self.shift);
+        WaveSymbols::new(self.spline, theta, &positions)
     }
 
     /// Number of cells per wavelength from which on the phase error stays below `tolerance`. A

@@ -1,7 +1,8 @@
-//! Analyses of a solver: its stable time step, its null space, and the dispersion and damping of
-//! waves in closed form.
+//! Analyses of a solver: its stable time step, its null space, the dispersion and damping of
+//! waves in closed form, and the energy of each stage of a step.
 
 pub(crate) mod dispersion;
+pub(crate) mod energy_ledger;
 pub(crate) mod null_space;
 pub(crate) mod stable_time_step;
 pub(crate) mod wave_symbols;

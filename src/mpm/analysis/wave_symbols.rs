@@ -9,10 +9,13 @@
 //! The B-splines are written out here (de Boor 2001, A Practical Guide to Splines, chapter 9).
 //! Nothing is taken from the basis functions of the solver, which tests compare with these symbols.
 
+use crate::mpm::basis::BasisName;
+
 /// Smallest APIC inertia, in squared cell sizes, that counts as different from zero.
 const SMALLEST_INERTIA: f64 = 1e-12;
 
-/// Uniform B-spline basis functions of one axis. Their knots are at the cell corners.
+/// Uniform B-spline basis functions of one axis, with knots at the cell corners, and means of the
+/// linear ones over the domain of a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spline {
     /// Piecewise linear functions, centred at cell corners.
@@ -21,6 +24,12 @@ pub enum Spline {
     Quadratic,
     /// Cubic B-splines, centred at cell corners.
     Cubic,
+    /// GIMP with this number of particles per cell: means of linear functions over the domain of a
+    /// particle (Bardenhagen & Kober 2004, CMES 5).
+    Gimp(u32),
+    /// CPDI with this number of particles per cell: means of linear functions over both ends of the
+    /// domain of a particle (Sadeghirad, Brannon & Burghardt 2011, IJNME 86).
+    Cpdi(u32),
 }
 
 impl Spline {
@@ -29,7 +38,19 @@ impl Spline {
         match self {
             Self::Linear => &[0.0, 1.0],
             Self::Quadratic => &[-0.5, 0.5, 1.5],
-            Self::Cubic => &[-1.0, 0.0, 1.0, 2.0],
+            Self::Cubic | Self::Gimp(_) | Self::Cpdi(_) => &[-1.0, 0.0, 1.0, 2.0],
+        }
+    }
+
+    /// The functions of the solver with this name, for `ppc` particles per cell. Small motions do
+    /// not change the domains of particles, so that contiguous and uniform GIMP are one method.
+    pub fn of(basis: BasisName, ppc: u32) -> Self {
+        match basis {
+            BasisName::Linear => Self::Linear,
+            BasisName::UniformGimp | BasisName::ContiguousGimp => Self::Gimp(ppc),
+            BasisName::Cpdi => Self::Cpdi(ppc),
+            BasisName::QuadraticBSpline => Self::Quadratic,
+            BasisName::CubicBSpline => Self::Cubic,
         }
     }
 
@@ -38,6 +59,15 @@ impl Spline {
     fn at(self, x: f64) -> (f64, f64) {
         let (r, sign) = (x.abs(), if x < 0.0 { -1.0 } else { 1.0 });
         let (value, slope) = match self {
+            Self::Gimp(ppc) | Self::Cpdi(ppc) => {
+                let half = 0.5 / f64::from(ppc);
+                let (low, high) = (x - half, x + half);
+                let mean = match self {
+                    Self::Gimp(_) => (hat_integral(high) - hat_integral(low)) / (2.0 * half),
+                    _ => 0.5 * (hat(high) + hat(low)),
+                };
+                return (mean, (hat(high) - hat(low)) / (2.0 * half));
+            }
             Self::Linear => (1.0 - r, -1.0),
             Self::Quadratic if r < 0.5 => (0.75 - r * r, -2.0 * r),
             Self::Quadratic => (0.5 * (1.5 - r) * (1.5 - r), r - 1.5),
@@ -49,6 +79,18 @@ impl Spline {
         };
         (value, sign * slope)
     }
+}
+
+/// The linear function centred at 0.
+fn hat(x: f64) -> f64 {
+    (1.0 - x.abs()).max(0.0)
+}
+
+/// Integral of [`hat`] from minus infinity to `x`.
+fn hat_integral(x: f64) -> f64 {
+    let rest = hat(x);
+    let tail = 0.5 * rest * rest;
+    if x < 0.0 { tail } else { 1.0 - tail }
 }
 
 /// Symbols of one wave number, for lengths in units of the cell size.
@@ -95,6 +137,13 @@ impl WaveSymbols {
         let count = positions.len() as f64;
         let mass = mass / count;
         Self { theta, stiffness: stiffness / count, mass, affine: mass + affine / count }
+    }
+
+    /// Positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell, in cells, from 0 to 1 after
+    /// a translation by `shift` cells.
+    pub fn shifted_positions(ppc: u32, shift: f64) -> Vec<f64> {
+        let all = Self::regular_positions(ppc).into_iter().map(|xi| xi + shift);
+        all.map(|xi| xi - libm::floor(xi)).collect()
     }
 
     /// Positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell, in cells.

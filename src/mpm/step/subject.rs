@@ -30,34 +30,51 @@ impl<const D: usize> Solver<D> {
     /// # Errors
     /// As [`Subject::step`].
     pub fn step_by_pass(&mut self, dt: f64, after: &mut dyn FnMut(String)) -> Result<(), Failure> {
-        self.step_with(dt, &mut |pass| after(pass.name()))
+        self.begin(dt, &mut |_, pass| after(pass.name()))?;
+        self.finish(dt, &mut |_, pass| after(pass.name()))
     }
 
-    fn step_with(&mut self, dt: f64, after: &mut dyn FnMut(Pass)) -> Result<(), Failure> {
-        let StepSchedule { opening, passes } = self.schedule.clone();
+    /// Runs the passes before the first step, of the length `dt` (s); later steps have none.
+    pub(in crate::mpm) fn begin(
+        &mut self,
+        dt: f64,
+        after: &mut dyn FnMut(&Self, Pass),
+    ) -> Result<(), Failure> {
         if !self.started {
+            let opening = self.schedule.opening.clone();
             self.open(dt);
             self.run_each(&opening, dt, after)?;
             self.opened(dt);
         }
+        Ok(())
+    }
+
+    /// Runs the passes of a step of length `dt` (s) after [`Self::begin`]. `after` is called with
+    /// the solver after each pass.
+    pub(in crate::mpm) fn finish(
+        &mut self,
+        dt: f64,
+        after: &mut dyn FnMut(&Self, Pass),
+    ) -> Result<(), Failure> {
+        let passes = self.schedule.passes.clone();
         self.run_each(&passes, dt, after)?;
         self.time += dt;
         Ok(())
     }
 
     pub(in crate::mpm) fn run_all(&mut self, passes: &[Pass], dt: f64) -> Result<(), Failure> {
-        self.run_each(passes, dt, &mut |_| {})
+        self.run_each(passes, dt, &mut |_, _| {})
     }
 
     fn run_each(
         &mut self,
         passes: &[Pass],
         dt: f64,
-        after: &mut dyn FnMut(Pass),
+        after: &mut dyn FnMut(&Self, Pass),
     ) -> Result<(), Failure> {
         for pass in passes {
             self.run(*pass, dt)?;
-            after(*pass);
+            after(self, *pass);
         }
         Ok(())
     }
@@ -101,7 +118,8 @@ impl<const D: usize> Solver<D> {
 
 impl<const D: usize> Subject for Solver<D> {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        self.step_with(dt, &mut |_| {})
+        self.begin(dt, &mut |_, _| {})?;
+        self.finish(dt, &mut |_, _| {})
     }
 
     fn sample(&self, samples: &mut Samples) {

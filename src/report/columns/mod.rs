@@ -11,6 +11,7 @@ pub(crate) mod cost;
 pub(crate) mod force;
 pub(crate) mod gradient;
 pub(crate) mod level;
+pub(crate) mod spectrum;
 pub(crate) mod stability;
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,8 @@
 //! `docs/columns.md` lists every column that is declared, and no other.
 
-use super::{TableColumn, cost, force, level, number, scientific, stability, timed_level};
+use super::{
+    TableColumn, cost, force, level, number, scientific, spectrum, stability, timed_level,
+};
 use crate::verify::{Axis, Ranking, StabilityStudy};
 use rstest::rstest;
 
@@ -51,6 +53,7 @@ fn the_document_lists_the_columns() {
         section("Levels of a convergence study (`levels`)", levels),
         section("Internal force (`forces`)", vec![force::columns().into()]),
         section("Rows of a stability study (`stability.rows`)", stability),
+        section("Waves of a spectrum study (`spectrum`)", vec![spectrum::json_columns()]),
         section("Methods by cost (`cost.methods`)", cost),
         section("Exponents (`cost.methods.exponent`)", vec![cost::exponents()]),
         section("Timed levels of `mpm-verify cost` (`levels`)", timed),

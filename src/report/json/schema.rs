@@ -1,7 +1,7 @@
 //! JSON Schema (draft 2020-12) of the document that `run --format json` prints. The keys and
 //! descriptions of rows come from their columns; tests compare the rest with documents.
 
-use crate::report::columns::{TableColumn, cost, force, gradient, level, stability};
+use crate::report::columns::{TableColumn, cost, force, gradient, level, spectrum, stability};
 use crate::verify::{
     Axis, CaseOutcome, FloorCause, GradientState, Quantity, Ranking, StabilityStudy, Verdict,
 };
@@ -71,6 +71,7 @@ fn case() -> Value {
         ("forces", or_null(list(forces)), "rows of an internal-force study"),
         ("stability", or_null(stability_study()), "rows of a stability study"),
         ("gradient", or_null(gradient_study()), "checks of a reported derivative"),
+        ("spectrum", or_null(list(row(&spectrum::json_columns()))), "rows of a spectrum study"),
     ])
 }
 

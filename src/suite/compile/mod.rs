@@ -10,6 +10,7 @@ pub(crate) mod run;
 pub(crate) mod scene;
 #[cfg(feature = "schemas")]
 pub(crate) mod schema;
+pub(crate) mod spectrum;
 pub(crate) mod stability;
 pub(crate) mod suite;
 pub(crate) mod truth;

@@ -1,7 +1,9 @@
 //! JSON Schema of a suite (draft 7, which editors support), generated from the types of the
 //! grammar.
 
-use crate::suite::grammar::{ConvergenceSpec, GradientSpec, InternalForceSpec, StabilitySpec};
+use crate::suite::grammar::{
+    ConvergenceSpec, GradientSpec, InternalForceSpec, SpectrumSpec, StabilitySpec,
+};
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{RecursiveTransform, Transform};
@@ -14,6 +16,7 @@ pub fn suite_schema() -> String {
     let stability = all.subschema_for::<StabilitySpec>();
     let internal_force = all.subschema_for::<InternalForceSpec>();
     let gradient = all.subschema_for::<GradientSpec>();
+    let spectrum = all.subschema_for::<SpectrumSpec>();
     let definitions = all.take_definitions(true);
     let of_study =
         |name: &str| json!({"required": ["study"], "properties": {"study": {"const": name}}});
@@ -27,7 +30,11 @@ pub fn suite_schema() -> String {
         "else": {
             "if": of_study("internal_force"),
             "then": internal_force,
-            "else": {"if": of_study("gradient"), "then": gradient, "else": convergence},
+            "else": {
+                "if": of_study("gradient"),
+                "then": gradient,
+                "else": {"if": of_study("spectrum"), "then": spectrum, "else": convergence},
+            },
         },
         "definitions": definitions,
     });

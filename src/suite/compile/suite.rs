@@ -2,10 +2,10 @@
 //! of a convergence study.
 
 use super::convergence::convergence_plan;
-use super::{gradient, internal_force, scene, stability};
+use super::{gradient, internal_force, scene, spectrum, stability};
 use crate::suite::evaluator::{DeclaredParameter, Evaluator};
 use crate::suite::grammar::{
-    ConvergenceSpec, GradientSpec, InternalForceSpec, StabilitySpec, SuiteSpec,
+    ConvergenceSpec, GradientSpec, InternalForceSpec, SpectrumSpec, StabilitySpec, SuiteSpec,
 };
 use crate::suite::model::StudyPlan;
 use crate::suite::model::fingerprint::fingerprint;
@@ -24,6 +24,7 @@ impl Suite {
             SuiteSpec::InternalForce(spec) => internal_force(source, *spec),
             SuiteSpec::Stability(spec) => stability(source, *spec),
             SuiteSpec::Gradient(spec) => gradient(source, *spec),
+            SuiteSpec::Spectrum(spec) => spectrum(source, *spec),
         };
         let fingerprint = fingerprint(source.text().as_bytes());
         Ok(Self { group: source.group(), fingerprint, ..suite? })
@@ -101,6 +102,15 @@ fn gradient(source: &Source, spec: GradientSpec) -> Result<Suite, Diagnostic> {
     let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
     refuse_unusable_name(&evaluator, &spec.suite)?;
     let plan = gradient::plan(&evaluator, source, &spec)?;
+    evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
+    let head = [spec.suite, spec.title, spec.source, spec.about];
+    Ok(assemble(head, parameters, &spec.functions, plan))
+}
+
+fn spectrum(source: &Source, spec: SpectrumSpec) -> Result<Suite, Diagnostic> {
+    let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
+    refuse_unusable_name(&evaluator, &spec.suite)?;
+    let plan = spectrum::plan(&evaluator, &spec)?;
     evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
     let head = [spec.suite, spec.title, spec.source, spec.about];
     Ok(assemble(head, parameters, &spec.functions, plan))

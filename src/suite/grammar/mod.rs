@@ -10,6 +10,7 @@ pub(crate) mod internal_force;
 pub(crate) mod method;
 pub(crate) mod sample;
 pub(crate) mod scene;
+pub(crate) mod spectrum;
 pub(crate) mod stability;
 pub(crate) mod truth;
 
@@ -28,6 +29,7 @@ pub(crate) use scene::{
     AnnulusSpec, BodySpec, BoxSpec, OneBodySpec, QuadrilateralSpec, RoundSpec, SceneSpec, SetSpec,
     StressSpec,
 };
+pub(crate) use spectrum::{SpectrumExpectSpec, SpectrumSpec};
 pub(crate) use stability::{FigureSpec, StabilityExpectSpec, StabilitySpec};
 pub use truth::EquationName;
 pub(crate) use truth::{ExactSpec, LinearisedSpec, ManufacturedSpec};
@@ -45,6 +47,8 @@ pub(crate) enum SuiteSpec {
     Stability(Box<StabilitySpec>),
     /// Derivatives that a differentiable solver reports.
     Gradient(Box<GradientSpec>),
+    /// Phase speed and damping of waves.
+    Spectrum(Box<SpectrumSpec>),
 }
 
 /// Keys of every suite, for any kind of study.
@@ -68,6 +72,8 @@ pub(crate) enum StudyName {
     Stability,
     /// Derivatives that a differentiable solver reports.
     Gradient,
+    /// Phase speed and damping of waves.
+    Spectrum,
 }
 
 impl StudyName {

@@ -95,6 +95,9 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("sweep.parameter", "young"),
     ("within", "0.002"),
     ("points", "81"),
+    // A spectrum study.
+    ("spectrum", "{cells_per_wavelength: [8, 16], courant: 0.5}"),
+    ("cells_per_wavelength", "[8, 16]"),
     // A study of the internal force.
     (
         "internal_force",
@@ -126,6 +129,10 @@ impl SuiteSpec {
             StudyName::Gradient => {
                 read(&checked, "gradient_study").map(Box::new).map(Self::Gradient)
             }
+            StudyName::Spectrum => read(&checked, "spectrum_study")
+                .map(Box::new)
+                .map(Self::Spectrum)
+                .map_err(with_regular_particles),
         }
     }
 }
@@ -150,6 +157,15 @@ impl StudyName {
         };
         known.map_or_else(|| read::<Head>(checked, "").map(|head| head.study), Ok)
     }
+}
+
+/// The error of an unknown key of a spectrum study. For a key of irregular particles the help
+/// states that there are none.
+fn with_regular_particles(diagnostic: Diagnostic) -> Diagnostic {
+    let is_irregular = ["perturb", "seed", "extra"]
+        .iter()
+        .any(|key| diagnostic.message().contains(&format!("`{key}`")));
+    if is_irregular { diagnostic.with_help("spectrum needs regular particles") } else { diagnostic }
 }
 
 /// Reads a suite of a kind of `study` into a type.

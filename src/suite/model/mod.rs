@@ -6,6 +6,7 @@ pub(crate) mod gradient;
 pub(crate) mod internal_force;
 pub(crate) mod method;
 pub(crate) mod refine_plan;
+pub(crate) mod spectrum;
 pub(crate) mod stability;
 
 pub(crate) use super::scene::{Scene, SceneFace};

@@ -33,6 +33,7 @@ mod refinement;
 mod samples;
 mod scenes;
 mod sizes;
+mod spectrum;
 mod stability;
 mod steps;
 mod tables;

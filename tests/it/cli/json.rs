@@ -6,7 +6,7 @@ use mpm_verify::report::report_schema;
 use rstest::rstest;
 use serde_json::{Value, json};
 
-const CASE: [&str; 21] = [
+const CASE: [&str; 22] = [
     "case",
     "subject",
     "axis",
@@ -26,6 +26,7 @@ const CASE: [&str; 21] = [
     "forces",
     "stability",
     "gradient",
+    "spectrum",
     "settings",
     "because",
 ];

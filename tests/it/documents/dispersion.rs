@@ -38,7 +38,13 @@ type Column<'a> = (String, Box<dyn Fn(&WaveMethod) -> String + 'a>);
 /// Methods with two particles per cell, except for their basis. FLIP with a consistent mass matrix
 /// has the same step under all schemes.
 fn methods() -> Vec<(String, WaveMethod)> {
-    let method = |transfer, scheme| WaveMethod { spline: Spline::Linear, ppc: 2, transfer, scheme };
+    let method = |transfer, scheme| WaveMethod {
+        spline: Spline::Linear,
+        ppc: 2,
+        shift: 0.0,
+        transfer,
+        scheme,
+    };
     let lumped = TRANSFERS.iter().flat_map(|(name, transfer)| {
         SCHEMES.iter().map(move |(scheme_name, scheme)| {
             (format!("{name}, {scheme_name}"), method(*transfer, *scheme))

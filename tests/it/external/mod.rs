@@ -15,6 +15,7 @@ mod repeat;
 #[cfg(unix)]
 mod several;
 mod single_precision;
+mod spectrum;
 mod stated;
 #[cfg(unix)]
 mod values;

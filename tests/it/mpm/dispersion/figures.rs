@@ -15,7 +15,7 @@ const FLIP_CONSISTENT: (WaveTransfer, SchemeName) = (WaveTransfer::FlipConsisten
 
 /// A method with two particles per cell.
 fn method(spline: Spline, (transfer, scheme): (WaveTransfer, SchemeName)) -> WaveMethod {
-    WaveMethod { spline, ppc: 2, transfer, scheme }
+    WaveMethod { spline, ppc: 2, shift: 0.0, transfer, scheme }
 }
 
 fn symbols(spline: Spline, theta: f64, ppc: u32) -> WaveSymbols {

@@ -33,6 +33,13 @@ const TOLERANCE: f64 = 1e-12;
 /// change the symbols by as much.
 const UNDAMPED: f64 = 1e-6;
 
+/// Domains of particles: the closed form is that of a mean over a domain.
+const DOMAINS: [(BasisName, Spline); 3] = [
+    (BasisName::UniformGimp, Spline::Gimp(2)),
+    (BasisName::ContiguousGimp, Spline::Gimp(2)),
+    (BasisName::Cpdi, Spline::Cpdi(2)),
+];
+
 const BASES: [(BasisName, Spline); 3] = [
     (BasisName::Linear, Spline::Linear),
     (BasisName::QuadraticBSpline, Spline::Quadratic),
@@ -254,6 +261,41 @@ fn moving_particles_have_the_predicted_phase_error_and_damping(
     assert!(error <= 0.02 * expected.abs() + UNDAMPED, "ln |l| is {found}, expected {expected}");
 }
 
+/// Domains of two particles per cell, in whole cells and across their corners.
+#[rstest]
+#[case::flip(TransferName::Flip, WaveTransfer::Flip)]
+#[case::pic(TransferName::Pic, WaveTransfer::Pic)]
+#[case::apic(TransferName::Apic, WaveTransfer::Apic)]
+fn domains_have_the_predicted_trace_and_determinant(
+    #[case] name: TransferName,
+    #[case] wave: WaveTransfer,
+    #[values(0.0, 0.1)] shift: f64,
+) {
+    for (basis, spline) in DOMAINS {
+        for periods in [1, 2, 3] {
+            let method = (basis, name, MassName::Lumped);
+            let row = Row { method, scheme: SchemeName::Usl, ppc: 2, shift, courant: 0.4 };
+            row.assert_agrees(spline, wave, periods);
+        }
+    }
+}
+
+/// The names of a suite give the closed forms that the cases above verify.
+#[test]
+fn names_of_bases_and_transfers_have_their_closed_forms() {
+    for (basis, spline) in BASES.into_iter().chain(DOMAINS) {
+        assert_eq!(Spline::of(basis, 2), spline);
+    }
+    let with = |name: TransferName| WaveTransfer::of(name.into(), MassName::Lumped);
+    let count = TransferName::ALL.iter().filter(|name| with(**name).is_some()).count();
+    assert_eq!(count, 9);
+    for name in TransferName::ALL {
+        let consistent = WaveTransfer::of((*name).into(), MassName::Consistent);
+        let expected = (*name == TransferName::Flip).then_some(WaveTransfer::FlipConsistent);
+        assert_eq!(consistent, expected, "{name:?}");
+    }
+}
+
 /// All registered transfers of velocity have a closed form, so that a new one is not forgotten.
 #[test]
 fn transfers_with_a_closed_form_are_listed() {
@@ -275,6 +317,7 @@ fn a_wrong_formula_is_detected() {
     let method = WaveMethod {
         spline: Spline::Quadratic,
         ppc: 2,
+        shift: 0.0,
         transfer: WaveTransfer::Blend(0.99),
         scheme: SchemeName::Usl,
     };

@@ -10,7 +10,8 @@ const STRANGE: &str = "qqqqqqqq";
 const STRANGER: &str = "jjjjjjjj";
 
 /// Kinds of study.
-pub(super) const STUDIES: [&str; 4] = ["convergence", "stability", "internal_force", "gradient"];
+pub(super) const STUDIES: [&str; 5] =
+    ["convergence", "stability", "internal_force", "gradient", "spectrum"];
 
 /// Keys of the whole file whose sub-keys are chosen by the author.
 const OF_AUTHORS: [&str; 2] = ["parameters", "functions"];
@@ -146,6 +147,10 @@ fn base(study: &str) -> Value {
         "stability" => format!(
             "{scene}{methods}parameters: {{C: 1}}\nparticles: {{cells: 4, ppc: 4}}\n\
              run: {{dt: C, steps: 9}}\nsweep: {{C: [1]}}\n"
+        ),
+        "spectrum" => format!(
+            "{scene}{methods}particles: {{cells: 4, ppc: 2}}\n\
+             spectrum: {{cells_per_wavelength: 4, courant: 0.4}}\n"
         ),
         "gradient" => format!(
             "{scene}parameters: {{E: 1}}\nexact: {{equation: corotated, displacement: [t]}}\n\

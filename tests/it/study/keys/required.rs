@@ -6,11 +6,12 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Types of the schema for the kinds of study.
-const STUDIES: [(&str, &str); 4] = [
+const STUDIES: [(&str, &str); 5] = [
     ("convergence", "ConvergenceSpec"),
     ("stability", "StabilitySpec"),
     ("internal_force", "InternalForceSpec"),
     ("gradient", "GradientSpec"),
+    ("spectrum", "SpectrumSpec"),
 ];
 
 /// Keys of maps that have one for each face.

@@ -1,0 +1,384 @@
+//! Energy ledger: each change of the energy in a step, assigned to one stage of the step.
+//!
+//! A particle p has the velocity field `u_pi = v_p + C_p (x_i - x_p)` at node i; C_p is zero for a
+//! transfer without an affine field. Its kinetic energy is `K = sum m_p N_i u_pi^2 / 2`, and that
+//! of the grid `sum M_i w_i^2 / 2` with the lumped mass. The entries are exact identities for
+//! particles at any positions and for any transfer with the nodal mass `sum m_p N_i`. Each entry is
+//! a sum over particles or nodes; only those of effects, motion and stored energy are differences
+//! of energies. Primes mark values after the update of velocities:
+//!
+//! ```text
+//! particle to grid    -sum m_p N_i (u_pi - w_i)^2 / 2
+//! nodal velocity      sum w_i . (M_i w_i - p_i) with the momentum p_i
+//! forces              sum dt f_i . (w_i + w'_i) / 2, internal and external
+//! constraints         sum (M_i (w'_i - w_i) - dt f_i) . (w_i + w'_i) / 2
+//! grid to particle    -sum m_p N_i (w'_i - u'_pi)^2 / 2
+//! particle velocity   sum m_p N_i u'_pi . (u'_pi - w'_i)
+//! effects             change by effects on velocities, such as damping
+//! motion              change of the affine energy with the inertia D at the new position
+//! stored energy       change of W(F)
+//! ```
+//!
+//! Nodal velocity and constraints are zero unless a consistent mass matrix, a wall or a series of
+//! terms changes nodal velocities. The entry of the particle velocity is zero for PIC and APIC;
+//! with FLIP it returns the loss of the map to the grid.
+//!
+//! The sum of internal force and stored energy is the error of the stress work. Velocities are half
+//! a step behind stresses. The stored energy at the time of the velocities is therefore the mean of
+//! its values before and after the step; without this mean the ledger would leak an energy of the
+//! order of the step. Sources: Burgess, Sulsky & Brackbill 1992 (J. Comput. Phys. 103); for APIC
+//! Jiang, Schroeder & Teran 2017 (J. Comput. Phys. 338).
+
+use crate::mpm::basis::BasisName;
+use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use crate::mpm::kernel::contract::Affine;
+use crate::mpm::scheme::Stage;
+use crate::mpm::step::schedule::Pass;
+use crate::mpm::step::solver::Solver;
+use crate::named::named;
+use crate::subject::{Failure, Subject};
+
+/// Second moment of weights along an axis, in squared cell sizes, that counts as zero.
+const SMALLEST_MOMENT: f64 = 1e-13;
+
+named! {
+    /// Stages of a step that change the energy.
+    pub enum LedgerStage {
+        /// Particle velocities are mapped to nodes.
+        ParticleToGrid = "particle to grid",
+        /// Nodal velocities differ from momentum over lumped mass.
+        NodalVelocity = "nodal velocity",
+        /// Work of the internal forces on the grid.
+        InternalForce = "internal force",
+        /// Work of the external forces on the grid.
+        ExternalForce = "external force",
+        /// Accelerations differ from force over lumped mass.
+        Constraints = "constraints",
+        /// Nodal velocities are mapped to particles.
+        GridToParticle = "grid to particle",
+        /// Particles keep velocities that differ from the mapped ones.
+        ParticleVelocity = "particle velocity",
+        /// Effects change velocities of particles.
+        Effects = "effects",
+        /// Particles move, and the inertia of their affine fields changes.
+        Motion = "motion",
+        /// Stored energy of the material.
+        Stored = "stored energy",
+    }
+}
+
+/// The changes of the energy of one body, summed over its steps.
+#[derive(Debug, Clone)]
+pub struct EnergyLedger {
+    basis: BasisName,
+    entries: Vec<f64>,
+    /// Kinetic energy (J) after the last step; `None` before the first one.
+    kinetic: Option<f64>,
+    /// Stored energy (J) at the time of the velocities.
+    stored: f64,
+}
+
+/// Node, weight, and position of the node from the mean of the nodes of a particle (m).
+struct NodeOfParticle<const D: usize> {
+    node: usize,
+    weight: f64,
+    offset: Vector<D>,
+}
+
+/// Nodes of all particles at their positions, and the inverse of the second moments (1/m2).
+struct Weights<const D: usize> {
+    nodes: Vec<Vec<NodeOfParticle<D>>>,
+    inverse: Vec<Matrix<D>>,
+    masses: Vec<f64>,
+}
+
+/// Velocity field of a particle: velocity (m/s) and slope (1/s).
+type AffineVelocity<const D: usize> = (Vector<D>, Matrix<D>);
+
+impl<const D: usize> Weights<D> {
+    fn new(basis: BasisName, solver: &Solver<D>) -> Self {
+        let grid = &solver.setup.grid;
+        let count = solver.setup.particles.len();
+        let places: Vec<Vector<D>> =
+            (0..grid.nodes()).map(|node| basis.place(grid, node)).collect();
+        let mut all = Self {
+            nodes: Vec::with_capacity(count),
+            inverse: Vec::with_capacity(count),
+            masses: solver.setup.particles.mass.clone(),
+        };
+        for p in 0..count {
+            let particles = &solver.setup.particles;
+            let (x, mut nodes) = (*particles.position(p), Vec::new());
+            solver.setup.kernel.functions(grid, particles, p, &mut |node, weight, _| {
+                let offset = Vector::from_fn(|axis, _| {
+                    let distance = places[node][axis] - x[axis];
+                    let period = grid.h * grid.cells[axis] as f64;
+                    let turns =
+                        if grid.periodic[axis] { libm::round(distance / period) } else { 0.0 };
+                    distance - turns * period
+                });
+                nodes.push(NodeOfParticle { node, weight, offset });
+            });
+            let mean: Vector<D> =
+                nodes.iter().fold(Vector::zeros(), |sum, of| sum + of.offset * of.weight);
+            let mut second = Matrix::zeros();
+            for of in &mut nodes {
+                of.offset -= mean;
+                second += dyad(&of.offset, &of.offset) * of.weight;
+            }
+            all.inverse.push(inverse(&second, grid.h));
+            all.nodes.push(nodes);
+        }
+        all
+    }
+
+    /// Sum over all particles and their nodes of mass times weight times `term`.
+    fn sum(
+        &self,
+        fields: &[AffineVelocity<D>],
+        term: impl Fn(usize, usize, &Vector<D>) -> f64,
+    ) -> f64 {
+        let mut sum = 0.0;
+        for (p, (nodes, (v, slope))) in self.nodes.iter().zip(fields).enumerate() {
+            for of in nodes {
+                let u = v + slope * of.offset;
+                sum += self.masses[p] * of.weight * term(p, of.node, &u);
+            }
+        }
+        sum
+    }
+
+    /// Momentum (kg m/s) of each of `count` nodes.
+    fn momentum(&self, fields: &[AffineVelocity<D>], count: usize) -> Vec<Vector<D>> {
+        let mut momentum = vec![Vector::zeros(); count];
+        for (p, (nodes, (v, slope))) in self.nodes.iter().zip(fields).enumerate() {
+            for of in nodes {
+                momentum[of.node] += (v + slope * of.offset) * (self.masses[p] * of.weight);
+            }
+        }
+        momentum
+    }
+
+    fn kinetic(&self, fields: &[AffineVelocity<D>]) -> f64 {
+        0.5 * self.sum(fields, |_, _, u| u.norm_squared())
+    }
+
+    /// The velocity fields of the particles of `solver`.
+    fn fields(&self, solver: &Solver<D>) -> Vec<AffineVelocity<D>> {
+        let request = solver.setup.transfer.p2g_request(&solver.setup.particles);
+        let affine = request.momentum.and_then(|momentum| momentum.affine);
+        let slope = |p: usize| match affine {
+            None => Matrix::zeros(),
+            Some(Affine::Slope(slope)) => slope[p],
+            Some(Affine::Moment(moment)) => moment[p] * self.inverse[p],
+        };
+        let velocities = solver.setup.particles.v.iter().enumerate();
+        velocities.map(|(p, v)| (*v, slope(p))).collect()
+    }
+}
+
+/// Inverse of the second moments, zero along an axis without inertia.
+fn inverse<const D: usize>(second: &Matrix<D>, h: f64) -> Matrix<D> {
+    let is_small = |axis: usize| !(second[(axis, axis)] > SMALLEST_MOMENT * h * h);
+    let whole = if (0..D).any(is_small) { None } else { second.try_inverse() };
+    let along_axes =
+        || Matrix::from_fn(|i, j| if i == j && !is_small(i) { 1.0 / second[(i, i)] } else { 0.0 });
+    whole.unwrap_or_else(along_axes)
+}
+
+/// Nodal fields of a step, as far as its passes have computed them.
+struct Recorder<const D: usize> {
+    weights: Weights<D>,
+    start: Vec<AffineVelocity<D>>,
+    momentum: Vec<Vector<D>>,
+    /// Nodal velocities before and after their advance (m/s).
+    before: Option<Vec<Vector<D>>>,
+    after: Vec<Vector<D>>,
+    internal: Vec<Vector<D>>,
+    force: Vec<Vector<D>>,
+    mapped: Vec<AffineVelocity<D>>,
+    end: Vec<AffineVelocity<D>>,
+    dt: f64,
+}
+
+impl<const D: usize> Recorder<D> {
+    fn new(basis: BasisName, solver: &Solver<D>, dt: f64) -> Self {
+        let weights = Weights::new(basis, solver);
+        let start = weights.fields(solver);
+        let momentum = weights.momentum(&start, solver.setup.grid.nodes());
+        Self {
+            weights,
+            start,
+            momentum,
+            before: None,
+            after: Vec::new(),
+            internal: Vec::new(),
+            force: Vec::new(),
+            mapped: Vec::new(),
+            end: Vec::new(),
+            dt,
+        }
+    }
+
+    /// Records the fields that `pass` has computed.
+    fn record(&mut self, solver: &Solver<D>, pass: Pass) {
+        let grid = &solver.setup.grid;
+        match pass {
+            Pass::P2g(stages) if stages.contains(&Stage::Force) => {
+                self.internal.clone_from(&grid.force);
+            }
+            Pass::Update(Stage::Momentum) if self.before.is_none() => {
+                self.before = Some(grid.velocity.clone());
+            }
+            Pass::Update(Stage::Force) => self.force.clone_from(&grid.force),
+            Pass::Update(Stage::Acceleration) => {
+                // A scheme whose step does not need these velocities does not compute them.
+                let before = self.before.get_or_insert_with(|| {
+                    let mut field = self.momentum.clone();
+                    solver.setup.mass.solve(grid, &mut field);
+                    for condition in &solver.setup.boundary {
+                        condition.hold_velocity(&mut field, solver.velocity_time);
+                    }
+                    field
+                });
+                let advanced = before.iter().zip(&grid.acceleration);
+                self.after = advanced.map(|(w, a)| w + a * self.dt).collect();
+            }
+            Pass::Update(Stage::GridVelocity) => self.after.clone_from(&grid.velocity),
+            Pass::G2p(stages) if stages.contains(&Stage::ParticleVelocity) => {
+                self.mapped = self.weights.fields(solver);
+            }
+            Pass::Update(Stage::ParticleVelocity) => self.end = self.weights.fields(solver),
+            _ => {}
+        }
+    }
+
+    /// Entries of the step, except that of the stored energy; `moved` are the weights at its end.
+    fn entries(
+        &self,
+        masses: &[f64],
+        moved: &Weights<D>,
+        moved_fields: &[AffineVelocity<D>],
+    ) -> Vec<f64> {
+        let before = self.before.as_deref().unwrap_or_default();
+        let nodes = || before.iter().zip(&self.after).zip(masses);
+        let half = |(w, after): (&Vector<D>, &Vector<D>)| (w + after) * 0.5;
+        let work = |force: &dyn Fn(usize) -> Vector<D>| -> f64 {
+            before
+                .iter()
+                .zip(&self.after)
+                .enumerate()
+                .map(|(i, pair)| force(i).dot(&half(pair)))
+                .sum()
+        };
+        let weights = &self.weights;
+        let entry = |stage: LedgerStage| match stage {
+            LedgerStage::ParticleToGrid => {
+                -0.5 * weights.sum(&self.start, |_, i, u| (u - before[i]).norm_squared())
+            }
+            LedgerStage::NodalVelocity => nodes()
+                .zip(&self.momentum)
+                .map(|(((w, _), mass), momentum)| w.dot(&(w * *mass - momentum)))
+                .sum(),
+            LedgerStage::InternalForce => work(&|i| self.internal[i] * self.dt),
+            LedgerStage::ExternalForce => work(&|i| (self.force[i] - self.internal[i]) * self.dt),
+            LedgerStage::Constraints => {
+                work(&|i| (self.after[i] - before[i]) * masses[i] - self.force[i] * self.dt)
+            }
+            LedgerStage::GridToParticle => {
+                -0.5 * weights.sum(&self.mapped, |_, i, u| (self.after[i] - u).norm_squared())
+            }
+            LedgerStage::ParticleVelocity => {
+                weights.sum(&self.mapped, |_, i, u| u.dot(&(u - self.after[i])))
+            }
+            LedgerStage::Effects => weights.kinetic(&self.end) - weights.kinetic(&self.mapped),
+            LedgerStage::Motion => moved.kinetic(moved_fields) - weights.kinetic(&self.end),
+            LedgerStage::Stored => 0.0,
+        };
+        LedgerStage::ALL.iter().map(|stage| entry(*stage)).collect()
+    }
+}
+
+impl EnergyLedger {
+    /// An empty ledger of a solver with this basis.
+    pub fn new(basis: BasisName) -> Self {
+        Self { basis, entries: vec![0.0; LedgerStage::ALL.len()], kinetic: None, stored: 0.0 }
+    }
+
+    /// Advances `solver` by one step of length `dt` (s) and adds the entries of the step. The step
+    /// is that of [`Subject::step`], bit for bit.
+    ///
+    /// # Errors
+    /// As [`Subject::step`].
+    pub fn step<const D: usize>(&mut self, solver: &mut Solver<D>, dt: f64) -> Result<(), Failure> {
+        solver.begin(dt, &mut |_, _| {})?;
+        let old = stored(solver);
+        if self.kinetic.is_none() {
+            self.stored = old;
+        }
+        let mut recorder = Recorder::new(self.basis, solver, dt);
+        let mut masses = Vec::new();
+        solver.finish(dt, &mut |solver, pass| {
+            recorder.record(solver, pass);
+            if pass == Pass::Update(Stage::Mass) {
+                masses.clone_from(&solver.setup.grid.mass);
+            }
+        })?;
+        let moved = Weights::new(self.basis, solver);
+        let fields = moved.fields(solver);
+        let mut entries = recorder.entries(&masses, &moved, &fields);
+        // The stored energy at the time of the velocities, half a step before the end.
+        let now = 0.5 * (old + stored(solver));
+        if let Some(entry) = entries.last_mut() {
+            *entry = now - self.stored;
+        }
+        self.stored = now;
+        self.kinetic = Some(moved.kinetic(&fields));
+        for (sum, entry) in self.entries.iter_mut().zip(entries) {
+            *sum += entry;
+        }
+        Ok(())
+    }
+
+    /// Sum of the entries (J) of one stage.
+    pub fn entry(&self, stage: LedgerStage) -> f64 {
+        LedgerStage::ALL
+            .iter()
+            .zip(&self.entries)
+            .filter(|(of, _)| **of == stage)
+            .map(|(_, sum)| sum)
+            .sum()
+    }
+
+    /// Work of the stress on the particles minus the work of the internal forces on the grid (J):
+    /// the stored energy that comes from nowhere.
+    pub fn stress_work_error(&self) -> f64 {
+        self.entry(LedgerStage::InternalForce) + self.entry(LedgerStage::Stored)
+    }
+
+    /// Sum of all entries (J): the change of kinetic and stored energy since the first step.
+    pub fn change(&self) -> f64 {
+        self.entries.iter().sum()
+    }
+
+    /// Sum of the magnitudes of all entries (J).
+    pub fn size(&self) -> f64 {
+        self.entries.iter().map(|entry| entry.abs()).sum()
+    }
+
+    /// Kinetic and stored energy (J) at the time of the velocities; `None` before the first step.
+    pub fn energy(&self) -> Option<f64> {
+        Some(self.kinetic? + self.stored)
+    }
+}
+
+/// Kinetic energy (J) of the particles of `solver` with their affine fields.
+pub fn kinetic_energy<const D: usize>(basis: BasisName, solver: &Solver<D>) -> f64 {
+    let weights = Weights::new(basis, solver);
+    weights.kinetic(&weights.fields(solver))
+}
+
+/// Stored energy (J); zero if the law has none.
+fn stored<const D: usize>(solver: &Solver<D>) -> f64 {
+    solver.totals().and_then(|totals| totals.strain_energy).unwrap_or(0.0)
+}

@@ -1,0 +1,122 @@
+//! Columns of a spectrum study.
+
+use super::{Cell, TableColumn, decimals};
+use crate::verify::{SpectrumRow, WaveFigures};
+
+type WaveColumn<'a> = TableColumn<'a, SpectrumRow>;
+
+/// A number of a row, with its text by `format`.
+fn figure<'a>(
+    heading: &'static str,
+    key: &'static str,
+    about: &'static str,
+    format: fn(f64) -> String,
+    value: fn(&SpectrumRow) -> Option<f64>,
+) -> WaveColumn<'a> {
+    WaveColumn::new(heading, key, about, move |row| Cell::number(value(row), format))
+}
+
+/// A relative error, in per cent.
+fn percent(value: f64) -> String {
+    format!("{:.4} %", 100.0 * value + 0.0)
+}
+
+fn six_decimals(value: f64) -> String {
+    decimals(6)(value)
+}
+
+fn phase_error(figures: Option<&WaveFigures>) -> Option<f64> {
+    figures.and_then(|figures| figures.phase_error)
+}
+
+fn measured(row: &SpectrumRow) -> Option<&WaveFigures> {
+    row.measured.as_ref().ok()
+}
+
+fn cells<'a>() -> WaveColumn<'a> {
+    figure(
+        "cells",
+        "cells",
+        "cells per wavelength",
+        |value| value.to_string(),
+        |row| Some(row.cells),
+    )
+}
+
+fn courant<'a>() -> WaveColumn<'a> {
+    figure(
+        "C",
+        "courant",
+        "Courant number c dt/h",
+        |value| value.to_string(),
+        |row| Some(row.courant),
+    )
+}
+
+/// One row for each wave.
+pub(crate) fn waves<'a>() -> Vec<WaveColumn<'a>> {
+    vec![
+        cells(),
+        courant(),
+        WaveColumn::new("steps", "steps", "steps of the run", |row| Cell::plain(row.steps)),
+        figure(
+            "phase error",
+            "phase_error",
+            "measured relative error of the phase speed",
+            percent,
+            |row| phase_error(measured(row)),
+        ),
+        figure(
+            "predicted",
+            "predicted_phase_error",
+            "relative error of the phase speed by the closed form",
+            percent,
+            |row| phase_error(row.predicted.as_ref()),
+        ),
+        figure(
+            "amplitude",
+            "amplitude",
+            "measured factor of the amplitude in one exact period",
+            six_decimals,
+            |row| measured(row).map(WaveFigures::kept),
+        ),
+        figure(
+            "predicted",
+            "predicted_amplitude",
+            "factor of the amplitude in one exact period by the closed form",
+            six_decimals,
+            |row| row.predicted.as_ref().map(WaveFigures::kept),
+        ),
+    ]
+}
+
+/// One row for each Courant number: figures of the closed form that no run confirms.
+pub(crate) fn curves<'a>() -> Vec<WaveColumn<'a>> {
+    vec![
+        courant(),
+        figure(
+            "cells for 1 %",
+            "cells_for_one_percent",
+            "cells per wavelength from which on the predicted phase error is below 1 %",
+            |value| format!("{value:.2}"),
+            |row| row.cells_for_one_percent,
+        ),
+        figure(
+            "limit of C",
+            "limit",
+            "predicted stability limit of the Courant number",
+            |value| format!("{value:.4}"),
+            |row| row.limit,
+        ),
+    ]
+}
+
+/// All columns with a JSON key.
+pub(crate) fn json_columns<'a>() -> Vec<WaveColumn<'a>> {
+    let mut columns = waves();
+    columns.extend(curves().into_iter().skip(1));
+    columns.push(WaveColumn::json("failure", "reason why nothing is measured", |row| {
+        row.measured.as_ref().err().cloned()
+    }));
+    columns
+}

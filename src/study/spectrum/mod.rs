@@ -1,0 +1,4 @@
+//! The spectrum study: phase speed and damping of waves, measured and predicted.
+
+pub(crate) mod run;
+pub(crate) mod runner;

@@ -1,0 +1,299 @@
+//! The spectrum study: a wave in a periodic row of cells, the methods with their closed forms, and
+//! the expectations.
+
+use crate::exact::formula::Formula;
+use crate::mpm::{MaterialPlan, Spline, VolumeName, WaveMethod, WaveTransfer, combine};
+use crate::suite::compile::check::size;
+use crate::suite::compile::expect::assign;
+use crate::suite::compile::run::methods::{NamedMethod, count, methods, named};
+use crate::suite::compile::scene;
+use crate::suite::compile::truth::law_of_bar;
+use crate::suite::evaluator::{Evaluator, coordinates_and_time, shown, suggestion};
+use crate::suite::grammar::{MethodSpec, SpectrumExpectSpec, SpectrumSpec};
+use crate::suite::model::Scene;
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::LevelPlan;
+use crate::suite::model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
+use crate::suite::scene::grid_size::cell_size;
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::verify::{AMPLITUDE, SpectrumExpectation};
+use std::f64::consts::TAU;
+
+/// Maximum number of cases, and of waves of a case.
+const MOST: usize = 500;
+
+/// Maximum number of particles per cell. The closed form has a term for each of them.
+const MOST_PPC: u64 = 64;
+
+/// Smallest symbol of the mass of a wave that the grid represents.
+const SMALLEST_MASS: f64 = 1e-9;
+
+/// Largest distance of a number of periods from a whole number that counts as rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Checks a spectrum study.
+pub(crate) fn plan(
+    evaluator: &Evaluator<'_>,
+    spec: &SpectrumSpec,
+) -> Result<SpectrumPlan, Diagnostic> {
+    let scene = scene::scene(evaluator, &spec.scene)?;
+    refuse_unfit_scene(evaluator, &scene)?;
+    let path = Path::top("particles");
+    let at = path.then("cells");
+    let cells = evaluator.count(&at, &spec.particles.cells, "the number of cells")?;
+    let ppc_at = path.then("ppc");
+    let ppc = evaluator.count(&ppc_at, &spec.particles.ppc, "the number of particles per cell")?;
+    if ppc > MOST_PPC {
+        let diagnostic = evaluator.diagnostic(&ppc_at, &format!("{ppc} particles per cell"));
+        return Err(diagnostic.with_label(&format!("expected at most {MOST_PPC}")));
+    }
+    let h = cell_size(&scene, cells);
+    let level = LevelPlan { cells, h, dt: 0.0, ppc: Some(ppc) };
+    if let Some((what, amount)) = size::too_large(&scene, level) {
+        let message = format!("{cells} cells make {amount:.1e} {what}");
+        return Err(evaluator.diagnostic(&at, &message).with_label("expected fewer"));
+    }
+    let shift = shift(evaluator, spec, h / ppc as f64)?;
+    let waves = waves(evaluator, spec, &scene, cells, h)?;
+    let solvers = spec.spectrum.solvers.as_slice().to_vec();
+    let mut plan = SpectrumPlan { scene, cells, h, ppc, shift, waves, solvers, cases: Vec::new() };
+    plan.cases = cases(evaluator, spec, &plan)?;
+    refuse_unknown_cases(evaluator, &plan)?;
+    for case in &plan.cases {
+        refuse_unfit_waves(evaluator, spec, &plan, case)?;
+    }
+    Ok(plan)
+}
+
+/// The refusal of a suite without a `property` that the study needs.
+fn needs(evaluator: &Evaluator<'_>, path: &Path, property: &str) -> Diagnostic {
+    evaluator.diagnostic(path, &format!("spectrum needs {property}"))
+}
+
+/// Refuses a scene that is not a periodic row of a linear elastic body at rest.
+fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
+    let top = |key: &str| Path::top("scene").then(key);
+    let fills = scene.grid.as_ref().is_none_or(|(from, to)| *from == scene.from && *to == scene.to);
+    let is_linear = matches!(scene.material, MaterialPlan::LinearElastic { .. });
+    let is_periodic = scene.faces.iter().all(|face| face.hold.is_periodic());
+    // A scene without the key has free faces.
+    let is_free = scene.faces.iter().all(|face| face.hold.is_free());
+    let boundary = if is_free { Path::top("scene") } else { top("boundary") };
+    let starts_at_rest = scene.initial_displacement.is_empty() && scene.initial_velocity.is_empty();
+    let refused = [
+        (scene.dimension() != 1, top("dimension"), "one dimension"),
+        (!scene.bodies.is_empty(), top("bodies"), "one body"),
+        (!is_linear, top("material"), "a linear law: `linear_elastic`"),
+        (!is_periodic, boundary, "periodic faces: `{left: periodic, right: periodic}`"),
+        (!fills, top("grid"), "a body that fills the grid"),
+        (!scene.loads.is_empty(), top("loads"), "a body without loads"),
+        (!scene.initial_stress.is_none(), top("initial_stress"), "a body without stress"),
+        (!starts_at_rest, Path::top("scene"), "a body at rest, whose wave the study starts"),
+    ];
+    match refused.into_iter().find(|(is_refused, ..)| *is_refused) {
+        Some((_, path, property)) => Err(needs(evaluator, &path, property)),
+        None => Ok(()),
+    }
+}
+
+/// The translation of the particles (m), which leaves each particle in its cell.
+fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result<f64, Diagnostic> {
+    let Some(texts) = &spec.particles.shift else { return Ok(0.0) };
+    let path = Path::top("particles").then("shift");
+    let shift = evaluator.point(&path, texts, 1)?.iter().sum::<f64>();
+    if shift.abs() < 0.5 * spacing {
+        return Ok(shift);
+    }
+    let message = format!("particles {} m apart are shifted by {} m", shown(spacing), shown(shift));
+    let label = "expected less than half of their distance";
+    Err(evaluator.diagnostic(&path, &message).with_label(label))
+}
+
+/// The product of wavelengths and Courant numbers.
+fn waves(
+    evaluator: &Evaluator<'_>,
+    spec: &SpectrumSpec,
+    scene: &Scene,
+    cells: u64,
+    h: f64,
+) -> Result<Vec<Wave>, Diagnostic> {
+    let path = Path::top("spectrum");
+    let lengths = path.then("cells_per_wavelength");
+    let listed = &spec.spectrum.cells_per_wavelength;
+    let courants = &spec.spectrum.courant;
+    if listed.as_slice().len().saturating_mul(courants.as_slice().len()) > MOST {
+        let diagnostic = evaluator.diagnostic(&path, "too many waves");
+        return Err(diagnostic.with_label(&format!("expected at most {MOST}")));
+    }
+    let mut waves = Vec::new();
+    for (i, text) in listed.as_slice().iter().enumerate() {
+        let at = lengths.alternative(listed, i);
+        let length = evaluator.number(&at, text)?;
+        if !(length >= 2.0) {
+            let label = format!("the wavelength is {}", shown(length));
+            return Err(needs(evaluator, &at, "at least 2 cells per wavelength").with_label(&label));
+        }
+        let periods = cells as f64 / length;
+        if !((periods - libm::round(periods)).abs() <= ROUNDING && periods >= 0.5) {
+            let label = format!("the row of {cells} cells has {} wavelengths", shown(periods));
+            let property = "a whole number of wavelengths in the row of cells";
+            return Err(needs(evaluator, &at, property).with_label(&label));
+        }
+        let velocity = velocity(evaluator, &at, scene, length * h)?;
+        for (k, text) in courants.as_slice().iter().enumerate() {
+            let at = path.then("courant").alternative(courants, k);
+            let courant = evaluator.positive(&at, text, "the Courant number")?;
+            waves.push(Wave { cells: length, courant, velocity: velocity.clone() });
+        }
+    }
+    Ok(waves)
+}
+
+/// The velocity (m/s) at the start of a standing wave of this `length` (m).
+fn velocity(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    scene: &Scene,
+    length: f64,
+) -> Result<Formula, Diagnostic> {
+    let (size, k, from) = (AMPLITUDE * scene.wave_speed(), TAU / length, scene.from[0]);
+    let text = NumberText::Formula(format!("{size:e}*sin({k:e}*(X - ({from:e})))"));
+    evaluator.formula(path, &text, &coordinates_and_time(1))
+}
+
+/// The product of the lists of `methods`, with their closed forms and expectations.
+fn cases(
+    evaluator: &Evaluator<'_>,
+    spec: &SpectrumSpec,
+    plan: &SpectrumPlan,
+) -> Result<Vec<SpectrumCase>, Diagnostic> {
+    let own = law_of_bar(&plan.scene.material).unwrap_or_default();
+    let (mut drafts, mut curves, mut all) = (Vec::new(), Vec::new(), 0_usize);
+    for (i, spec) in spec.methods.iter().enumerate() {
+        let path = Path::top("methods").then(i);
+        all = all.saturating_add(count(spec));
+        if all > MOST {
+            return Err(evaluator.diagnostic(&path, &format!("more than {MOST} cases")));
+        }
+        if !matches!(spec, MethodSpec::Mpm { .. }) || spec.is_quasi_static() {
+            let help = "an external solver takes part with `run SUITE --solver COMMAND`";
+            return Err(needs(evaluator, &path, "methods of MPM in time").with_help(help));
+        }
+        for draft in methods(evaluator, i, spec, own)? {
+            curves.push(curve(evaluator, &path, draft.method, plan)?);
+            drafts.push(draft);
+        }
+    }
+    let named = named(evaluator, drafts)?;
+    let names: Vec<&str> = named.iter().map(|draft| draft.name.as_str()).collect();
+    let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, &selectors, &names)?;
+    let expected = spec.expect.iter().enumerate().map(|(i, spec)| expectation(evaluator, i, spec));
+    let expected = expected.collect::<Result<Vec<_>, Diagnostic>>()?;
+    let case = |((draft, curve), owner): ((NamedMethod, WaveMethod), Option<usize>)| {
+        let expected = owner.map(|owner| expected[owner].clone());
+        let limit = Some(curve.stability_limit());
+        let (name, method, curve) = (draft.name, draft.method, Some(curve));
+        SpectrumCase { name, method, curve, limit, expected, gating: None }
+    };
+    Ok(named.into_iter().zip(curves).zip(owners).map(case).collect())
+}
+
+/// The closed form of a method.
+fn curve(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    method: Method,
+    plan: &SpectrumPlan,
+) -> Result<WaveMethod, Diagnostic> {
+    let at = path.then("mpm");
+    if method.is_single_precision() {
+        let property = "double precision, because the wave is small";
+        return Err(needs(evaluator, &at.then("precision"), property));
+    }
+    let Method::Mpm { basis, transfer, scheme, mass, frame, volume, .. } = method else {
+        return Err(needs(evaluator, path, "methods of MPM in time"));
+    };
+    combine(basis, transfer, mass, frame).map_err(|reason| {
+        let help = "give what goes together an entry of `methods` of its own";
+        evaluator.diagnostic(path, &reason.to_string()).with_help(help)
+    })?;
+    if volume == VolumeName::Averaged {
+        let property = "the volume ratio of each particle: `volume: particle`";
+        return Err(needs(evaluator, &at.then("volume"), property));
+    }
+    let Some(transfer) = WaveTransfer::of(transfer, mass) else {
+        let (name, mass) = (transfer.name(), mass.name());
+        let message = format!("`{name}` with a {mass} mass matrix has none");
+        let diagnostic = needs(evaluator, &at.then("transfer"), "a transfer with a closed form");
+        return Err(diagnostic.with_label(&message));
+    };
+    let ppc = plan.ppc as u32;
+    let spline = Spline::of(basis, ppc);
+    Ok(WaveMethod { spline, ppc, shift: plan.shift / plan.h, transfer, scheme })
+}
+
+/// The expectation number `i`, and its reason.
+fn expectation(
+    evaluator: &Evaluator<'_>,
+    i: usize,
+    spec: &SpectrumExpectSpec,
+) -> Result<(SpectrumExpectation, String), Diagnostic> {
+    let path = Path::top("expect").then(i);
+    let share = |key: &str, text: &Option<NumberText>| {
+        let at = path.then(key);
+        text.as_ref().map(|text| evaluator.positive(&at, text, "the deviation")).transpose()
+    };
+    let phase_within = share("phase_within", &spec.phase_within)?;
+    let damping_within = share("damping_within", &spec.damping_within)?;
+    if phase_within.is_none() && damping_within.is_none() {
+        let diagnostic = evaluator.diagnostic(&path, "nothing is expected of this case");
+        return Err(diagnostic.with_label("expected `phase_within` or `damping_within`"));
+    }
+    let because = evaluator.because(&path, "an expectation", &spec.because)?;
+    Ok((SpectrumExpectation { phase_within, damping_within }, because))
+}
+
+/// Refuses a solver that is compared with a case that does not exist.
+fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Result<(), Diagnostic> {
+    let names: Vec<&str> = plan.cases.iter().map(|case| case.name.as_str()).collect();
+    let Some((solver, case)) =
+        plan.solvers.iter().find(|(_, case)| !names.contains(&case.as_str()))
+    else {
+        return Ok(());
+    };
+    let path = Path::top("spectrum").then("solvers").then(solver.as_str());
+    let diagnostic = evaluator.diagnostic(&path, &format!("there is no case `{case}`"));
+    Err(diagnostic.with_help(&suggestion("cases", case, &names)))
+}
+
+/// Refuses a time step above the stability limit of a case, and a wave that its grid does not
+/// represent.
+fn refuse_unfit_waves(
+    evaluator: &Evaluator<'_>,
+    spec: &SpectrumSpec,
+    plan: &SpectrumPlan,
+    case: &SpectrumCase,
+) -> Result<(), Diagnostic> {
+    let (Some(curve), Some(limit)) = (&case.curve, case.limit) else { return Ok(()) };
+    let path = Path::top("spectrum");
+    let (listed, courants) = (&spec.spectrum.cells_per_wavelength, &spec.spectrum.courant);
+    for (i, wave) in plan.waves.iter().enumerate() {
+        let (length, k) = (i / courants.as_slice().len(), i % courants.as_slice().len());
+        let symbols = curve.symbols(TAU / wave.cells);
+        if !(symbols.mass > SMALLEST_MASS) {
+            let at = path.then("cells_per_wavelength").alternative(listed, length);
+            let property = "a wave that the grid represents";
+            let label =
+                format!("the symbol s of the mass of `{}` is 0 at {} cells", case.name, wave.cells);
+            return Err(needs(evaluator, &at, property).with_label(&label));
+        }
+        if !(wave.courant < limit) {
+            let at = path.then("courant").alternative(courants, k);
+            let label = format!("the limit of `{}` is {limit:.4}", case.name);
+            let property = "a Courant number below the stability limit";
+            return Err(needs(evaluator, &at, property).with_label(&label));
+        }
+    }
+    Ok(())
+}

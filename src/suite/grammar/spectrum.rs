@@ -1,0 +1,85 @@
+//! Keys of a spectrum study.
+
+use super::{MethodSpec, ParameterSpec, SceneSpec, StudyName};
+use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
+use serde::Deserialize;
+
+/// A study of the phase speed and the damping of waves.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SpectrumSpec {
+    /// Name of the suite: lower-case letters, digits and hyphens.
+    pub(crate) suite: String,
+    /// Kind of study: `spectrum`.
+    #[serde(rename = "study")]
+    pub(crate) _study: StudyName,
+    /// Headline of the report.
+    pub(crate) title: String,
+    /// Reference for the problem.
+    pub(crate) source: String,
+    /// Remarks for a reader of the report.
+    #[serde(default)]
+    pub(crate) about: String,
+    /// Numbers, formulas of the parameters above them, or tables; each must be used.
+    #[serde(default)]
+    pub(crate) parameters: Ordered<ParameterSpec>,
+    /// Functions for formulas: `s(tau): "..."`.
+    #[serde(default)]
+    pub(crate) functions: Ordered<String>,
+    /// The body with its conditions.
+    pub(crate) scene: SceneSpec,
+    /// Cells and particles.
+    pub(crate) particles: RowSpec,
+    /// Wavelengths and time steps.
+    pub(crate) spectrum: WavesSpec,
+    /// Methods to be studied; lists in an entry multiply to cases.
+    pub(crate) methods: Vec<MethodSpec>,
+    /// Expectations, exactly one for each case; without expectations the suite explores, and is not
+    /// a gate.
+    #[serde(default)]
+    pub(crate) expect: Vec<SpectrumExpectSpec>,
+}
+
+/// A row of cells with the same particles in each cell.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RowSpec {
+    /// Number of cells.
+    pub(crate) cells: NumberText,
+    /// Particles per cell.
+    pub(crate) ppc: NumberText,
+    /// Translation of every particle (m), less than half of the spacing of particles.
+    pub(crate) shift: Option<Vec<NumberText>>,
+}
+
+/// Wavelengths and time steps; their product gives the rows of the report.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WavesSpec {
+    /// Wavelengths (cells).
+    pub(crate) cells_per_wavelength: OneOrMany<NumberText>,
+    /// Courant numbers `c dt/h`.
+    pub(crate) courant: OneOrMany<NumberText>,
+    /// External solvers, each with the case whose prediction applies to it.
+    #[serde(default)]
+    pub(crate) solvers: Ordered<String>,
+}
+
+/// An expectation of a spectrum study.
+#[derive(Debug, Clone, Deserialize)]
+#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SpectrumExpectSpec {
+    /// Cases that it speaks of, `*` standing for any text; all unless stated.
+    pub(crate) case: Option<OneOrMany<String>>,
+    /// Largest deviation of the phase error from the prediction, relative to the prediction.
+    pub(crate) phase_within: Option<NumberText>,
+    /// Largest deviation of the logarithm of the amplitude from the prediction, relative to the
+    /// prediction.
+    pub(crate) damping_within: Option<NumberText>,
+    /// The reason for expecting it.
+    pub(crate) because: String,
+}

@@ -1,0 +1,128 @@
+//! A spectrum study whose keys have all been checked.
+
+use super::Scene;
+use super::method::{ExternalMethod, GateTerms, Method};
+use super::refine_plan::LevelPlan;
+use super::stability::LatticeEdits;
+use super::{StudyPlan, kept};
+use crate::exact::formula::Formula;
+use crate::mpm::WaveMethod;
+use crate::verify::{Gating, SpectrumExpectation};
+use std::sync::Arc;
+
+/// A spectrum study.
+#[derive(Debug, Clone)]
+pub struct SpectrumPlan {
+    /// The body at rest.
+    pub scene: Scene,
+    /// Number of cells.
+    pub cells: u64,
+    /// Cell size (m).
+    pub h: f64,
+    /// Particles per cell.
+    pub ppc: u64,
+    /// Translation of every particle (m).
+    pub shift: f64,
+    /// The waves, one for each row of a report.
+    pub waves: Vec<Wave>,
+    /// External solvers, each with the case whose prediction applies to it.
+    pub solvers: Vec<(String, String)>,
+    /// The cases, in the order of the product.
+    pub cases: Vec<SpectrumCase>,
+}
+
+/// A standing wave of small amplitude, and the time step of its run.
+#[derive(Debug, Clone)]
+pub struct Wave {
+    /// Wavelength (cells).
+    pub cells: f64,
+    /// Courant number `c dt/h`.
+    pub courant: f64,
+    /// Initial velocity (m/s), a formula of X and t.
+    pub velocity: Formula,
+}
+
+/// One case of a spectrum study.
+#[derive(Debug, Clone)]
+pub struct SpectrumCase {
+    /// Its name, unique in the suite.
+    pub name: String,
+    /// The method.
+    pub method: Method,
+    /// The method in closed form; `None` for an external solver of unknown method.
+    pub curve: Option<WaveMethod>,
+    /// Stability limit of the Courant number, by the closed form.
+    pub limit: Option<f64>,
+    /// Expectation, and the reason for it; `None` if the suite explores.
+    pub expected: Option<(SpectrumExpectation, String)>,
+    /// Treatment by `run --gate`, of an external solver.
+    pub gating: Option<Gating>,
+}
+
+impl SpectrumPlan {
+    /// The row of cells and particles, with the time step of `wave`.
+    pub(crate) fn level(&self, wave: &Wave) -> LevelPlan {
+        let dt = wave.courant * self.h / self.scene.wave_speed();
+        LevelPlan { cells: self.cells, h: self.h, dt, ppc: Some(self.ppc) }
+    }
+
+    /// The body at the start of the run of `wave`.
+    pub(crate) fn started(&self, wave: &Wave) -> Scene {
+        Scene { initial_velocity: vec![wave.velocity.clone()], ..self.scene.clone() }
+    }
+
+    /// The translation of the particles.
+    pub(crate) fn lattice(&self) -> LatticeEdits {
+        LatticeEdits { shift: vec![self.shift], ..LatticeEdits::default() }
+    }
+
+    /// The case whose prediction applies to the external solver `name`: the one that the suite
+    /// states, or the one with this name.
+    fn case_of(&self, name: &str) -> Option<&SpectrumCase> {
+        let stated = self.solvers.iter().find(|(solver, _)| solver == name);
+        let case = stated.map_or(name, |(_, case)| case);
+        self.cases.iter().find(|known| known.name == case)
+    }
+}
+
+impl StudyPlan for SpectrumPlan {
+    fn case_names(&self) -> Vec<&str> {
+        self.cases.iter().map(|case| case.name.as_str()).collect()
+    }
+
+    fn expectation(&self, case: usize) -> Option<(String, &str)> {
+        let (expected, because) = self.cases[case].expected.as_ref()?;
+        Some((expected.summary(), because))
+    }
+
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
+        Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
+    }
+
+    fn of_external(
+        &self,
+        solver: ExternalMethod<'_>,
+        terms: Option<&GateTerms>,
+    ) -> Option<Arc<dyn StudyPlan>> {
+        let ExternalMethod { name, formal_order, precision } = solver;
+        let same = self.case_of(name);
+        let unknown = || {
+            let message = "the suite does not state the method of the solver, so that there is no \
+                           prediction";
+            Gating::NotGated(message.to_owned())
+        };
+        let gating = terms.and_then(|terms| match &terms.skip {
+            Some(reason) => Some(Gating::Excepted(reason.clone())),
+            None => same.is_none().then(unknown),
+        });
+        let case = SpectrumCase {
+            name: name.to_owned(),
+            method: Method::External { formal_order, precision },
+            curve: same.and_then(|case| case.curve),
+            limit: same.and_then(|case| case.limit),
+            expected: same.and_then(|case| case.expected.clone()),
+            gating,
+        };
+        Some(Arc::new(Self { cases: vec![case], ..self.clone() }))
+    }
+}

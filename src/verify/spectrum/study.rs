@@ -1,0 +1,95 @@
+//! Rows of a spectrum study.
+
+use super::recurrence::Recurrence;
+use crate::verify::StudyResults;
+
+/// Phase error and damping of a wave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WaveFigures {
+    /// Relative error of the phase speed; `None` if the wave is overdamped and has no phase.
+    pub phase_error: Option<f64>,
+    /// Logarithm of the factor of the amplitude in one exact period.
+    pub log_kept: f64,
+}
+
+impl WaveFigures {
+    /// The figures of a wave of `cells` cells at the Courant number `courant`.
+    pub fn of(step: &Recurrence, cells: f64, courant: f64) -> Self {
+        Self {
+            phase_error: step.phase_error(cells, courant),
+            log_kept: step.log_kept_per_period(cells, courant),
+        }
+    }
+
+    /// Factor of the amplitude in one exact period.
+    pub fn kept(&self) -> f64 {
+        libm::exp(self.log_kept)
+    }
+}
+
+/// One wave of one method.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpectrumRow {
+    /// Wavelength (cells).
+    pub cells: f64,
+    /// Courant number.
+    pub courant: f64,
+    /// Number of steps of the run.
+    pub steps: u64,
+    /// Figures of the closed form; `None` if the method is not known.
+    pub predicted: Option<WaveFigures>,
+    /// Figures of the run, or the reason why there are none.
+    pub measured: Result<WaveFigures, String>,
+    /// Cells per wavelength from which on the predicted phase error is below 1 %; `None` without a
+    /// prediction, or if all waves of two cells or more are within it.
+    pub cells_for_one_percent: Option<f64>,
+    /// Predicted stability limit of the Courant number.
+    pub limit: Option<f64>,
+}
+
+impl SpectrumRow {
+    /// Phase error and amplitude that differ most from the prediction, relative to the prediction;
+    /// `None` without both figures. An amplitude that is predicted to remain has no such figure.
+    pub fn deviations(&self) -> (Option<f64>, Option<f64>) {
+        let (Some(predicted), Ok(measured)) = (&self.predicted, &self.measured) else {
+            return (None, None);
+        };
+        let phases = measured.phase_error.zip(predicted.phase_error);
+        let phase = phases.map(|(measured, predicted)| (measured / predicted - 1.0).abs());
+        let damping = (measured.log_kept / predicted.log_kept - 1.0).abs();
+        (phase, damping.is_finite().then_some(damping))
+    }
+}
+
+/// Results of a spectrum study: one row for each wavelength and Courant number.
+#[derive(Debug, Clone)]
+pub struct SpectrumStudy {
+    /// The rows.
+    pub rows: Vec<SpectrumRow>,
+}
+
+impl StudyResults for SpectrumStudy {
+    fn fails(&self) -> bool {
+        self.rows.iter().any(|row| row.measured.is_err())
+    }
+}
+
+impl SpectrumStudy {
+    /// Largest magnitude of the measured phase errors and smallest amplitude, in a sentence.
+    pub fn reason(&self) -> String {
+        let measured = || self.rows.iter().filter_map(|row| row.measured.as_ref().ok());
+        let phases = measured().filter_map(|figures| figures.phase_error).map(f64::abs);
+        let most = phases.fold(0.0, crate::verify::larger);
+        let kept = measured().map(WaveFigures::kept).fold(f64::INFINITY, f64::min);
+        let (count, failed) = (self.rows.len(), self.rows.len() - measured().count());
+        if failed == count {
+            return format!("no figure of {count} waves: the runs failed");
+        }
+        let failed = if failed == 0 { String::new() } else { format!(", {failed} runs failed") };
+        format!(
+            "phase error up to {:.2} %, amplitude per period at least {:.4}, over {count} waves{failed}",
+            100.0 * most,
+            kept
+        )
+    }
+}

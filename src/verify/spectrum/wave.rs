@@ -1,0 +1,118 @@
+//! A run of a subject with one wave, and the recurrence of its particle velocities.
+
+use super::recurrence::Recurrence;
+use crate::subject::{Samples, Subject};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// Amplitude of the velocity of a wave, in wave speeds: also its strain.
+pub const AMPLITUDE: f64 = 1e-6;
+
+/// Exact periods of a run.
+pub const PERIODS: f64 = 20.0;
+
+/// Amplitude, as a share of the initial one, at which a run of a damped wave ends.
+const LEAST_KEPT: f64 = 1e-6;
+
+/// Minimum number of steps of a run.
+const FEWEST_STEPS: f64 = 16.0;
+
+/// Trace and determinant of a step as measured in a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct MeasuredWave {
+    /// Number of steps.
+    pub steps: u64,
+    /// Trace; NaN if the run failed or the wave does not change.
+    pub trace: f64,
+    /// Determinant.
+    pub determinant: f64,
+}
+
+/// Number of steps of a run of [`PERIODS`] exact periods of a wave of `cells` cells, or until the
+/// predicted amplitude has fallen to a millionth. `log_kept` is the predicted logarithm of the
+/// factor of the amplitude in a step, if there is a prediction.
+pub fn steps_of_run(cells: f64, courant: f64, log_kept: Option<f64>) -> u64 {
+    let whole = libm::ceil(PERIODS * cells / courant);
+    let damped = log_kept.filter(|log_kept| *log_kept < 0.0);
+    let until = damped.map_or(whole, |log_kept| libm::floor(libm::log(LEAST_KEPT) / log_kept));
+    until.min(whole).max(FEWEST_STEPS) as u64
+}
+
+/// Runs `subject` for `steps` steps of length `dt` (s), and fits the recurrence of the sums
+/// `sum v sin(k X)` over its points, with the wave number `k = 2 pi/length` and X from `from` (m).
+/// The state at the start is not part of the series: it need not be a state after a step.
+///
+/// # Errors
+/// One line with the step that failed.
+pub fn run_wave(
+    subject: &mut dyn Subject,
+    (dt, steps): (f64, u64),
+    (from, length): (f64, f64),
+) -> Result<MeasuredWave, String> {
+    let (mut samples, mut weights) = (Samples::default(), Vec::new());
+    let mut series = Vec::new();
+    for step in 1..=steps {
+        subject.step(dt).map_err(|failure| format!("{failure} (step {step})"))?;
+        samples.clear();
+        subject.sample(&mut samples);
+        if weights.is_empty() {
+            let weight = |x: &f64| libm::sin(TAU / length * (x - from));
+            weights = samples.label.iter().map(weight).collect();
+        }
+        series.push(samples.velocity.iter().zip(&weights).map(|(v, weight)| v * weight).sum());
+    }
+    let fit = Recurrence::fit(&series);
+    Ok(MeasuredWave { steps, trace: fit.trace(), determinant: fit.determinant() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::subject::{Failure, RunCounters};
+    use approx::assert_relative_eq;
+
+    /// Two points a quarter of a wavelength apart; the velocity of the one at a crest follows a
+    /// recurrence from the first step on, and that of the other point does not matter.
+    struct Scripted {
+        velocity: [f64; 2],
+        step: u64,
+    }
+
+    impl Subject for Scripted {
+        fn step(&mut self, _: f64) -> Result<(), Failure> {
+            let [before, last] = self.velocity;
+            self.velocity = [last, 1.8 * last - 0.9 * before];
+            self.step += 1;
+            if self.step == 100 { Err(Failure::External("stopped".to_owned())) } else { Ok(()) }
+        }
+
+        fn sample(&self, samples: &mut Samples) {
+            samples.restart(1);
+            samples.push(&[3.0], &[0.0], &[self.velocity[1]], 1.0);
+            samples.push(&[2.0], &[0.0], &[self.step as f64], 1.0);
+        }
+
+        fn counters(&self) -> RunCounters {
+            RunCounters::new(0)
+        }
+    }
+
+    #[test]
+    fn the_velocity_of_the_wave_gives_the_recurrence() {
+        let mut subject = Scripted { velocity: [1.0, 0.9], step: 0 };
+        let found = run_wave(&mut subject, (1.0, 40), (2.0, 4.0)).unwrap();
+        assert_relative_eq!(found.trace, 1.8, epsilon = 1e-12);
+        assert_relative_eq!(found.determinant, 0.9, epsilon = 1e-12);
+        let failure = run_wave(&mut subject, (1.0, 100), (2.0, 4.0)).unwrap_err();
+        assert_eq!(failure, "the solver stopped (step 60)");
+    }
+
+    #[test]
+    fn a_damped_run_ends_at_a_millionth() {
+        assert_eq!(steps_of_run(8.0, 0.4, None), 400);
+        assert_eq!(steps_of_run(8.0, 0.4, Some(0.0)), 400);
+        assert_eq!(steps_of_run(8.0, 0.4, Some(libm::log(0.9))), 131);
+        assert_eq!(steps_of_run(8.0, 0.4, Some(-40.0)), 16);
+        assert_eq!(steps_of_run(8.0, 0.4, Some(f64::NAN)), 400);
+    }
+}

@@ -1,0 +1,176 @@
+//! The energy ledger of a step: its entries add up to the change of the energy, and those of
+//! classical transfers have closed forms.
+
+use crate::common::{DT, free_body, pairs};
+use mpm_verify::mpm::{
+    BasisName, EnergyLedger, LedgerStage, NeoHookean, ParticleField, Particles, SchemeName, Setup,
+    Solver, TransferName, Vector, kernel, kinetic_energy,
+};
+use mpm_verify::subject::Subject;
+use rstest::rstest;
+
+/// Largest difference, as a share of the sum of the magnitudes of all entries.
+const TOLERANCE: f64 = 1e-13;
+
+/// A free body with scattered particles of unequal mass and a stored energy.
+fn scattered<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) -> Setup<D> {
+    let mut setup = free_body::<D>(method, scheme);
+    for (p, x0) in setup.particles.x0.iter_mut().enumerate() {
+        let k = p as f64;
+        *x0 += Vector::from_fn(|i, _| 0.04 * libm::sin(12.3 * k + 4.0 * i as f64));
+        setup.particles.mass[p] *= 1.0 + 0.4 * libm::cos(5.7 * k);
+    }
+    setup.particles.x.clone_from(&setup.particles.x0);
+    // Without the common motion, whose energy is much larger than all entries.
+    setup.particles.v.iter_mut().for_each(|v| *v -= Vector::from_element(1.2));
+    setup.particles.sigma.fill(nalgebra::SMatrix::zeros());
+    setup.particles.track_deformation();
+    setup.material = Box::new(NeoHookean::new(1.0, 0.3));
+    setup
+}
+
+fn balanced<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) {
+    let mut solver = Solver::new(scattered::<D>(method, scheme)).expect("a solver");
+    let stored = |solver: &Solver<D>| solver.totals().and_then(|totals| totals.strain_energy);
+    let start = kinetic_energy(method.0, &solver) + stored(&solver).expect("an energy");
+    let mut ledger = EnergyLedger::new(method.0);
+    for step in 1..=5 {
+        ledger.step(&mut solver, DT).expect("a step");
+        let change = ledger.energy().expect("an energy") - start;
+        let error = (ledger.change() - change).abs();
+        // An energy is a sum with a term for each node of each particle, which rounds each of its
+        // partial sums.
+        let terms = (solver.particles().len() * 4_usize.pow(D as u32)) as f64;
+        let allowed = TOLERANCE * ledger.size() + terms * f64::EPSILON * start;
+        assert!(error <= allowed, "{method:?} {scheme:?} step {step}: {error:e} of {change:e}");
+    }
+    assert!(ledger.size() > 1e-6 * start, "{method:?}: nothing happens");
+}
+
+/// Every basis with every transfer, except TLS, whose nodal masses are not those of the particles.
+#[rstest]
+fn entries_add_up_to_the_change_of_the_energy(
+    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
+) {
+    for method in pairs().filter(|(_, transfer)| *transfer != TransferName::Tls) {
+        balanced::<1>(method, scheme);
+        balanced::<2>(method, scheme);
+    }
+}
+
+/// Nodal masses, the consistent mass matrix times a field, and the field of a particle map.
+struct Maps<'a> {
+    basis: BasisName,
+    particles: &'a Particles<2>,
+    solver: &'a Solver<2>,
+}
+
+impl Maps<'_> {
+    /// `f.(M - M_c) f/2` for a nodal field.
+    fn lost(&self, field: &[Vector<2>]) -> f64 {
+        let (grid, kernel) = (self.solver.grid(), kernel::<2>(self.basis));
+        let mut sum = 0.0;
+        for (mass, f) in grid.mass.iter().zip(field) {
+            sum += 0.5 * mass * f.norm_squared();
+        }
+        kernel.mass_entries(grid, self.particles, &mut |i, j, mass| {
+            sum -= 0.5 * mass * field[i].dot(&field[j]);
+        });
+        sum
+    }
+
+    /// `v.m (I - P) v/2` for the velocities of the particles.
+    fn filtered(&self) -> f64 {
+        let (grid, kernel, v) = (self.solver.grid(), kernel::<2>(self.basis), &self.particles.v);
+        let mut nodal = vec![Vector::zeros(); grid.nodes()];
+        kernel.p2g_momentum(self.particles, ParticleField { v, affine: None }, grid, &mut nodal);
+        for (w, mass) in nodal.iter_mut().zip(&grid.mass) {
+            *w = if *mass > 0.0 { *w / *mass } else { Vector::zeros() };
+        }
+        let mut mapped = v.clone();
+        kernel.g2p(grid, &nodal, self.particles, (0.0, 1.0), &mut mapped);
+        let of = |((v, mapped), mass): ((&Vector<2>, &Vector<2>), &f64)| {
+            0.5 * mass * v.dot(&(v - mapped))
+        };
+        v.iter().zip(&mapped).zip(&self.particles.mass).map(of).sum()
+    }
+}
+
+/// The identities for one step of USL: after it the grid has the fields of the step.
+#[rstest]
+fn classical_transfers_have_closed_forms(
+    #[values(BasisName::Linear, BasisName::QuadraticBSpline, BasisName::CubicBSpline)]
+    basis: BasisName,
+    #[values(TransferName::Flip, TransferName::Pic)] transfer: TransferName,
+) {
+    let mut solver = Solver::new(scattered::<2>((basis, transfer), SchemeName::Usl)).unwrap();
+    // Forces from the second step on.
+    solver.step(DT).unwrap();
+    let particles = solver.particles().clone();
+    let mut ledger = EnergyLedger::new(basis);
+    ledger.step(&mut solver, DT).unwrap();
+    let maps = Maps { basis, particles: &particles, solver: &solver };
+    let near = |found: f64, expected: f64| {
+        let error = (found - expected).abs();
+        assert!(error <= TOLERANCE * kinetic_energy(basis, &solver), "{found:e}, {expected:e}");
+    };
+    near(ledger.entry(LedgerStage::ParticleToGrid), -maps.filtered());
+    let returned =
+        ledger.entry(LedgerStage::GridToParticle) + ledger.entry(LedgerStage::ParticleVelocity);
+    let grid = solver.grid();
+    if transfer == TransferName::Pic {
+        near(returned, -maps.lost(&grid.velocity));
+    } else {
+        let advance: Vec<Vector<2>> = grid.acceleration.iter().map(|a| a * DT).collect();
+        near(returned, maps.filtered() - maps.lost(&advance));
+    }
+    for nothing in [LedgerStage::NodalVelocity, LedgerStage::Constraints, LedgerStage::Motion] {
+        near(ledger.entry(nothing), 0.0);
+    }
+}
+
+/// PIC and APIC replace velocities by mapped ones, so that no particle keeps its own.
+#[rstest]
+fn replaced_velocities_are_not_kept(
+    #[values(TransferName::Pic, TransferName::Apic)] transfer: TransferName,
+) {
+    let basis = BasisName::CubicBSpline;
+    let mut solver = Solver::new(scattered::<2>((basis, transfer), SchemeName::Musl)).unwrap();
+    let mut ledger = EnergyLedger::new(basis);
+    ledger.step(&mut solver, DT).unwrap();
+    let size = kinetic_energy(basis, &solver);
+    assert!(ledger.entry(LedgerStage::ParticleVelocity).abs() <= TOLERANCE * size);
+    assert!(ledger.entry(LedgerStage::GridToParticle) < -1e-9 * size);
+}
+
+/// The ledger observes a step and does not change it.
+#[test]
+fn a_step_with_a_ledger_has_the_bits_of_a_step() {
+    let method = (BasisName::QuadraticBSpline, TransferName::Apic);
+    for scheme in SchemeName::ALL {
+        let [mut with, mut without] =
+            [(); 2].map(|()| Solver::new(scattered::<2>(method, *scheme)).expect("a solver"));
+        let mut ledger = EnergyLedger::new(method.0);
+        for _ in 0..3 {
+            ledger.step(&mut with, DT).unwrap();
+            without.step(DT).unwrap();
+        }
+        assert_eq!(with.particles().x, without.particles().x);
+        assert_eq!(with.particles().v, without.particles().v);
+    }
+}
+
+/// FLIP under MUSL conserves the energy of a smooth motion: the error of the stress work falls with
+/// the square of the step, because kinetic and stored energy are those of one time.
+#[test]
+fn the_error_of_the_stress_work_has_order_two_in_the_step() {
+    let error = |dt: f64, steps: usize| {
+        let method = (BasisName::CubicBSpline, TransferName::Flip);
+        let mut solver = Solver::new(scattered::<1>(method, SchemeName::Musl)).unwrap();
+        let mut ledger = EnergyLedger::new(method.0);
+        (0..steps).for_each(|_| ledger.step(&mut solver, dt).unwrap());
+        ledger.stress_work_error().abs() / ledger.entry(LedgerStage::Stored).abs()
+    };
+    let (coarse, fine) = (error(4e-3, 50), error(2e-3, 100));
+    assert!(coarse < 0.05 && fine < 0.6 * coarse, "{coarse:e}, {fine:e}");
+}
