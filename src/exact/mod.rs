@@ -7,6 +7,7 @@
 mod check;
 mod condition;
 mod correction;
+mod density;
 mod equation;
 mod expansion;
 mod forcing;
@@ -34,6 +35,7 @@ pub use check::interface::{Interface, meets};
 pub use check::survey::{Magnitudes, Survey};
 pub use condition::{Condition, Face, FacePoint};
 pub use correction::FirstCorrection;
+pub use density::{Density, NoDensity};
 pub use expansion::Expansion;
 pub use forcing::{Forcing, SharedForces};
 pub use initial_stress::InitialStress;

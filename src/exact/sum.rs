@@ -24,17 +24,19 @@ impl SumPoint<'_> {
     /// `rho0 |v|^2 / 2` (J/m3).
     pub fn kinetic_energy(&self) -> f64 {
         let square: f64 = self.now.velocity.iter().map(|v| v * v).sum();
-        0.5 * self.problem.density * square
+        0.5 * self.problem.density.at(self.label) * square
     }
 
     /// The energy W that P derives from (J/m3); NaN of a law without one.
     pub fn stored_energy(&self) -> f64 {
-        self.problem.equation.energy(&self.now.grad).unwrap_or(f64::NAN)
+        let energy = self.problem.equation.energy(&self.now.grad).unwrap_or(f64::NAN);
+        self.problem.factor_at(self.label) * energy
     }
 
     /// `rho0 v` (kg/(m2 s)).
     pub fn momentum(&self) -> [f64; 3] {
-        self.now.velocity.map(|v| self.problem.density * v)
+        let density = self.problem.density.at(self.label);
+        self.now.velocity.map(|v| density * v)
     }
 
     /// `x cross rho0 v` about the origin (kg/(m s)).
@@ -271,10 +273,10 @@ mod tests {
     #[test]
     fn each_body_has_its_density() {
         let whole = swinging();
-        let half = |from: f64, to: f64, density| Problem {
+        let half = |from: f64, to: f64, density: f64| Problem {
             from: vec![from],
             to: vec![to],
-            density,
+            density: density.into(),
             ..whole.clone()
         };
         let problem =

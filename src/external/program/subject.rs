@@ -48,7 +48,8 @@ pub(super) struct ProgramSubject {
     taken: u64,
     inquiry: Inquiry,
     /// Masses of the points (kg): those of the particles, or the weights of sample points times the
-    /// reference density. `None` for sample points in bodies of several materials.
+    /// reference density. `None` for sample points in bodies of several materials or of a density
+    /// that varies.
     mass: Option<Vec<f64>>,
     samples: Samples,
     counters: RunCounters,
@@ -88,7 +89,7 @@ impl ProgramSubject {
                 samples.stress = inquiry.start(FieldName::Stress).unwrap_or_default();
             }
             mass = match problem.materials.as_slice() {
-                [material] => {
+                [material] if material.varying_density.is_none() => {
                     Some(samples.weight.iter().map(|volume| volume * material.density).collect())
                 }
                 _ => None,

@@ -104,7 +104,7 @@ fn stretch<const D: usize>(def_grad: &[Matrix<D>]) -> (VectorBatch<D>, MatrixBat
 }
 
 impl MaterialProperties for GreenNaghdi {
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         self.elasticity.lambda + 2.0 * self.elasticity.mu
     }
 

@@ -271,7 +271,7 @@ fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) ->
     };
     match parameter {
         GradientParameter::InitialVelocity => (growth - 1.0).abs() <= 1e-12,
-        GradientParameter::Density => scene.density == value,
+        GradientParameter::Density => scene.density.uniform() == Some(value),
         GradientParameter::Friction => scene
             .faces
             .iter()

@@ -220,7 +220,7 @@ fn scales(
     let modulus = scene
         .each()
         .iter()
-        .map(|body| body.material.properties().wave_modulus())
+        .map(Scene::wave_modulus)
         .fold(0.0, f64::max);
     let path = Path::top("run");
     let bound = |key: &str, text: &Option<NumberText>, default: f64| {

@@ -195,7 +195,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         outline: scene.outline.clone(),
         bodies: Vec::new(),
         plane: scene.plane,
-        density: scene.density,
+        density: scene.density.clone(),
         equation,
         terms: scene.terms(),
         heat: None,
