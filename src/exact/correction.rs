@@ -120,7 +120,8 @@ impl Line<'_> {
         let (problem, label, i) = (self.problem, self.label(node), self.axis);
         let now = problem.derivatives(&label, t);
         let force = problem.force(&label, problem.loaded(t), &now)[i];
-        problem.divergence(&label, t, &now)[i] + problem.density.at(&label) * (force - now.acceleration[i])
+        problem.divergence(&label, t, &now)[i]
+            + problem.density.at(&label) * (force - now.acceleration[i])
     }
 
     fn demand(&self, high: bool, t: f64) -> Demand {

@@ -171,10 +171,7 @@ pub(super) mod tests {
     /// The integral of 1 + 2 X Y^2 over the box from (0, 1) to (1, 3), and over its half X < 1/2.
     #[test]
     fn mass_is_the_integral_over_the_part_inside() {
-        let density = Density {
-            formula: Some(formula("1 + 2*X*Y^2", 2)),
-            ..Density::from(1.0)
-        };
+        let density = Density { formula: Some(formula("1 + 2*X*Y^2", 2)), ..Density::from(1.0) };
         let mass = density.mass(&[0.5, 2.0], &[0.5, 1.0], |_| true);
         assert_relative_eq!(mass, 2.0 + 26.0 / 3.0, max_relative = 1e-14);
         let half = density.mass(&[0.5, 2.0], &[0.5, 1.0], |label| label[0] < 0.5);

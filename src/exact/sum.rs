@@ -39,10 +39,26 @@ impl SumPoint<'_> {
         self.now.velocity.map(|v| density * v)
     }
 
+    /// `rho0 x^2` about the origin, for each axis (kg/m).
+    pub fn second_moment(&self) -> [f64; 3] {
+        let density = self.problem.density.at(self.label);
+        self.position().map(|x| density * x * x)
+    }
+
+    /// `rho0 X^2` about the origin, for each axis (kg/m).
+    pub fn reference_second_moment(&self) -> [f64; 3] {
+        let density = self.problem.density.at(self.label);
+        std::array::from_fn(|i| self.label.get(i).map_or(0.0, |x| density * x * x))
+    }
+
+    /// x (m); zero on axes that the body does not have.
+    fn position(&self) -> [f64; 3] {
+        std::array::from_fn(|i| self.label.get(i).map_or(0.0, |x| x + self.now.u[i]))
+    }
+
     /// `x cross rho0 v` about the origin (kg/(m s)).
     pub fn angular_momentum(&self) -> [f64; 3] {
-        let (u, p) = (self.now.u, self.momentum());
-        let x: [f64; 3] = std::array::from_fn(|i| self.label.get(i).map_or(0.0, |x| x + u[i]));
+        let (x, p) = (self.position(), self.momentum());
         [x[1] * p[2] - x[2] * p[1], x[2] * p[0] - x[0] * p[2], x[0] * p[1] - x[1] * p[0]]
     }
 

@@ -348,7 +348,7 @@ mod tests {
             "initial_stress",
             "displacement_force",
             "varying_density",
-    "loaded_rims",
+            "loaded_rims",
             "load_steps",
             "heat, which the protocol does not hand over",
         ];

@@ -105,6 +105,7 @@ impl ProgramSubject {
             }
             mass = Some(particles.mass.clone());
         }
+        samples.mass = mass.clone().unwrap_or_default();
         let counters = RunCounters {
             particles: (!has_own_points).then_some(particles.len() as u64),
             ..RunCounters::new(0)
@@ -206,6 +207,7 @@ impl Subject for ProgramSubject {
             let turn =
                 [x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0]];
             totals.add(*mass, v, turn.map(|turn| mass * turn));
+            totals.add_second_moments(*mass, &x[..d], &self.samples.label[p * d..(p + 1) * d]);
         }
         Some(totals)
     }

@@ -3,7 +3,8 @@
 
 use super::specimen::{DENSITY, FAST, SLOW, Specimen, diagonal, every, scattered, stress};
 use super::{
-    COHESION, ClosedForms, EXPONENT, FRICTION, FRICTION_ANGLE, MaterialPlan, POISSON, STRENGTH, YIELD,
+    COHESION, ClosedForms, EXPONENT, FRICTION, FRICTION_ANGLE, MaterialPlan, POISSON, STRENGTH,
+    YIELD,
 };
 use crate::mpm::foundation::algebra::{Matrix, det};
 use approx::{assert_abs_diff_eq, assert_relative_eq};

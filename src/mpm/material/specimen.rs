@@ -3,8 +3,9 @@
 use super::stress_update::StressUpdate;
 use super::tangent::StressResponse;
 use super::{
-    COHESION, COMPRESSION, CRITICAL_SLOPE, DILATION, DILATION_ANGLE, EXPONENT, FRICTION, FRICTION_ANGLE,
-    Material, MaterialPlan, POISSON, PRECONSOLIDATION, STRENGTH, SWELLING, VISCOSITY, YIELD, YOUNG,
+    COHESION, COMPRESSION, CRITICAL_SLOPE, DILATION, DILATION_ANGLE, EXPONENT, FRICTION,
+    FRICTION_ANGLE, Material, MaterialPlan, POISSON, PRECONSOLIDATION, STRENGTH, SWELLING,
+    VISCOSITY, YIELD, YOUNG,
 };
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::{Block, Particles};

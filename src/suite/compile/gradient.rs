@@ -72,6 +72,11 @@ fn refuse_unfit_problem(
             "the body of a gradient study starts undeformed",
         ),
         (
+            scene.density.uniform().is_none(),
+            top("material"),
+            "the body of a gradient study has one density",
+        ),
+        (
             !scene.initial_stress.is_none(),
             top("initial_stress"),
             "the body of a gradient study starts without stress",
