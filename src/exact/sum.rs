@@ -243,8 +243,8 @@ fn on_face(problem: &Problem, face: &Face, panels: usize) -> Vec<(Vec<f64>, f64)
 mod tests {
     use super::*;
     use crate::exact::formula::{Expr, Formula, Scope};
-    use crate::exact::tests::{bar, fixed, held};
-    use crate::exact::{Motion, Round};
+    use crate::exact::tests::{bar, fixed, free, held};
+    use crate::exact::{Density, Motion, Round};
     use approx::assert_relative_eq;
     use rstest::rstest;
     use std::f64::consts::PI;
@@ -286,6 +286,22 @@ mod tests {
     }
 
     /// The half that is three times as heavy counts three times.
+    /// A line with the density 2 + X that is stretched by 1 + t from the origin: `sum m x^2` is
+    /// (1 + t)^2 times `int (2 + X) X^2 dX` = 11/12.
+    #[test]
+    fn second_moments_have_the_density_of_the_place() {
+        let formula = Formula::bind(&Expr::parse("2 + X").unwrap(), &Scope::new(), &["X"]).unwrap();
+        let density = Density::of_place(formula, &[0.0], &[1.0], None).unwrap();
+        let problem = Problem { density, ..bar("X*t", free()) };
+        let sum = |density| BodySum::new(&problem, &SumRegion::Body, density).unwrap().at(0.5);
+        let found = sum(|point| of_vector(point.second_moment()));
+        assert_relative_eq!(found[0], 2.25 * 11.0 / 12.0, max_relative = 1e-12);
+        let found = sum(|point| of_vector(point.reference_second_moment()));
+        assert_relative_eq!(found[0], 11.0 / 12.0, max_relative = 1e-12);
+        let found = sum(|point| of_vector(point.momentum()));
+        assert_relative_eq!(found[0], 1.0 + 1.0 / 3.0, max_relative = 1e-12);
+    }
+
     #[test]
     fn each_body_has_its_density() {
         let whole = swinging();

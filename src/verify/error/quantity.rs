@@ -253,6 +253,7 @@ mod tests {
             displacement: vec![5.0, 4.0, 5.0, -4.0],
             velocity: vec![2.0, 5.0, -3.0, 0.0],
             weight: vec![1.0, 3.0],
+            mass: Vec::new(),
             stress: vec![3.0, 7.0, 7.0, 4.0, 0.0, 10.0, 11.0, 0.0],
             deformation_gradient: vec![1.0; 8],
             temperature: vec![305.0, 295.0],
