@@ -370,7 +370,7 @@ mod tests {
             load_steps: true,
             ..Capabilities::of(&[1, 2], &["neo_hookean"], &conditions, &["gravity"])
         };
-        assert_eq!(able.lacking(&needs), all[17..]);
+        assert_eq!(able.lacking(&needs), all[18..]);
     }
 
     #[test]
