@@ -136,7 +136,7 @@ pub(super) mod tests {
     use crate::exact::formula::{Expr, Scope};
     use crate::exact::law::PolytropicLaw;
     use crate::exact::tests::{bar, free, held};
-    use crate::exact::{BodySum, Motion, Problem, Round, SumPoint, SumRegion};
+    use crate::exact::{BodySum, Forcing, Motion, Problem, Round, SumPoint, SumRegion};
     use approx::assert_relative_eq;
     use std::sync::Arc;
 
@@ -209,6 +209,25 @@ pub(super) mod tests {
             let violation = cloud(a, density).check().map(|_| ()).unwrap_err();
             assert!(!violation.condition.is_empty(), "{violation}");
         }
+    }
+
+    /// In a solid the density enters the inertia only, `b = u_tt - Div P/rho0`. The force at fixed
+    /// places equals that at a point, and passes the check with the weak form.
+    #[test]
+    fn manufactured_force_has_the_density_of_the_place() {
+        let density = Density::of_place(formula("2 + X*Y", 2), &[0.0; 2], &[1.0; 2], None).unwrap();
+        let problem = Problem { density, ..held(2) };
+        assert_eq!(problem.check().map(|_| ()), Ok(()));
+        let (label, t) = ([0.3, 0.6], 0.2);
+        let force = problem.manufactured_force(&label, t);
+        let mut at_places = [[0.0; 3]];
+        Forcing::new(&problem, [label.as_slice()].into_iter()).at(t, &mut at_places, |b| b);
+        assert_eq!(at_places[0], force);
+        let now = problem.derivatives(&label, t);
+        let stress = problem.divergence(&label, t, &now)[0];
+        let uniform = Problem { density: 2.0.into(), ..held(2) }.manufactured_force(&label, t);
+        let change = stress / 2.0 - stress / 2.18;
+        assert_relative_eq!(force[0] - uniform[0], change, max_relative = 1e-10);
     }
 
     /// The kinetic and the stored energy of a cloud with K = 1/4 and A = 1 in the plane: I a'^2/2

@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub struct Forcing {
     problem: Problem,
     places: Box<dyn Places>,
-    /// The places (m), if a term or the stress depends on them.
+    /// The places (m), if a term, the stress or the density depends on them.
     labels: Vec<Vec<f64>>,
     /// Forces computed by other runs, with the number of the set of places.
     shared: Option<(Arc<SharedForces>, usize)>,
@@ -24,6 +24,7 @@ impl Forcing {
         let varies = problem.terms.iter().any(|term| !term.is_uniform());
         let needed = varies
             || !problem.initial_stress.is_none()
+            || problem.density.uniform().is_none()
             || problem.plane == PlaneState::Axisymmetric;
         let number =
             |shared: &Arc<SharedForces>| (shared.clone(), shared.number_of(labels.concat()));
