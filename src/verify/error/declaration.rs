@@ -57,8 +57,8 @@ pub(super) enum ComputedSum {
     /// From the totals over the body.
     OfTotals(fn(&Totals) -> Option<[f64; 3]>),
     /// A function of the second moments of the body and of those of its reference configuration
-    /// (kg m2), one for each axis. It also gives the exact value of the exact sums, whose density is
-    /// that of the second moments.
+    /// (kg m2), one for each axis. It also gives the exact value from the exact sums, whose density
+    /// is that of the second moments.
     OfMoments(fn([f64; 3], [f64; 3]) -> [f64; 3]),
     /// The reaction of walls.
     Reaction,

@@ -1,7 +1,8 @@
 //! Norms of the error of one level.
 //!
 //! With `|e_p|` the Euclidean length of the error at label `p` (a particle, followed by its
-//! reference position), `w_p` its weight (reference volume), `m_p` its mass and `n` the number of labels:
+//! reference position), `w_p` its weight (reference volume), `m_p` its mass and `n` the number of
+//! labels:
 //!
 //! ```text
 //! rms  = sqrt(1/n sum |e_p|^2)             unweighted, as in Wobbes & Tielen (2015)
