@@ -75,7 +75,7 @@ fn clouds_are_sound() {
 )]
 #[case::a_uniform_density(
     &[(LINE, "A"), ("[\"(a(t)", "[▸\"(a(t)")],
-    &["equation of motion in X"]
+    &["boundary condition", "is free, traction in X"]
 )]
 #[case::a_pressure_on_a_free_surface(
     &[(LINE, "\"sqrt(A*(1.5 - X^2))\""), ("[\"(a(t)", "[▸\"(a(t)")],
