@@ -44,6 +44,8 @@ macro_rules! each_material {
                 truth tait::TaitLaw;
             "linear_fluid" => linear_fluid::LinearFluid { bulk: BULK },
                 truth linear_fluid::LinearFluidLaw;
+            "polytropic" => polytropic::Polytropic { stiffness: STIFFNESS, exponent: EXPONENT },
+                truth polytropic::PolytropicLaw;
             "rigid" => rigid::Rigid {};
         }
     };

@@ -120,7 +120,8 @@ impl Line<'_> {
         let (problem, label, i) = (self.problem, self.label(node), self.axis);
         let now = problem.derivatives(&label, t);
         let force = problem.force(&label, problem.loaded(t), &now)[i];
-        problem.divergence(&label, t, &now)[i] + problem.density * (force - now.acceleration[i])
+        problem.divergence(&label, t, &now)[i]
+            + problem.density.at(&label) * (force - now.acceleration[i])
     }
 
     fn demand(&self, high: bool, t: f64) -> Demand {
@@ -170,7 +171,7 @@ impl Line<'_> {
             [false, true] => 0.0,
             [false, false] => return None,
         };
-        let stretch = |sum: &f64| (reaction + sum) * self.h / self.problem.equation.modulus();
+        let stretch = |sum: &f64| (reaction + sum) * self.h / self.problem.modulus();
         let mut d = vec![0.0];
         for sum in &sums {
             d.push(d[d.len() - 1] + stretch(sum));
@@ -182,10 +183,10 @@ impl Line<'_> {
     /// The correction at the time `until`, from a start with zero correction.
     fn in_motion(&self, until: f64, steps: usize) -> Option<FirstCorrection> {
         let (problem, last) = (self.problem, self.elements);
-        let (dt, stiffness) = (until / steps as f64, problem.equation.modulus() / self.h);
+        let (dt, stiffness) = (until / steps as f64, problem.modulus() / self.h);
         let mass = |node: usize| {
             let share = if node == 0 || node == last { 0.5 } else { 1.0 };
-            share * self.h * problem.density
+            share * self.h * problem.density.at(&self.label(node))
         };
         let (mut d, mut v) = (vec![0.0; last + 1], vec![0.0; last + 1]);
         let mut largest = 0.0_f64;

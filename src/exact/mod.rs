@@ -7,6 +7,7 @@
 mod check;
 mod condition;
 mod correction;
+mod density;
 mod equation;
 mod expansion;
 pub mod formula;
@@ -33,6 +34,7 @@ pub use check::interface::{Interface, meets};
 pub use check::survey::{Magnitudes, Survey};
 pub use condition::{Condition, Face, FacePoint};
 pub use correction::FirstCorrection;
+pub use density::{Density, NoDensity};
 pub use expansion::Expansion;
 pub use initial_stress::InitialStress;
 pub use law::{Equation, HenckyLaw, NeoHookeanLaw, SmallStrainLaw};

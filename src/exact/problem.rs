@@ -6,9 +6,10 @@
 //! have particles at the same places and take the same steps.
 
 use super::condition::Face;
+use super::density::Density;
 use super::equation::complete_in_plane;
 use super::expansion::{Swelling, swollen_cauchy, swollen_divergence, swollen_piola};
-use super::formula::Formula;
+use super::formula::{Formula, Number};
 use super::heat::Conduction;
 use super::initial_stress::InitialStress;
 use super::law::Equation;
@@ -36,8 +37,8 @@ pub struct Problem {
     pub bodies: Vec<Self>,
     /// State across the plane of a body in two dimensions.
     pub plane: PlaneState,
-    /// Reference density (kg/m3).
-    pub density: f64,
+    /// Reference density.
+    pub density: Density,
     /// The equation of motion.
     pub equation: Equation,
     /// Terms of the loads on the body.
@@ -98,9 +99,20 @@ impl Problem {
         self.bodies.iter().find(inside).unwrap_or(self)
     }
 
-    /// Speed (m/s) of a wave of small strain: `sqrt((lambda + 2 mu)/rho0)`.
+    /// Stiffest modulus at rest (Pa) in the body: a bound for stresses of a given strain.
+    pub fn modulus(&self) -> f64 {
+        self.equation.modulus() * self.equation.density_factor(self.density.largest())
+    }
+
+    /// Largest speed (m/s) of a wave of small strain in the body: `sqrt((lambda + 2 mu)/rho0)` of a
+    /// solid. A density that is zero on the rim gives infinity, unless the law depends on it.
     pub fn wave_speed(&self) -> f64 {
-        (self.equation.modulus() / self.density).sqrt()
+        let speed = |density: f64| {
+            let modulus = self.equation.modulus() * self.equation.density_factor(density);
+            (modulus / density).sqrt()
+        };
+        // Without density and pressure the speed is not a number, which `max` ignores.
+        speed(self.density.largest()).max(speed(self.density.smallest()))
     }
 
     /// The time (s) whose loads belong to the motion at time `t`.
@@ -143,8 +155,8 @@ impl Problem {
 
     /// The body force that the motion needs, `u_tt - Div P / rho0`.
     pub(super) fn balance(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
-        let stress = self.divergence(label, t, now);
-        std::array::from_fn(|i| now.acceleration[i] - stress[i] / self.density)
+        let (stress, density) = (self.divergence(label, t, now), self.density.at(label));
+        std::array::from_fn(|i| now.acceleration[i] - stress[i] / density)
     }
 
     /// Whether the whole body force takes second derivatives of the motion.
@@ -178,7 +190,7 @@ impl Problem {
         now: &Derivatives,
         stated: f64,
     ) -> f64 {
-        let unbalanced = || self.divergence(label, t, now)[i] / self.density + stated;
+        let unbalanced = || self.divergence(label, t, now)[i] / self.density.at(label) + stated;
         let all = self.terms.iter();
         all.fold(0.0, |sum, term| sum + term.resistance(t, now.velocity[i], &unbalanced))
     }
@@ -231,7 +243,10 @@ impl Problem {
     /// P (Pa), where the motion's derivatives are `now`.
     pub(super) fn piola(&self, label: &[f64], t: f64, now: &Derivatives) -> Tensor<f64> {
         let piola = match self.swelling(label, t) {
-            None => self.equation.piola(&now.grad),
+            None => {
+                let (piola, factor) = (self.equation.piola(&now.grad), self.factor_at(label));
+                tensor(|i, j| factor * piola[i][j])
+            }
             Some(Swelling { theta, .. }) => {
                 swollen_piola(&self.equation, self.dimension(), &now.grad, theta)
             }
@@ -245,7 +260,8 @@ impl Problem {
 
     /// Cauchy stress (Pa) at `label`, a place of this body, where the motion's gradient is `grad`.
     pub(super) fn cauchy(&self, label: &[f64], grad: &Tensor<f64>) -> Tensor<f64> {
-        let sigma = self.equation.cauchy(grad);
+        let (sigma, factor) = (self.equation.cauchy(grad), self.factor_at(label));
+        let sigma = tensor(|i, j| factor * sigma[i][j]);
         if self.initial_stress.is_none() {
             return sigma;
         }
@@ -258,7 +274,7 @@ impl Problem {
         let slopes = (&now.grad, &now.second);
         let axes = if self.plane == PlaneState::Strain { self.dimension() } else { 3 };
         let force = match self.swelling(label, t) {
-            None => self.equation.divergence(axes, slopes.0, slopes.1),
+            None => self.divergence_of_law(axes, label, slopes),
             Some(swelling) => {
                 swollen_divergence(&self.equation, axes, slopes.0, slopes.1, &swelling)
             }
@@ -271,6 +287,32 @@ impl Problem {
         let (is_finite, initial) = (self.equation.is_finite(), &self.initial_stress);
         let initial = initial.divergence(label, slopes.0, slopes.1, is_finite);
         std::array::from_fn(|i| force[i] + initial[i])
+    }
+
+    /// Div P (N/m3) of the law, `f Div P1 + P1 grad f` with the stress P1 at unit density and the
+    /// factor f of the density.
+    fn divergence_of_law(
+        &self,
+        axes: usize,
+        label: &[f64],
+        (grad, second): (&Tensor<f64>, &[Tensor<f64>; 3]),
+    ) -> [f64; 3] {
+        let force = self.equation.divergence(axes, grad, second);
+        if self.density.uniform().is_some() {
+            let factor = self.factor_at(label);
+            return force.map(|force| factor * force);
+        }
+        let factor = self.equation.density_factor(self.density.with_slopes(label));
+        let piola = self.equation.piola(grad);
+        std::array::from_fn(|i| {
+            let varying = |sum, axis: usize| sum + piola[i][axis] * factor.d(axis);
+            (0..label.len()).fold(factor.value() * force[i], varying)
+        })
+    }
+
+    /// Factor of the density at `label` in stresses and energies of the law.
+    pub(super) fn factor_at(&self, label: &[f64]) -> f64 {
+        self.equation.density_factor(self.density.at(label))
     }
 
     /// The part of Div P (N/m3) of a body of revolution without a derivative:
@@ -358,7 +400,7 @@ impl SharedForces {
 pub struct Forcing {
     problem: Problem,
     places: Box<dyn Places>,
-    /// The places (m), if a term or the stress depends on them.
+    /// The places (m), if a term, the stress or the density depends on them.
     labels: Vec<Vec<f64>>,
     /// Forces computed by other runs, with the number of the set of places.
     shared: Option<(Arc<SharedForces>, usize)>,
@@ -372,6 +414,7 @@ impl Forcing {
         let varies = problem.terms.iter().any(|term| !term.is_uniform());
         let needed = varies
             || !problem.initial_stress.is_none()
+            || problem.density.uniform().is_none()
             || problem.plane == PlaneState::Axisymmetric;
         let number =
             |shared: &Arc<SharedForces>| (shared.clone(), shared.number_of(labels.concat()));

@@ -24,23 +24,41 @@ impl SumPoint<'_> {
     /// `rho0 |v|^2 / 2` (J/m3).
     pub fn kinetic_energy(&self) -> f64 {
         let square: f64 = self.now.velocity.iter().map(|v| v * v).sum();
-        0.5 * self.problem.density * square
+        0.5 * self.problem.density.at(self.label) * square
     }
 
     /// The energy W that P derives from (J/m3); NaN of a law without one.
     pub fn stored_energy(&self) -> f64 {
-        self.problem.equation.energy(&self.now.grad).unwrap_or(f64::NAN)
+        let energy = self.problem.equation.energy(&self.now.grad).unwrap_or(f64::NAN);
+        self.problem.factor_at(self.label) * energy
     }
 
     /// `rho0 v` (kg/(m2 s)).
     pub fn momentum(&self) -> [f64; 3] {
-        self.now.velocity.map(|v| self.problem.density * v)
+        let density = self.problem.density.at(self.label);
+        self.now.velocity.map(|v| density * v)
+    }
+
+    /// `rho0 x^2` about the origin, for each axis (kg/m).
+    pub fn second_moment(&self) -> [f64; 3] {
+        let density = self.problem.density.at(self.label);
+        self.position().map(|x| density * x * x)
+    }
+
+    /// `rho0 X^2` about the origin, for each axis (kg/m).
+    pub fn reference_second_moment(&self) -> [f64; 3] {
+        let density = self.problem.density.at(self.label);
+        std::array::from_fn(|i| self.label.get(i).map_or(0.0, |x| density * x * x))
+    }
+
+    /// x (m); zero on axes that the body does not have.
+    fn position(&self) -> [f64; 3] {
+        std::array::from_fn(|i| self.label.get(i).map_or(0.0, |x| x + self.now.u[i]))
     }
 
     /// `x cross rho0 v` about the origin (kg/(m s)).
     pub fn angular_momentum(&self) -> [f64; 3] {
-        let (u, p) = (self.now.u, self.momentum());
-        let x: [f64; 3] = std::array::from_fn(|i| self.label.get(i).map_or(0.0, |x| x + u[i]));
+        let (x, p) = (self.position(), self.momentum());
         [x[1] * p[2] - x[2] * p[1], x[2] * p[0] - x[0] * p[2], x[0] * p[1] - x[1] * p[0]]
     }
 
@@ -225,8 +243,8 @@ fn on_face(problem: &Problem, face: &Face, panels: usize) -> Vec<(Vec<f64>, f64)
 mod tests {
     use super::*;
     use crate::exact::formula::{Expr, Formula, Scope};
-    use crate::exact::tests::{bar, fixed, held};
-    use crate::exact::{Motion, Round};
+    use crate::exact::tests::{bar, fixed, free, held};
+    use crate::exact::{Density, Motion, Round};
     use approx::assert_relative_eq;
     use rstest::rstest;
     use std::f64::consts::PI;
@@ -268,13 +286,29 @@ mod tests {
     }
 
     /// The half that is three times as heavy counts three times.
+    /// A line with the density 2 + X that is stretched by 1 + t from the origin: `sum m x^2` is
+    /// (1 + t)^2 times `int (2 + X) X^2 dX` = 11/12.
+    #[test]
+    fn second_moments_have_the_density_of_the_place() {
+        let formula = Formula::bind(&Expr::parse("2 + X").unwrap(), &Scope::new(), &["X"]).unwrap();
+        let density = Density::of_place(formula, &[0.0], &[1.0], None).unwrap();
+        let problem = Problem { density, ..bar("X*t", free()) };
+        let sum = |density| BodySum::new(&problem, &SumRegion::Body, density).unwrap().at(0.5);
+        let found = sum(|point| of_vector(point.second_moment()));
+        assert_relative_eq!(found[0], 2.25 * 11.0 / 12.0, max_relative = 1e-12);
+        let found = sum(|point| of_vector(point.reference_second_moment()));
+        assert_relative_eq!(found[0], 11.0 / 12.0, max_relative = 1e-12);
+        let found = sum(|point| of_vector(point.momentum()));
+        assert_relative_eq!(found[0], 1.0 + 1.0 / 3.0, max_relative = 1e-12);
+    }
+
     #[test]
     fn each_body_has_its_density() {
         let whole = swinging();
-        let half = |from: f64, to: f64, density| Problem {
+        let half = |from: f64, to: f64, density: f64| Problem {
             from: vec![from],
             to: vec![to],
-            density,
+            density: density.into(),
             ..whole.clone()
         };
         let problem =

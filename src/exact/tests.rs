@@ -121,7 +121,7 @@ pub(super) fn held(dimension: usize) -> Problem {
         from: vec![0.0; dimension],
         to: vec![1.0; dimension],
         plane: PlaneState::Strain,
-        density: 2.0,
+        density: 2.0.into(),
         equation: NeoHookeanLaw::new(10.0, 0.3).into(),
         terms: weight(&["-9.81*t"]),
         outline: None,

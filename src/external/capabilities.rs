@@ -38,6 +38,8 @@ pub struct Capabilities {
     pub initial_stress: bool,
     /// Whether the body force may depend on the displacement.
     pub displacement_force: bool,
+    /// Whether the reference density may vary over a body: masses are those of the particles.
+    pub varying_density: bool,
     /// Whether loads may act on the rims of disks and annuli.
     pub loaded_rims: bool,
     /// Whether the load may be applied in quasi-static load steps, without time.
@@ -79,6 +81,8 @@ pub struct ProblemNeeds {
     pub initial_stress: bool,
     /// Whether the body force depends on the displacement.
     pub displacement_force: bool,
+    /// Whether the reference density varies over a body.
+    pub varying_density: bool,
     /// Whether a load acts on the rim of a disk or an annulus.
     pub loaded_rims: bool,
     /// Whether the load is applied in load steps.
@@ -134,7 +138,7 @@ impl Capabilities {
 
 impl Capabilities {
     /// Boolean capabilities, in the order of [`ProblemNeeds::flags`].
-    fn flags(&self) -> [bool; 10] {
+    fn flags(&self) -> [bool; 11] {
         [
             self.manufactured,
             self.initial_deformation,
@@ -144,6 +148,7 @@ impl Capabilities {
             self.axisymmetric,
             self.initial_stress,
             self.displacement_force,
+            self.varying_density,
             self.loaded_rims,
             self.load_steps,
         ]
@@ -181,7 +186,7 @@ impl Capabilities {
 
 impl ProblemNeeds {
     /// Boolean requirements, with the names of the capabilities.
-    fn flags(&self) -> [(&'static str, bool); 10] {
+    fn flags(&self) -> [(&'static str, bool); 11] {
         [
             ("manufactured", self.manufactured),
             ("initial_deformation", self.initial_deformation),
@@ -191,6 +196,7 @@ impl ProblemNeeds {
             ("axisymmetric", self.axisymmetric),
             ("initial_stress", self.initial_stress),
             ("displacement_force", self.displacement_force),
+            ("varying_density", self.varying_density),
             ("loaded_rims", self.loaded_rims),
             ("load_steps", self.load_steps),
         ]
@@ -266,6 +272,7 @@ const KEYS: &[&str] = &[
     "axisymmetric",
     "initial_stress",
     "displacement_force",
+    "varying_density",
     "loaded_rims",
     "load_steps",
     "binary",
@@ -319,6 +326,7 @@ mod tests {
             axisymmetric: true,
             initial_stress: true,
             displacement_force: true,
+            varying_density: true,
             loaded_rims: true,
             load_steps: true,
             beyond: vec!["heat"],
@@ -339,6 +347,7 @@ mod tests {
             "axisymmetric",
             "initial_stress",
             "displacement_force",
+            "varying_density",
             "loaded_rims",
             "load_steps",
             "heat, which the protocol does not hand over",
@@ -356,11 +365,12 @@ mod tests {
             axisymmetric: true,
             initial_stress: true,
             displacement_force: true,
+            varying_density: true,
             loaded_rims: true,
             load_steps: true,
             ..Capabilities::of(&[1, 2], &["neo_hookean"], &conditions, &["gravity"])
         };
-        assert_eq!(able.lacking(&needs), all[17..]);
+        assert_eq!(able.lacking(&needs), all[18..]);
     }
 
     #[test]

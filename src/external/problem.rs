@@ -202,8 +202,12 @@ pub struct ProblemMaterial {
     #[serde(serialize_with = "as_map")]
     #[cfg_attr(feature = "schemas", schemars(with = "BTreeMap<String, f64>"))]
     pub parameters: Vec<(&'static str, f64)>,
-    /// Reference density (kg/m3).
+    /// Reference density (kg/m3), the largest if it varies over the body.
     pub density: f64,
+    /// Formula of the coordinates X, Y, Z for a reference density (kg/m3) that varies over the
+    /// body. The masses of `particles` are its integrals over their parts of the body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub varying_density: Option<String>,
 }
 
 impl ProblemMaterial {

@@ -329,6 +329,8 @@ impl Bar {
             Sampling::Inside => self.sample_inside(samples),
             Sampling::Nodes => self.sample_nodes(samples),
         }
+        let density = self.setup.density;
+        samples.mass.extend(samples.weight.iter().map(|weight| density * weight));
     }
 
     /// Each place has the weight of a quarter of the element.

@@ -124,7 +124,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn some(x: f64, failure: Option<String>) -> RunResult {
-        let norms = Norms { rms: x, l1: -x, l2: 0.1 * x, linf: f64::NAN };
+        let norms = Norms { rms: x, l1: -x, l2: 0.1 * x, linf: f64::NAN, mass_l2: Some(x) };
         let errors = RunErrors { at_end: Norms::NONE, largest: norms };
         let totals = Totals { kinetic_energy: x, strain_energy: Some(x), ..Totals::default() };
         RunResult {

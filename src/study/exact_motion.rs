@@ -152,8 +152,7 @@ impl Linearisation {
         let (residual, u) = (problem.residual(), motion.largest_displacement());
         let omega = if u > 0.0 { (motion.acceleration / u).sqrt() } else { 0.0 };
         let lengths = problem.from.iter().zip(&problem.to).map(|(from, to)| to - from);
-        let crossing =
-            lengths.fold(0.0, f64::max) / (problem.equation.modulus() / problem.density).sqrt();
+        let crossing = lengths.fold(0.0, f64::max) / problem.wave_speed();
         let (turned, waved) = (omega * t, omega * crossing);
         let growth = turned * turned.min(1.0);
         let growth = if waved < SLOW { growth.min(waved * waved) } else { growth };

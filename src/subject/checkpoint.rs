@@ -206,12 +206,16 @@ impl Memory for Totals {
             angular_momentum_size,
             kinetic_energy,
             strain_energy,
+            second_moment,
+            reference_second_moment,
         } = self;
         for number in [mass, momentum_size, angular_momentum_size, kinetic_energy] {
             checkpoint.visit(number);
         }
         checkpoint.visit(momentum);
         checkpoint.visit(angular_momentum);
+        checkpoint.visit(second_moment);
+        checkpoint.visit(reference_second_moment);
         checkpoint.visit(strain_energy);
     }
 }
@@ -224,12 +228,13 @@ impl Memory for Samples {
             displacement,
             velocity,
             weight,
+            mass,
             stress,
             deformation_gradient,
             temperature,
         } = self;
         checkpoint.same(*dimension);
-        for column in [label, displacement, velocity, weight] {
+        for column in [label, displacement, velocity, weight, mass] {
             checkpoint.visit(column);
         }
         for column in [stress, deformation_gradient, temperature] {

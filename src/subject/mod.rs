@@ -119,6 +119,8 @@ pub struct Samples {
     pub velocity: Vec<f64>,
     /// Reference volume of each label, `n` numbers (m^D): the weight in L1 and L2.
     pub weight: Vec<f64>,
+    /// Mass of each label, `n` numbers (kg): the weight in `mass_l2`; may be empty.
+    pub mass: Vec<f64>,
     /// Cauchy stresses, `n * D * D` numbers, row after row (Pa); may be empty.
     pub stress: Vec<f64>,
     /// Deformation gradients F, `n * D * D` numbers, row after row; may be empty.
@@ -160,6 +162,7 @@ impl Samples {
         self.displacement.clear();
         self.velocity.clear();
         self.weight.clear();
+        self.mass.clear();
         self.stress.clear();
         self.deformation_gradient.clear();
         self.temperature.clear();
@@ -301,6 +304,10 @@ pub struct Totals {
     pub kinetic_energy: f64,
     /// Stored energy of the material (J); `None` if its law has no energy.
     pub strain_energy: Option<f64>,
+    /// `sum m_p x_p^2` for each axis (kg m2).
+    pub second_moment: [f64; 3],
+    /// `sum m_p X_p^2` of the reference positions, for each axis (kg m2).
+    pub reference_second_moment: [f64; 3],
 }
 
 impl Totals {
@@ -314,6 +321,18 @@ impl Totals {
         for i in 0..3 {
             self.momentum[i] += mass * velocity[i];
             self.angular_momentum[i] += spin[i];
+        }
+    }
+
+    /// Adds the second moments of a particle of this mass (kg), at the position `x` with the
+    /// reference position `label` (m).
+    pub fn add_second_moments(&mut self, mass: f64, x: &[f64], label: &[f64]) {
+        for (sums, place) in
+            [(&mut self.second_moment, x), (&mut self.reference_second_moment, label)]
+        {
+            for (sum, x) in sums.iter_mut().zip(place) {
+                *sum += mass * x * x;
+            }
         }
     }
 
@@ -334,6 +353,11 @@ impl Totals {
             angular_momentum_size: self.angular_momentum_size + other.angular_momentum_size,
             kinetic_energy: self.kinetic_energy + other.kinetic_energy,
             strain_energy: self.strain_energy.zip(other.strain_energy).map(|(a, b)| a + b),
+            second_moment: sum(self.second_moment, other.second_moment),
+            reference_second_moment: sum(
+                self.reference_second_moment,
+                other.reference_second_moment,
+            ),
         }
     }
 }

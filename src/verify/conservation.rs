@@ -124,6 +124,8 @@ mod tests {
         angular_momentum_size: 6.0,
         kinetic_energy: 8.0,
         strain_energy: Some(2.0),
+        second_moment: [0.0; 3],
+        reference_second_moment: [0.0; 3],
     };
 
     fn drift(later: &[Option<Totals>]) -> ConservationError {

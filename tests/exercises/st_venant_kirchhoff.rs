@@ -47,7 +47,7 @@ fn green_strain<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
 }
 
 impl MaterialProperties for StVenantKirchhoff {
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         self.lambda + 2.0 * self.mu
     }
 

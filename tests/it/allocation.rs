@@ -40,7 +40,7 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
         from: vec![0.0; D],
         to: vec![1.0; D],
         plane: PlaneState::Strain,
-        density: 1.0,
+        density: 1.0.into(),
         equation: NeoHookeanLaw::new(1.0, 0.3).into(),
         terms: Vec::new(),
         outline: None,

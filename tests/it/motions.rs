@@ -36,7 +36,7 @@ fn problem(
         to: vec![1.0; d],
         outline: None,
         plane: PlaneState::Strain,
-        density,
+        density: density.into(),
         equation: NeoHookeanLaw::new(young, poisson).into(),
         terms: Vec::new(),
         heat: None,

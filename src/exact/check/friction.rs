@@ -105,7 +105,7 @@ mod tests {
             to: vec![1.0; 2],
             outline: None,
             plane: PlaneState::Strain,
-            density: 1.0,
+            density: 1.0.into(),
             equation: SmallStrainLaw::new(200.0, 0.0).into(),
             terms: vec![Arc::new(Weight(vec![bind("3", &["t"]), bind("-4", &["t"])]))],
             heat: None,

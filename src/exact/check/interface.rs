@@ -177,7 +177,7 @@ mod tests {
                 to: vec![from + 1.0],
                 outline: None,
                 plane: PlaneState::Strain,
-                density: 1.0,
+                density: 1.0.into(),
                 equation: SmallStrainLaw::new(1.0, 0.0).into(),
                 terms: Vec::new(),
                 at_rest: false,

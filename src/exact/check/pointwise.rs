@@ -83,15 +83,16 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// is declared. Returns the largest residual, relative to the largest sum of the terms.
 pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     let (size, mut left) = (survey.largest.terms, 0.0);
-    let rounding = ROUNDING * problem.equation.modulus() * survey.largest.curvature;
+    let rounding = ROUNDING * problem.modulus() * survey.largest.curvature;
     let mut found = LargestViolation::default();
     for SurveyPoint { event, now, divergence, force, .. } in &survey.points {
+        let rho0 = problem.density.at(&event.label);
         for i in 0..problem.dimension() {
-            let inertia = problem.density * now.acceleration[i];
-            let (stress, force) = (divergence[i], problem.density * force[i]);
+            let inertia = rho0 * now.acceleration[i];
+            let (stress, force) = (divergence[i], rho0 * force[i]);
             let name = format!("equation of motion in {}, rho0 u_tt = Div P + rho0 b,", AXES[i]);
             let allowed = (problem.law_tolerance() * size).max(rounding);
-            let (rho0, residual) = (problem.density, stress + force - inertia);
+            let residual = stress + force - inertia;
             if !(residual.abs() <= rounding) {
                 left = f64::max(left, share(residual, size));
             }

@@ -58,12 +58,13 @@ impl Magnitudes {
         [divergence, force]: &[[f64; 3]; 2],
     ) -> Self {
         let initial = problem.initial_stress.at(&event.label);
+        let density = problem.density.at(&event.label);
         let gradient = greatest(now.grad.iter().map(largest));
         // In a tube at rest the hoop term balances the other terms of Div P.
         let hoops = largest(&problem.hoop_force(&event.label, event.t, now));
         let terms = (0..problem.dimension()).map(|i| {
-            let inertia = problem.density * now.acceleration[i];
-            inertia.abs() + divergence[i].abs() + (problem.density * force[i]).abs() + hoops
+            let inertia = density * now.acceleration[i];
+            inertia.abs() + divergence[i].abs() + (density * force[i]).abs() + hoops
         });
         Self {
             displacement: largest(&now.u),
@@ -71,9 +72,9 @@ impl Magnitudes {
             acceleration: largest(&now.acceleration),
             gradient,
             curvature: greatest(now.second.iter().flatten().map(largest)),
-            stress: problem.equation.modulus() * gradient + greatest(initial.iter().map(largest)),
+            stress: problem.modulus() * gradient + greatest(initial.iter().map(largest)),
             divergence: largest(divergence),
-            force: problem.density * largest(force),
+            force: density * largest(force),
             terms: terms.sum(),
         }
     }

@@ -203,7 +203,7 @@ fn balance(
     let only_first = !problem.force_is_of_second_order();
     let (ring, _) = problem.ring(&problem.to, &[[0.0; 3]; 3]);
     let densities = Densities {
-        stored: ring * problem.density * largest.velocity,
+        stored: ring * problem.density.largest() * largest.velocity,
         flow: ring * largest.stress,
         supply: ring * largest.force,
     };
@@ -241,12 +241,13 @@ fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> 
             let (phi, slope) = bump(&event[..=d]);
             let piola = problem.piola(&labels[place], time.at, &now);
             let force = problem.force(&labels[place], loaded, &now);
+            let density = problem.density.at(&labels[place]);
             let (ring, hoops) = problem.ring(&labels[place], &piola);
             for (i, sums) in all[..d].iter_mut().enumerate() {
-                let inertia = ring * problem.density * now.velocity[i] * slope[d];
+                let inertia = ring * density * now.velocity[i] * slope[d];
                 let stress: f64 = (0..d).map(|j| piola[i][j] * slope[j]).sum();
                 let stress = ring * stress + hoops[i] * phi;
-                let force = ring * problem.density * force[i] * phi;
+                let force = ring * density * force[i] * phi;
                 let size = inertia.abs() + stress.abs() + force.abs();
                 sums.add(-inertia, force - stress, size, &event[..=d]);
             }

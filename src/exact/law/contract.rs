@@ -15,11 +15,12 @@ pub(super) trait ConstitutiveLaw {
     /// Whether stress depends on the history of the motion, unless loading never reverses.
     const HAS_HISTORY: bool = false;
 
-    /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`.
+    /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`, at unit reference density if
+    /// the law depends on it.
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D>;
 
-    /// The energy W (J/m3) with `P = dW/dF`, zero at rest; `None` for a law without energy, or with
-    /// a history.
+    /// The energy W (J/m3) with `P = dW/dF`, zero at rest or, in a gas, in the limit of infinite
+    /// expansion; `None` for a law without energy, or with a history.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let _ = grad;
         None
@@ -28,6 +29,13 @@ pub(super) trait ConstitutiveLaw {
     /// Stiffest modulus at rest (Pa), `lambda + 2 mu` of a solid: a bound for stresses of a given
     /// strain.
     fn modulus(&self) -> f64;
+
+    /// Factor of P, of the energy and of the modulus at the reference density `density` (kg/m3), 1
+    /// for a law that does not depend on it.
+    fn density_factor<T: Number>(&self, density: T) -> T {
+        let _ = density;
+        T::from(1.0)
+    }
 
     /// `3 lambda + 2 mu` (Pa), the stiffness against equal strain on all axes, for a law of small
     /// strains; `None` for a law of finite strains.

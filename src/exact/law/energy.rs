@@ -4,15 +4,32 @@ use super::contract::ConstitutiveLaw;
 use crate::exact::tensor::{Tensor, tensor, unit};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-/// Asserts `P = dW/dF` and `W = 0` at rest.
+/// Asserts `P = dW/dF`, and `W = 0` and `P = 0` at rest.
 pub(super) fn assert_stress_is_derivative(law: &impl ConstitutiveLaw) {
+    assert_stress_is_derivative_from(law, 0.0, 0.0);
+}
+
+/// Asserts `P = dW/dF`, and the mean stress (Pa), positive in compression, and the energy (J/m3) of
+/// a body at rest.
+pub(super) fn assert_stress_is_derivative_from(
+    law: &impl ConstitutiveLaw,
+    pressure: f64,
+    stored: f64,
+) {
     let energy = |grad: &Tensor<f64>| law.energy(grad).expect("an energy");
-    assert_abs_diff_eq!(energy(&[[0.0; 3]; 3]), 0.0, epsilon = 1e-15 * law.modulus());
-    // Half of the work of the stress, to digits that differences of numbers near one would lose.
+    let rest = [[0.0; 3]; 3];
+    assert_abs_diff_eq!(energy(&rest), stored, epsilon = 1e-15 * law.modulus());
+    let initial = law.piola(&rest);
+    for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+        let expected = -pressure * unit::<f64>(i, j);
+        assert_abs_diff_eq!(initial[i][j], expected, epsilon = 1e-14 * law.modulus());
+    }
+    // The work of the mean stress, to digits that differences of numbers near one would lose.
     let small = [[2e-7, -1e-7, 5e-8], [3e-7, -2e-7, 1e-7], [0.0, 1.5e-7, 1e-7]];
     let stress = law.piola(&small);
-    let work = stress.iter().flatten().zip(small.iter().flatten()).map(|(p, slope)| p * slope);
-    assert_relative_eq!(energy(&small), 0.5 * work.sum::<f64>(), max_relative = 1e-5);
+    let mean = stress.iter().flatten().zip(initial.iter().flatten()).map(|(p, p0)| 0.5 * (p + p0));
+    let work: f64 = mean.zip(small.iter().flatten()).map(|(p, slope)| p * slope).sum();
+    assert_relative_eq!(energy(&small) - energy(&rest), work, max_relative = 1e-5);
     let grad = [[0.2, -0.1, 0.05], [0.3, -0.2, 0.1], [0.0, 0.15, 0.1]];
     let stress = law.piola(&grad);
     for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {

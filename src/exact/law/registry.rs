@@ -70,25 +70,36 @@ macro_rules! laws {
                 }
             }
 
-            /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`.
+            /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`, at unit reference
+            /// density if the law depends on it, see [`Equation::density_factor`].
             pub fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
                 match self {
                     $($(Self::$law(law) => law.piola(grad),)?)+
                 }
             }
 
-            /// The energy W (J/m3) whose derivative is P, zero at rest; `None` for a law without
-            /// energy.
+            /// The energy W (J/m3) whose derivative is P, zero at rest or, in a gas, in the limit
+            /// of infinite expansion; `None` for a law without energy. At unit reference density,
+            /// as P.
             pub fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
                 match self {
                     $($(Self::$law(law) => law.energy(grad),)?)+
                 }
             }
 
-            /// Stiffest modulus at rest (Pa): a bound for stresses of a given strain.
+            /// Stiffest modulus at rest (Pa): a bound for stresses of a given strain. At unit
+            /// reference density, as P.
             pub fn modulus(&self) -> f64 {
                 match self {
                     $($(Self::$law(law) => law.modulus(),)?)+
+                }
+            }
+
+            /// Factor of P, of the energy and of the modulus at the reference density `density`
+            /// (kg/m3), 1 for a law that does not depend on it.
+            pub fn density_factor<T: Number>(&self, density: T) -> T {
+                match self {
+                    $($(Self::$law(law) => law.density_factor(density),)?)+
                 }
             }
 

@@ -48,7 +48,8 @@ pub(super) struct ProgramSubject {
     taken: u64,
     inquiry: Inquiry,
     /// Masses of the points (kg): those of the particles, or the weights of sample points times the
-    /// reference density. `None` for sample points in bodies of several materials.
+    /// reference density. `None` for sample points in bodies of several materials or of a density
+    /// that varies.
     mass: Option<Vec<f64>>,
     samples: Samples,
     counters: RunCounters,
@@ -88,7 +89,7 @@ impl ProgramSubject {
                 samples.stress = inquiry.start(FieldName::Stress).unwrap_or_default();
             }
             mass = match problem.materials.as_slice() {
-                [material] => {
+                [material] if material.varying_density.is_none() => {
                     Some(samples.weight.iter().map(|volume| volume * material.density).collect())
                 }
                 _ => None,
@@ -104,6 +105,7 @@ impl ProgramSubject {
             }
             mass = Some(particles.mass.clone());
         }
+        samples.mass = mass.clone().unwrap_or_default();
         let counters = RunCounters {
             particles: (!has_own_points).then_some(particles.len() as u64),
             ..RunCounters::new(0)
@@ -205,6 +207,7 @@ impl Subject for ProgramSubject {
             let turn =
                 [x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0]];
             totals.add(*mass, v, turn.map(|turn| mass * turn));
+            totals.add_second_moments(*mass, &x[..d], &self.samples.label[p * d..(p + 1) * d]);
         }
         Some(totals)
     }

@@ -50,6 +50,7 @@ fn none() -> Particles<3> {
 fn enter<const D: usize>(particles: &Particles<D>, space: &mut Particles<3>) {
     let Particles { def_grad, grad_v, sigma, across, rate_across, stress_across, .. } = particles;
     space.x.resize(particles.len(), Vector::zeros());
+    space.mass.clone_from(&particles.mass);
     space.vol0.clone_from(&particles.vol0);
     space.vol.clone_from(&particles.vol);
     for (column, across, into) in [
@@ -83,10 +84,11 @@ impl<const D: usize> Material<D> for Axisymmetric {
     }
 
     fn columns(&self) -> Vec<Column<'_>> {
-        let Particles { x, vol0, vol, sigma, def_grad, grad_v, .. } = &self.space;
+        let Particles { x, mass, vol0, vol, sigma, def_grad, grad_v, .. } = &self.space;
         let mut columns = self.law.columns();
         columns.extend([
             Column::of_particles("x in space", x),
+            Column::of_particles("mass in space", mass),
             Column::of_particles("V0 in space", vol0),
             Column::of_particles("V in space", vol),
             Column::of_particles("sigma in space", sigma),

@@ -217,7 +217,7 @@ fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 impl MaterialProperties for CamClay {
     /// The modulus `K + 4/3 G` of the clay at rest and the stress along the wave, if the clay is
     /// inside the yield surface.
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         let pressure = self.initial_pressure();
         pressure / self.swelling * (1.0 + 4.0 / 3.0 * self.ratio) + pressure
     }

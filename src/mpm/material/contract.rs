@@ -16,8 +16,15 @@ pub(super) fn rate_form_averages_no_volume() -> Result<(), &'static str> {
 
 /// Properties of a law that decide which problems may be stated with it.
 pub trait MaterialProperties {
-    /// Stiffness against strain along one axis (Pa), at rest: `rho0 c^2` of the fastest wave.
-    fn wave_modulus(&self) -> f64;
+    /// Stiffness against strain along one axis (Pa), at rest: `rho0 c^2` of the fastest wave, in a
+    /// body of the reference density `density` (kg/m3).
+    fn wave_modulus(&self, density: f64) -> f64;
+
+    /// Speed (m/s) of the fastest wave at rest, in a body of the reference density `density`
+    /// (kg/m3).
+    fn wave_speed(&self, density: f64) -> f64 {
+        (self.wave_modulus(density) / density).sqrt()
+    }
 
     /// Whether stress is a function of F alone. Then a body may start in the state of a stated
     /// motion, and a body force may be manufactured.
@@ -116,8 +123,13 @@ pub(super) trait ClosedForms {
         0.0
     }
 
-    /// Mean stress (Pa) of a body at rest, positive in compression.
+    /// Mean stress (Pa) of a specimen at rest, positive in compression.
     fn pressure_at_rest(&self) -> f64 {
+        0.0
+    }
+
+    /// Stored energy (J/m3) of a specimen at rest.
+    fn energy_at_rest(&self) -> f64 {
         0.0
     }
 }

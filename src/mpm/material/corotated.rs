@@ -44,7 +44,7 @@ impl Corotated {
 }
 
 impl MaterialProperties for Corotated {
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         self.lambda + 2.0 * self.mu
     }
 

@@ -145,7 +145,7 @@ fn in_space<const D: usize>(m: &Matrix<D>) -> Matrix<3> {
 }
 
 impl MaterialProperties for GreenNaghdi {
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         self.elasticity.lambda + 2.0 * self.elasticity.mu
     }
 

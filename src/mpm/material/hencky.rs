@@ -68,7 +68,7 @@ impl FreeAcross for HenckyPlate {
 }
 
 impl MaterialProperties for Hencky {
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         self.lambda + 2.0 * self.mu
     }
 

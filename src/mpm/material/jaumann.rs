@@ -45,7 +45,7 @@ fn stretch<const D: usize>(
 }
 
 impl MaterialProperties for Jaumann {
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         self.0.lambda + 2.0 * self.0.mu
     }
 
@@ -113,6 +113,6 @@ impl super::contract::ClosedForms for Jaumann {
 
     /// The logarithm of a stretch has the rounding of the stretch.
     fn rounding(&self) -> f64 {
-        4.0 * f64::EPSILON * self.wave_modulus()
+        4.0 * f64::EPSILON * self.wave_modulus(1.0)
     }
 }

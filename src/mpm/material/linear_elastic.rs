@@ -80,7 +80,7 @@ fn logarithm<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
 }
 
 impl MaterialProperties for LinearElastic {
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         self.lambda + 2.0 * self.mu
     }
 

@@ -28,7 +28,7 @@ impl LinearFluid {
 }
 
 impl MaterialProperties for LinearFluid {
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         self.bulk
     }
 

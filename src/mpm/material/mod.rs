@@ -73,6 +73,8 @@ pub enum Range {
     Positive,
     /// Zero or above.
     NotNegative,
+    /// Above one.
+    AboveOne,
     /// Above -1 and below 1/2: the range in which an isotropic solid is stable and compressible.
     PoissonsRatio,
     /// Zero or above, and below 90 (degrees).
@@ -116,4 +118,6 @@ const PRECONSOLIDATION: MaterialParameter =
     parameter("the preconsolidation pressure", "pc", "Pa", Range::Positive);
 const BULK: MaterialParameter = parameter("the bulk modulus", "K", "Pa", Range::Positive);
 const VISCOSITY: MaterialParameter = parameter("the viscosity", "eta", "Pa s", Range::NotNegative);
-const DENSITY: MaterialParameter = parameter("the density", "rho0", "kg/m3", Range::Positive);
+const STIFFNESS: MaterialParameter =
+    parameter("the stiffness", "K", "Pa (m3/kg)^g", Range::Positive);
+const EXPONENT: MaterialParameter = parameter("the exponent", "g", "", Range::AboveOne);

@@ -102,7 +102,7 @@ impl FreeAcross for NeoHookean {
 }
 
 impl MaterialProperties for NeoHookean {
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         self.lambda + 2.0 * self.mu
     }
 

@@ -35,7 +35,7 @@ impl Newtonian {
 }
 
 impl MaterialProperties for Newtonian {
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         self.bulk
     }
 

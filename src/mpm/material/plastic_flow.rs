@@ -192,7 +192,7 @@ impl<S: YieldSurface> ElastoPlastic<S> {
 }
 
 impl<S: YieldSurface> MaterialProperties for ElastoPlastic<S> {
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         let LogElasticity { lambda, mu, .. } = self.surface.elasticity();
         lambda + 2.0 * mu
     }

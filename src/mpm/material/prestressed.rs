@@ -193,7 +193,7 @@ mod tests {
                 Err(_) => 0.0,
             };
             let slope = (high[(0, 0)] - low[(0, 0)]) / 2e-6;
-            assert_relative_eq!(slope, properties.wave_modulus() + extra, max_relative = 1e-8);
+            assert_relative_eq!(slope, properties.wave_modulus(1.0) + extra, max_relative = 1e-8);
         }
     }
 

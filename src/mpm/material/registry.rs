@@ -1,7 +1,7 @@
 //! Registration: one line makes a material known by name, with the keys of its parameters.
 
 /// Declares the family of materials, from the lines of [`each_material`](crate::members). The
-/// density, which every material has and no law reads, is added to the keys.
+/// density, which every material has and which laws take from the masses, is added to the keys.
 macro_rules! materials {
     ($($name:literal => $file:ident::$member:ident {
         $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?
@@ -30,7 +30,7 @@ macro_rules! materials {
                         #[doc = concat!("See [`", stringify!($member), "::new`].")]
                         $field: N,
                     )*
-                    /// Reference density (kg/m3).
+                    /// Reference density (kg/m3), a number or a formula of the coordinates.
                     density: N,
                 },
             )+
@@ -58,21 +58,27 @@ macro_rules! materials {
                 }
             }
 
-            /// The material and its density, once `number` has evaluated every parameter, from
-            /// its key and the text of the suite.
+            /// The material, once `number` has evaluated every parameter, from its key and the
+            /// text of the suite.
             ///
             /// # Errors
             /// The first that `number` returns.
             pub fn numbers<E>(
                 &self,
                 mut number: impl FnMut(&'static str, &MaterialParameter, &N) -> Result<f64, E>,
-            ) -> Result<(MaterialPlan, f64), E> {
+            ) -> Result<MaterialPlan, E> {
                 match self {
-                    $(Self::$member { $($field,)* density } => {
+                    $(Self::$member { $($field,)* .. } => {
                         $(let $field = number(key(stringify!($field)), &$parameter, $field)?;)*
-                        let density = number("density", &DENSITY, density)?;
-                        Ok((MaterialPlan::$member { $($field),* }, density))
+                        Ok(MaterialPlan::$member { $($field),* })
                     })+
+                }
+            }
+
+            /// The reference density (kg/m3), a number or a formula of the coordinates.
+            pub fn density(&self) -> &N {
+                match self {
+                    $(Self::$member { density, .. } => density,)+
                 }
             }
         }

@@ -18,7 +18,7 @@ impl Rigid {
 }
 
 impl MaterialProperties for Rigid {
-    fn wave_modulus(&self) -> f64 {
+    fn wave_modulus(&self, _: f64) -> f64 {
         0.0
     }
 

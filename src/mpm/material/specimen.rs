@@ -3,8 +3,9 @@
 use super::stress_update::StressUpdate;
 use super::tangent::StressResponse;
 use super::{
-    COHESION, COMPRESSION, CRITICAL_SLOPE, DILATION, DILATION_ANGLE, FRICTION, FRICTION_ANGLE,
-    Material, MaterialPlan, POISSON, PRECONSOLIDATION, STRENGTH, SWELLING, VISCOSITY, YIELD, YOUNG,
+    COHESION, COMPRESSION, CRITICAL_SLOPE, DILATION, DILATION_ANGLE, EXPONENT, FRICTION,
+    FRICTION_ANGLE, Material, MaterialPlan, POISSON, PRECONSOLIDATION, STRENGTH, SWELLING,
+    VISCOSITY, YIELD, YOUNG,
 };
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::{Block, Particles};
@@ -14,6 +15,9 @@ use crate::subject::{Checkpoint, PlaneState};
 /// are. Powers of two, so that velocity gradients times the step are exact.
 pub(super) const SLOW: f64 = 1_099_511_627_776.0;
 pub(super) const FAST: f64 = 1.0 / SLOW;
+
+/// Reference density of a specimen (kg/m3).
+pub(super) const DENSITY: f64 = 1.25;
 
 /// One of every registered material.
 pub(super) fn every() -> Vec<MaterialPlan> {
@@ -25,6 +29,7 @@ pub(super) fn every() -> Vec<MaterialPlan> {
         FRICTION_ANGLE => 20.0,
         DILATION_ANGLE => 0.0,
         VISCOSITY => 0.7,
+        EXPONENT => 1.4,
         CRITICAL_SLOPE => 1.2,
         SWELLING => 0.5,
         COMPRESSION => 1.0,
@@ -43,7 +48,7 @@ impl<const D: usize> Specimen<D> {
 
     pub(super) fn with(material: Box<dyn Material<D>>) -> Self {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
-        let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let mut particles = Particles::fill(&Block { from, to, density: DENSITY }, 1.0, 1);
         particles.track_deformation();
         Self(material, particles)
     }

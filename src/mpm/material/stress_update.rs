@@ -33,6 +33,8 @@ pub struct StressBlock<'a, const D: usize> {
     pub def_grad: &'a mut [Matrix<D>],
     /// Velocity gradients (1/s).
     pub grad_v: &'a [Matrix<D>],
+    /// Masses (kg).
+    pub mass: &'a [f64],
     /// Reference volumes (m^D).
     pub vol0: &'a [f64],
     /// Volumes (m^D), which the law sets.
@@ -108,8 +110,9 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
 
 impl<'a, const D: usize> StressBlock<'a, D> {
     fn from_particles(particles: &'a mut Particles<D>) -> Self {
-        let Particles { def_grad, grad_v, vol0, vol, sigma, across, stress_across, .. } = particles;
-        Self { def_grad, grad_v, vol0, vol, sigma, across, stress_across }
+        let Particles { def_grad, grad_v, mass, vol0, vol, sigma, .. } = particles;
+        let Particles { across, stress_across, .. } = particles;
+        Self { def_grad, grad_v, mass, vol0, vol, sigma, across, stress_across }
     }
 
     /// Splits off the first `count` particles, or all if there are fewer.
@@ -117,6 +120,7 @@ impl<'a, const D: usize> StressBlock<'a, D> {
         Self {
             def_grad: first_mut(&mut self.def_grad, count),
             grad_v: self.grad_v.split_off(..count.min(self.grad_v.len())).unwrap_or_default(),
+            mass: self.mass.split_off(..count.min(self.mass.len())).unwrap_or_default(),
             vol0: self.vol0.split_off(..count.min(self.vol0.len())).unwrap_or_default(),
             vol: first_mut(&mut self.vol, count),
             sigma: first_mut(&mut self.sigma, count),

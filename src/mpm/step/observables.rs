@@ -23,6 +23,7 @@ impl<const D: usize> Particles<D> {
             let spin = axial(&self.moment(p, own(p))).map(|component| m * component);
             let v = std::array::from_fn(|i| if i < D { v[i] } else { 0.0 });
             totals.add(*m, v, spin);
+            totals.add_second_moments(*m, self.position(p).as_slice(), self.x0[p].as_slice());
         }
         totals
     }
@@ -50,6 +51,7 @@ impl<const D: usize> Particles<D> {
         }
         samples.velocity.extend(self.v.iter().flat_map(|v| v.iter()));
         samples.weight.extend(&self.vol0);
+        samples.mass.extend(&self.mass);
         samples.temperature.extend(&self.temperature);
         for (column, into) in [
             (&self.sigma, &mut samples.stress),

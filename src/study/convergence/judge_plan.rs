@@ -76,7 +76,7 @@ pub(super) fn rounding_sizes(
         // Displacements are differences of positions.
         Quantity::Displacement => positions + value,
         Quantity::DeformationGradient => 1.0,
-        Quantity::Stress => value.max(scene.density * scene.wave_speed() * scene.wave_speed()),
+        Quantity::Stress => value.max(scene.wave_modulus()),
         _ => value,
     };
     Some(RoundingSizes { value, number, unit })

@@ -54,7 +54,11 @@ fn body(scene: &Scene) -> String {
         (Some(outline), Some(_)) => outline.row(),
         (Some(outline), None) => outline.row() + rims(scene),
     };
-    format!("{body}, density {}", stated(scene.density))
+    let density = match scene.density.formula() {
+        None => stated(scene.density.largest()),
+        Some(formula) => formula.source().to_owned(),
+    };
+    format!("{body}, density {density}")
 }
 
 /// The rims that no load acts on, after the row of a body.

@@ -30,7 +30,12 @@ fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
     };
     let of_support = match plan.norm {
         NormName::L1 | NormName::MaxL1 => 1.0,
-        NormName::Rms | NormName::MaxRms | NormName::L2 | NormName::MaxL2 => 0.5,
+        NormName::Rms
+        | NormName::MaxRms
+        | NormName::L2
+        | NormName::MaxL2
+        | NormName::MassL2
+        | NormName::MaxMassL2 => 0.5,
         NormName::Linf | NormName::MaxLinf => 0.0,
     };
     let is_at_rest = plan.exact.as_ref().is_some_and(|exact| exact.at_rest);

@@ -103,9 +103,12 @@ impl SceneFields {
         };
         let fragments: Vec<Fragment<D>> = labels.iter().map(fragment).collect();
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
-        let none = Block { from, to, density: scene.density };
+        let none = Block { from, to, density: scene.density.largest() };
         let mut particles = Particles::fill_where(&none, 1.0, 1, |_| false);
-        particles.add_fragments(&fragments, scene.density);
+        particles.add_fragments(&fragments, 1.0);
+        for (mass, label) in particles.mass.iter_mut().zip(labels) {
+            *mass = scene.density.at(label);
+        }
         if is_revolved {
             particles.revolve();
         }

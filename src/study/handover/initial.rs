@@ -179,8 +179,13 @@ fn faces(scene: &Scene) -> Vec<ProblemFace> {
 }
 
 fn material(scene: &Scene) -> ProblemMaterial {
-    let law = scene.material.name();
-    ProblemMaterial { law, parameters: scene.material.keyed_parameters(), density: scene.density }
+    let parameters = scene.material.keyed_parameters();
+    ProblemMaterial {
+        law: scene.material.name(),
+        parameters,
+        density: scene.density.largest(),
+        varying_density: scene.density.formula().map(|formula| formula.source().to_owned()),
+    }
 }
 
 /// The terms of the loads on each body that are body forces.

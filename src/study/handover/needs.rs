@@ -43,6 +43,7 @@ pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
         plane_stress: scene.plane == PlaneState::Stress,
         axisymmetric: scene.plane == PlaneState::Axisymmetric,
         initial_stress: scene.each().iter().any(|body| !body.initial_stress.is_none()),
+        varying_density: scene.each().iter().any(|body| body.density.uniform().is_none()),
         loaded_rims: scene.loads.iter().any(|load| matches!(load.target(), LoadTarget::Rim(_))),
         displacement_force: scene.terms().iter().any(|term| term.depends_on_displacement()),
         ..ProblemNeeds::default()
@@ -117,6 +118,7 @@ fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     match (known, parameter.range) {
         (Some((_, value)), _) => *value,
         (None, Range::Positive) => stiffness().map_or(1.0, |(_, value)| *value),
+        (None, Range::AboveOne) => 2.0,
         (None, Range::NotNegative | Range::PoissonsRatio | Range::Angle) => 0.0,
     }
 }

@@ -90,7 +90,7 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     // e u_tt t^2/2 after a time t, and at most about e u over a long run. In more than one
     // dimension a body rotates, and so does its initial stress.
     let turning = if problem.dimension() > 1 { motion.initial_stress } else { 0.0 };
-    let neglected = strain + turning / problem.equation.modulus();
+    let neglected = strain + turning / problem.modulus();
     let early = 0.5 * motion.acceleration * case.until * case.until;
     let early = if problem.at_rest { f64::INFINITY } else { early };
     let origin = format!(

@@ -48,7 +48,7 @@ fn too_long(preflight: &Preflight<'_>) -> Option<Diagnostic> {
 fn too_long_for_heat(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     let scene = &preflight.plan.scene;
     let heat = scene.heat()?;
-    let diffusivity = heat.conductivity / (scene.density * heat.capacity);
+    let diffusivity = heat.conductivity / (scene.density.largest() * heat.capacity);
     let limit = |level: &LevelPlan| 0.5 * level.h * level.h / diffusivity;
     let level = preflight.levels().iter().find(|level| level.dt > limit(level))?;
     let (cells, limit, times) = (level.cells, limit(level), level.dt / limit(level));

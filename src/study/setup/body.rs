@@ -234,10 +234,14 @@ pub(crate) fn seeded_particles<const D: usize>(
     per_axis: usize,
 ) -> Particles<D> {
     if let Some(panel) = &scene.mapped {
-        return panel.fill(scene.density, h, per_axis);
+        return panel.fill(scene.density.largest(), h, per_axis);
     }
     let block = block(scene, origin, h);
-    let Some(outline) = &scene.outline else { return Particles::fill(&block, h, per_axis) };
+    let Some(outline) = &scene.outline else {
+        let mut particles = Particles::fill(&block, h, per_axis);
+        weigh(scene, &mut particles);
+        return particles;
+    };
     let half = block.spacing(h, per_axis) * 0.5;
     let centres: Vec<Vector<D>> = block.centres(h, per_axis).collect();
     let cut = |centre: &Vector<D>| outline.cut(centre.as_slice(), half.as_slice());
@@ -256,8 +260,22 @@ pub(crate) fn seeded_particles<const D: usize>(
         }
         cut => cut == Some(&Cut::Whole),
     });
-    particles.add_fragments(&fragments, scene.density);
+    particles.add_fragments(&fragments, scene.density.largest());
+    weigh(scene, &mut particles);
     particles
+}
+
+/// Sets the mass of each particle to the integral of a density that varies, over the part of the
+/// lattice cell of the particle that is inside the body.
+fn weigh<const D: usize>(scene: &Scene, particles: &mut Particles<D>) {
+    if scene.density.uniform().is_some() {
+        return;
+    }
+    let half = particles.spacing * 0.5;
+    let holds = |label: &[f64]| scene.outline.as_ref().is_none_or(|o| o.holds(label));
+    for (mass, x0) in particles.mass.iter_mut().zip(&particles.x0) {
+        *mass = scene.density.mass(x0.as_slice(), half.as_slice(), holds);
+    }
 }
 
 /// The particle of a piece of a body in the plane; a further axis would be its thickness of one.

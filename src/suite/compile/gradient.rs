@@ -73,6 +73,11 @@ fn refuse_unfit_problem(
             "the body of a gradient study starts undeformed",
         ),
         (
+            scene.density.uniform().is_none(),
+            top("material"),
+            "the body of a gradient study has one density",
+        ),
+        (
             !scene.initial_stress.is_none(),
             top("initial_stress"),
             "the body of a gradient study starts without stress",
@@ -272,7 +277,7 @@ fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) ->
     };
     match parameter {
         GradientParameter::InitialVelocity => (growth - 1.0).abs() <= 1e-12,
-        GradientParameter::Density => scene.density == value,
+        GradientParameter::Density => scene.density.uniform() == Some(value),
         GradientParameter::Friction => scene
             .faces
             .iter()

@@ -43,6 +43,8 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
     ("poisson", "0"),
     ("yield", "1"),
     ("bulk", "100"),
+    ("stiffness", "1"),
+    ("exponent", "2"),
     ("viscosity", "0"),
     ("dilation", "0"),
     ("strength", "1"),

@@ -25,7 +25,14 @@ impl Scene {
 
     /// Speed (m/s) of the fastest wave in the body at rest.
     pub fn wave_speed(&self) -> f64 {
-        (self.material.properties().wave_modulus() / self.density).sqrt()
+        let properties = self.material.properties();
+        let [low, high] = [self.density.smallest(), self.density.largest()];
+        properties.wave_speed(low).max(properties.wave_speed(high))
+    }
+
+    /// Largest stiffness (Pa) against strain along one axis in the body at rest.
+    pub(crate) fn wave_modulus(&self) -> f64 {
+        self.material.properties().wave_modulus(self.density.largest())
     }
 
     /// Speed (m/s) of the fastest wave in any of the bodies at rest.

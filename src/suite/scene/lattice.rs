@@ -40,7 +40,7 @@ pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -
     Block {
         from: Vector::from_fn(|axis, _| node(axis, scene.from[axis], libm::floor)),
         to: Vector::from_fn(|axis, _| node(axis, scene.to[axis], libm::ceil)),
-        density: scene.density,
+        density: scene.density.largest(),
     }
 }
 

@@ -15,7 +15,7 @@ pub use face::SceneFace;
 pub use load::EffectName;
 
 use crate::exact::formula::Formula;
-use crate::exact::{Circle, InitialStress, Outline, Region, Term};
+use crate::exact::{Circle, Density, InitialStress, Outline, Region, Term};
 use crate::mpm::{MaterialPlan, Quadrilateral};
 use crate::subject::PlaneState;
 use load::{ListedLoad, LoadTarget};
@@ -38,8 +38,8 @@ pub struct Scene {
     pub plane: PlaneState,
     /// The material, without its density.
     pub material: MaterialPlan,
-    /// Reference density (kg/m3).
-    pub density: f64,
+    /// Reference density.
+    pub density: Density,
     /// The 2 D faces of a box: low and high, axis by axis. A body with a free rim has none.
     pub faces: Vec<SceneFace>,
     /// Sets of particles; one load acts on each.

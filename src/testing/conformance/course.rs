@@ -26,7 +26,8 @@ pub(super) fn counts(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     }
     let mut breaches = Vec::new();
     for (name, column, width) in columns(samples) {
-        let may_be_empty = ["stress", "deformation_gradient", "temperature"].contains(&name);
+        let may_be_empty =
+            ["mass", "stress", "deformation_gradient", "temperature"].contains(&name);
         if column.len() != n * width && !(may_be_empty && column.is_empty()) {
             let or_none = if may_be_empty { ", or none" } else { "" };
             let wanted = format!("{} numbers in `{name}`, {width} a point{or_none}", n * width);

@@ -34,13 +34,14 @@ pub(super) fn record(
 }
 
 /// Every column of samples by its name, with the numbers that each point has in it for dimension D.
-pub(super) fn columns(samples: &Samples) -> [(&'static str, &[f64], usize); 7] {
+pub(super) fn columns(samples: &Samples) -> [(&'static str, &[f64], usize); 8] {
     let d = samples.dimension;
     [
         ("label", &samples.label, d),
         ("displacement", &samples.displacement, d),
         ("velocity", &samples.velocity, d),
         ("weight", &samples.weight, 1),
+        ("mass", &samples.mass, 1),
         ("stress", &samples.stress, d * d),
         ("deformation_gradient", &samples.deformation_gradient, d * d),
         ("temperature", &samples.temperature, 1),

@@ -56,6 +56,10 @@ pub(super) struct SumDeclaration {
 pub(super) enum ComputedSum {
     /// From the totals over the body.
     OfTotals(fn(&Totals) -> Option<[f64; 3]>),
+    /// A function of the second moments of the body and of those of its reference configuration
+    /// (kg m2), one for each axis. It also gives the exact value from the exact sums, whose density
+    /// is that of the second moments.
+    OfMoments(fn([f64; 3], [f64; 3]) -> [f64; 3]),
     /// The reaction of walls.
     Reaction,
 }
@@ -231,6 +235,41 @@ pub(super) const ANGULAR_MOMENTUM: Declaration = Declaration {
     }),
     ..SUM
 };
+
+pub(super) const RADIUS_OF_GYRATION: Declaration = Declaration {
+    unit: "",
+    sum: Some(SumDeclaration {
+        computed: ComputedSum::OfMoments(|now, reference| {
+            let [now, reference] = [now, reference].map(|moments| moments.iter().sum::<f64>());
+            [root_of_ratio(now, reference), 0.0, 0.0]
+        }),
+        density: |point| moments(point.second_moment()),
+        needs: SumNeed::Nothing,
+    }),
+    ..SUM
+};
+
+pub(super) const SEMI_AXIS: Declaration = Declaration {
+    unit: "",
+    sum: Some(SumDeclaration {
+        computed: ComputedSum::OfMoments(|now, reference| {
+            std::array::from_fn(|axis| root_of_ratio(now[axis], reference[axis]))
+        }),
+        density: |point| moments(point.second_moment()),
+        needs: SumNeed::Nothing,
+    }),
+    ..SUM
+};
+
+/// `sqrt(now/reference)`; zero on an axis that the body does not have.
+fn root_of_ratio(now: f64, reference: f64) -> f64 {
+    if reference == 0.0 { 0.0 } else { (now / reference).sqrt() }
+}
+
+/// Second moments, with their sum as the size.
+pub(super) fn moments(values: [f64; 3]) -> ([f64; 3], f64) {
+    (values, values.iter().sum())
+}
 
 pub(super) const REACTION: Declaration = Declaration {
     unit: "N",

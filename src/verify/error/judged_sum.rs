@@ -1,6 +1,6 @@
 //! A sum over the body of a subject, compared with its exact value.
 
-use super::declaration::{ComputedSum, SumDeclaration};
+use super::declaration::{ComputedSum, SumDeclaration, moments};
 use super::norm::Norms;
 use super::quantity::Quantity;
 use crate::exact::{BodySum, Problem, SumRegion};
@@ -11,6 +11,8 @@ use crate::subject::Subject;
 pub struct JudgedSum {
     of: Quantity,
     exact: BodySum,
+    /// Exact second moments of the reference configuration (kg m2), for a ratio to them.
+    reference: [f64; 3],
     /// Axis and end of the face whose reaction is judged; `None`: the reaction of all faces.
     face: Option<(usize, bool)>,
 }
@@ -25,20 +27,32 @@ impl JudgedSum {
     pub fn new(of: Quantity, problem: &Problem, walls: &[usize]) -> Result<Self, String> {
         let SumDeclaration { computed, density, .. } = of.sum().ok_or("is a field")?;
         let region = match computed {
-            ComputedSum::OfTotals(_) => SumRegion::Body,
+            ComputedSum::OfTotals(_) | ComputedSum::OfMoments(_) => SumRegion::Body,
             ComputedSum::Reaction => SumRegion::Faces(walls.to_vec()),
         };
-        let exact = BodySum::new(problem, &region, density).map_err(|error| error.to_string())?;
+        let sum =
+            |density| BodySum::new(problem, &region, density).map_err(|error| error.to_string());
+        let exact = sum(density)?;
+        let reference = match computed {
+            ComputedSum::OfMoments(_) => {
+                sum(|point| moments(point.reference_second_moment()))?.at(problem.until)
+            }
+            ComputedSum::OfTotals(_) | ComputedSum::Reaction => [0.0; 3],
+        };
         let face = match walls {
             [one] => problem.faces.get(*one).map(|face| (face.axis, face.high)),
             _ => None,
         };
-        Ok(Self { of, exact, face })
+        Ok(Self { of, exact, reference, face })
     }
 
     /// Largest size of the exact sum during the run, which errors are relative to.
     pub fn size(&self) -> f64 {
-        self.exact.size()
+        let size = self.exact.size();
+        match self.of.sum().map(|sum| sum.computed) {
+            Some(ComputedSum::OfMoments(_)) => (size / self.reference.iter().sum::<f64>()).sqrt(),
+            _ => size,
+        }
     }
 
     /// The difference from the exact sum at time `t` (s); NaN if the subject does not report it.
@@ -47,13 +61,19 @@ impl JudgedSum {
             Some(ComputedSum::OfTotals(value)) => {
                 subject.totals().and_then(|totals| value(&totals)).map(|value| (t, value))
             }
+            Some(ComputedSum::OfMoments(value)) => subject
+                .totals()
+                .map(|totals| (t, value(totals.second_moment, totals.reference_second_moment))),
             Some(ComputedSum::Reaction) => {
                 subject.reaction(self.face).map(|reaction| (reaction.time, reaction.force))
             }
             None => None,
         };
         let Some((t, value)) = found else { return [f64::NAN; 3] };
-        let exact = self.exact.at(t);
+        let exact = match self.of.sum().map(|sum| sum.computed) {
+            Some(ComputedSum::OfMoments(value)) => value(self.exact.at(t), self.reference),
+            _ => self.exact.at(t),
+        };
         std::array::from_fn(|i| value[i] - exact[i])
     }
 }
@@ -70,7 +90,7 @@ mod tests {
 
     #[test]
     fn the_error_of_an_instant_is_the_length_of_its_vector() {
-        let Norms { rms, l1, l2, linf } = over_instants(&[[3.0, 0.0, 4.0], [0.0, -5.0, 0.0]]);
+        let Norms { rms, l1, l2, linf, .. } = over_instants(&[[3.0, 0.0, 4.0], [0.0, -5.0, 0.0]]);
         for norm in [rms, l1, l2, linf] {
             assert_relative_eq!(norm, 5.0, max_relative = 1e-15);
         }

@@ -1,13 +1,15 @@
 //! Norms of the error of one level.
 //!
 //! With `|e_p|` the Euclidean length of the error at label `p` (a particle, followed by its
-//! reference position), `w_p` its weight (reference volume) and `n` the number of labels:
+//! reference position), `w_p` its weight (reference volume), `m_p` its mass and `n` the number of
+//! labels:
 //!
 //! ```text
 //! rms  = sqrt(1/n sum |e_p|^2)             unweighted, as in Wobbes & Tielen (2015)
 //! l1   = sum w_p |e_p| / sum w_p
 //! l2   = sqrt(sum w_p |e_p|^2 / sum w_p)
 //! linf = max |e_p|
+//! mass_l2 = sqrt(sum m_p |e_p|^2 / sum m_p)
 //! ```
 //!
 //! Squares are taken of `|e_p| / linf`, so that they neither overflow nor vanish.
@@ -28,6 +30,8 @@ named! {
         L2 = "l2",
         /// Largest at the end.
         Linf = "linf",
+        /// RMS, weighted by mass, at the end: for a density that varies over the body.
+        MassL2 = "mass_l2",
         /// Largest RMS over the instants.
         MaxRms = "max_rms",
         /// Largest L1 over the instants.
@@ -36,13 +40,20 @@ named! {
         MaxL2 = "max_l2",
         /// Largest over labels and instants.
         MaxLinf = "max_linf",
+        /// Largest mass-weighted RMS over the instants.
+        MaxMassL2 = "max_mass_l2",
     }
 }
 
 impl NormName {
     /// Whether it is the maximum of another norm over the instants.
     pub(crate) fn is_over_instants(self) -> bool {
-        matches!(self, Self::MaxRms | Self::MaxL1 | Self::MaxL2 | Self::MaxLinf)
+        matches!(self, Self::MaxRms | Self::MaxL1 | Self::MaxL2 | Self::MaxLinf | Self::MaxMassL2)
+    }
+
+    /// Whether it is weighted by masses, which only some subjects report.
+    pub(crate) fn is_by_mass(self) -> bool {
+        matches!(self, Self::MassL2 | Self::MaxMassL2)
     }
 }
 
@@ -57,14 +68,17 @@ pub struct Norms {
     pub l2: f64,
     /// Largest length.
     pub linf: f64,
+    /// Root of the mean square weighted by mass; `None` if masses are unknown.
+    pub mass_l2: Option<f64>,
 }
 
 impl Norms {
     /// No error at all.
-    pub const ZERO: Self = Self { rms: 0.0, l1: 0.0, l2: 0.0, linf: 0.0 };
+    pub const ZERO: Self = Self { rms: 0.0, l1: 0.0, l2: 0.0, linf: 0.0, mass_l2: Some(0.0) };
 
     /// Nothing was measured: all NaN.
-    pub const NONE: Self = Self { rms: f64::NAN, l1: f64::NAN, l2: f64::NAN, linf: f64::NAN };
+    pub const NONE: Self =
+        Self { rms: f64::NAN, l1: f64::NAN, l2: f64::NAN, linf: f64::NAN, mass_l2: None };
 
     /// The larger of two, norm by norm; NaN if either is.
     #[must_use]
@@ -74,7 +88,16 @@ impl Norms {
             l1: larger(self.l1, other.l1),
             l2: larger(self.l2, other.l2),
             linf: larger(self.linf, other.linf),
+            mass_l2: self.mass_l2.zip(other.mass_l2).map(|(a, b)| larger(a, b)),
         }
+    }
+
+    /// These norms of `errors` with the norm that is weighted by `masses`, one for each label; none
+    /// if there are no masses.
+    #[must_use]
+    pub fn with_masses(self, errors: &[f64], dimension: usize, masses: &[f64]) -> Self {
+        let by_mass = || Self::of(errors, dimension, masses).l2;
+        Self { mass_l2: (!masses.is_empty()).then(by_mass), ..self }
     }
 
     /// The norms of `errors`, with `dimension` components for each label, label after label, and
@@ -95,7 +118,7 @@ impl Norms {
     fn of_lengths(lengths: &[f64], weights: &[f64], total: f64) -> Self {
         let linf = lengths.iter().copied().fold(0.0, larger);
         if linf == 0.0 {
-            return Self { rms: 0.0, l1: 0.0, l2: 0.0, linf };
+            return Self { linf, mass_l2: None, ..Self::ZERO };
         }
         let scaled = || lengths.iter().map(|e| e / linf);
         let weighted = || scaled().zip(weights);
@@ -107,6 +130,7 @@ impl Norms {
             l1: linf * (moment / total),
             l2: linf * (weighted_squares / total).sqrt(),
             linf,
+            mass_l2: None,
         }
     }
 }
@@ -140,10 +164,12 @@ impl RunErrors {
             NormName::L1 => self.at_end.l1,
             NormName::L2 => self.at_end.l2,
             NormName::Linf => self.at_end.linf,
+            NormName::MassL2 => self.at_end.mass_l2.unwrap_or(f64::NAN),
             NormName::MaxRms => self.largest.rms,
             NormName::MaxL1 => self.largest.l1,
             NormName::MaxL2 => self.largest.l2,
             NormName::MaxLinf => self.largest.linf,
+            NormName::MaxMassL2 => self.largest.mass_l2.unwrap_or(f64::NAN),
         }
     }
 }
@@ -193,6 +219,32 @@ mod tests {
         assert_relative_eq!(norms.l1, 2.0, max_relative = 1e-15);
         assert_relative_eq!(norms.l2, 7.0_f64.sqrt(), max_relative = 1e-15);
         assert_relative_eq!(norms.linf, 5.0);
+        assert_eq!(norms.mass_l2, None);
+    }
+
+    /// Lengths 5 and 1 with masses 1 and 3: the mean square is (25 + 3)/4.
+    #[test]
+    fn norm_by_mass_ignores_volumes() {
+        let errors = [3.0, 4.0, 0.0, -1.0];
+        let norms = Norms::of(&errors, 2, &[3.0, 1.0]);
+        let found = norms.with_masses(&errors, 2, &[1.0, 3.0]);
+        assert_relative_eq!(found.mass_l2.unwrap(), 7.0_f64.sqrt(), max_relative = 1e-15);
+        assert_eq!(found.l2.to_bits(), norms.l2.to_bits());
+        let mismatched = norms.with_masses(&errors, 2, &[1.0]);
+        assert!(mismatched.mass_l2.is_some_and(f64::is_nan), "{mismatched:?}");
+        assert_eq!(norms.with_masses(&errors, 2, &[]).mass_l2, None);
+    }
+
+    #[test]
+    fn largest_norm_by_mass_needs_the_masses_at_all_instants() {
+        let by_mass = |mass_l2| Norms { mass_l2, ..Norms::ZERO };
+        let mut errors = RunErrors::START;
+        errors.add(by_mass(Some(2.0)));
+        errors.add(by_mass(Some(1.0)));
+        assert_eq!(errors.in_norm(NormName::MassL2), 1.0);
+        assert_eq!(errors.in_norm(NormName::MaxMassL2), 2.0);
+        errors.add(by_mass(None));
+        assert!(errors.in_norm(NormName::MaxMassL2).is_nan());
     }
 
     #[rstest]
@@ -210,13 +262,13 @@ mod tests {
         #[case] dimension: usize,
         #[case] weights: &[f64],
     ) {
-        let Norms { rms, l1, l2, linf } = Norms::of(errors, dimension, weights);
+        let Norms { rms, l1, l2, linf, .. } = Norms::of(errors, dimension, weights);
         assert!([rms, l1, l2, linf].iter().all(|norm| norm.is_nan()));
     }
 
     #[test]
     fn an_infinite_error_leaves_no_finite_norm() {
-        let Norms { rms, l1, l2, linf } = Norms::of(&[1.0, f64::INFINITY], 1, &[1.0, 1.0]);
+        let Norms { rms, l1, l2, linf, .. } = Norms::of(&[1.0, f64::INFINITY], 1, &[1.0, 1.0]);
         assert!([rms, l1, l2, linf].iter().all(|norm| !norm.is_finite()));
     }
 

@@ -8,8 +8,8 @@
 
 use super::declaration::{
     ANGULAR_MOMENTUM, DEFORMATION_GRADIENT, DISPLACEMENT, Declaration, ENERGY, KINETIC_ENERGY,
-    MOMENTUM, REACTION, STRAIN_ENERGY, STRESS, SolutionSize, SumDeclaration, SumNeed, TEMPERATURE,
-    VELOCITY,
+    MOMENTUM, RADIUS_OF_GYRATION, REACTION, SEMI_AXIS, STRAIN_ENERGY, STRESS, SolutionSize,
+    SumDeclaration, SumNeed, TEMPERATURE, VELOCITY,
 };
 use super::norm::Norms;
 use crate::exact::Truth;
@@ -42,6 +42,10 @@ named! {
         Momentum = "momentum",
         /// Angular momentum about the origin (kg m2/s).
         AngularMomentum = "angular_momentum",
+        /// Root of the ratio of `sum m |x|^2` to `sum m |X|^2`, about the origin.
+        RadiusOfGyration = "radius_of_gyration",
+        /// Root of the ratio of `sum m x^2` to `sum m X^2`, for each axis.
+        SemiAxis = "semi_axis",
         /// Force of walls on the body (N).
         Reaction = "reaction",
     }
@@ -60,6 +64,8 @@ impl Quantity {
             Self::Energy => &ENERGY,
             Self::Momentum => &MOMENTUM,
             Self::AngularMomentum => &ANGULAR_MOMENTUM,
+            Self::RadiusOfGyration => &RADIUS_OF_GYRATION,
+            Self::SemiAxis => &SEMI_AXIS,
             Self::Reaction => &REACTION,
         }
     }
@@ -185,7 +191,8 @@ impl Quantity {
     /// or the exact solution does not have the quantity.
     pub fn errors(self, samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
         self.differences(samples, truth, t).map_or(Norms::NONE, |(components, error)| {
-            Norms::of(&error, components, &samples.weight)
+            let norms = Norms::of(&error, components, &samples.weight);
+            norms.with_masses(&error, components, &samples.mass)
         })
     }
 
@@ -246,6 +253,7 @@ mod tests {
             displacement: vec![5.0, 4.0, 5.0, -4.0],
             velocity: vec![2.0, 5.0, -3.0, 0.0],
             weight: vec![1.0, 3.0],
+            mass: Vec::new(),
             stress: vec![3.0, 7.0, 7.0, 4.0, 0.0, 10.0, 11.0, 0.0],
             deformation_gradient: vec![1.0; 8],
             temperature: vec![305.0, 295.0],
@@ -258,7 +266,7 @@ mod tests {
     #[case(Quantity::Stress)]
     #[case(Quantity::Temperature)]
     fn every_component_counts(#[case] quantity: Quantity) {
-        let Norms { rms, l1, l2, linf } = quantity.errors(&off_by_five(), &Sheared, 1.0);
+        let Norms { rms, l1, l2, linf, .. } = quantity.errors(&off_by_five(), &Sheared, 1.0);
         for norm in [rms, l1, l2, linf] {
             assert_relative_eq!(norm, 5.0, max_relative = 1e-15);
         }

@@ -29,6 +29,8 @@ struct Instant {
     labels: Vec<f64>,
     /// Reference volumes (m^D).
     weights: Vec<f64>,
+    /// Masses (kg); empty if they are unknown.
+    masses: Vec<f64>,
     /// Numbers at each label.
     components: usize,
     /// `computed - exact`.
@@ -48,7 +50,8 @@ impl RunRecord {
         }
         let (components, differences) = of.differences(samples, truth, t).unwrap_or_default();
         let (labels, weights) = (samples.label.clone(), samples.weight.clone());
-        let instant = Instant { labels, weights, components, differences };
+        let masses = samples.mass.clone();
+        let instant = Instant { labels, weights, masses, components, differences };
         self.instants.push(instant.sorted(samples.dimension));
     }
 
@@ -104,6 +107,7 @@ impl Instant {
         Self {
             labels: rows(&self.labels, d),
             weights: rows(&self.weights, 1),
+            masses: if self.masses.len() == count { rows(&self.masses, 1) } else { self.masses },
             differences: rows(&self.differences, n),
             components: n,
         }
@@ -114,7 +118,8 @@ impl Instant {
             return Norms::NONE;
         }
         let all = subtract(&self.differences, &other.differences);
-        Norms::of(&all, self.components, &self.weights)
+        let norms = Norms::of(&all, self.components, &self.weights);
+        norms.with_masses(&all, self.components, &self.masses)
     }
 }
 

@@ -88,7 +88,8 @@ fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     let (norm, order) = NormName::ALL
         .iter()
         .copied()
-        .filter(|norm| *norm != study.norm)
+        // With a uniform density a norm by mass is that by volume.
+        .filter(|norm| *norm != study.norm && !norm.is_by_mass())
         .filter_map(order)
         .min_by(|(_, a), (_, b)| a.half_width().total_cmp(&b.half_width()))?;
     (order.half_width() <= CLEARLY * judged.half_width()).then(|| {

@@ -7,6 +7,7 @@ mod bodies;
 mod boundaries;
 mod case_names;
 mod combinations;
+mod densities;
 mod equilibria;
 mod expectations;
 mod fine_grids;

@@ -2,7 +2,7 @@
 
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::study::{Runner, under};
-use mpm_verify::subject::{Failure, Precision, RunCounters, Samples, Subject};
+use mpm_verify::subject::{Failure, Precision, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Suite, embedded};
 use mpm_verify::verify::{CaseOutcome, SpectrumStudy};
@@ -55,7 +55,7 @@ impl SolverFactory for Waves {
         self.precision
     }
 
-    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, String> {
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
         assert!(problem.instants.iter().copied().eq(1..=problem.steps), "every step is an instant");
         let largest = problem.particles.velocity.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
         assert!(largest > 0.9e-6 && largest <= 1e-6, "{largest}");

@@ -21,7 +21,7 @@ fn mass_and_centre_of_mass_are_exact(#[case] text: &str) {
     let exact = corners.iter().zip(next).fold([0.0; 3], |sums, (a, b)| {
         let doubled = a.0 * b.1 - b.0 * a.1;
         let terms = [0.5, (a.0 + b.0) / 6.0, (a.1 + b.1) / 6.0];
-        [0, 1, 2].map(|i| sums[i] + plan.scene.density * doubled * terms[i])
+        [0, 1, 2].map(|i| sums[i] + plan.scene.density.largest() * doubled * terms[i])
     });
     for level in &plan.refine.levels {
         let particles = level_problem(&suite.name, plan, &plan.cases[0], *level).unwrap().particles;

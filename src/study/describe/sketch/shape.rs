@@ -38,7 +38,7 @@ pub(super) fn rims(view: &View, body: &Scene) -> Vec<Vec<Pt>> {
 pub(super) fn colours(scene: &Scene) -> Vec<&'static str> {
     let mut known: Vec<String> = Vec::new();
     let mut colour = |body: &Scene| {
-        let material = format!("{:?} {}", body.material, body.density);
+        let material = format!("{:?} {:?}", body.material, body.density);
         let place = known.iter().position(|other| *other == material);
         look(place.unwrap_or_else(|| {
             known.push(material);

@@ -36,6 +36,12 @@ pub(crate) fn judged(
         let diagnostic = evaluator.diagnostic(&path.then("norm"), &message);
         return Err(diagnostic.with_help("take `rms`, or `linf` for the largest over the instants"));
     }
+    if plan.norm.is_by_mass() {
+        let norm = plan.norm.name();
+        let message = format!("the {name} is one number at a time, and `{norm}` weights particles");
+        let diagnostic = evaluator.diagnostic(&path.then("norm"), &message);
+        return Err(diagnostic.with_help("take `rms`, or `linf` for the largest over the instants"));
+    }
     let path = path.then("of");
     if plan.scene.plane == PlaneState::Axisymmetric {
         let message = format!("the {name} of a body of revolution is not known to the truth");

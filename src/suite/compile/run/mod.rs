@@ -240,6 +240,8 @@ fn possible(
             let d = plan.scene.dimension();
             Err(evaluator.diagnostic(path, &format!("the reference FEM is 1-D, the scene {d}-D")))
         }
+        MethodSpec::Fem { .. } if plan.scene.density.uniform().is_none() => Err(evaluator
+            .diagnostic(path, "the density varies over the body, and the reference FEM has one")),
         MethodSpec::Fem { .. } if !plan.scene.bodies.is_empty() => {
             Err(evaluator
                 .diagnostic(path, "the reference FEM is one bar, and the scene lists bodies"))

@@ -3,7 +3,8 @@
 use super::bodies::Listed;
 use super::outline::BodyShape;
 use super::outline::quadrilateral::faces_are_sides;
-use super::{material, outline, sets};
+use super::{density, material, outline, sets};
+use crate::exact::Density;
 use crate::mpm::MaterialPlan;
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{Evaluator, shown};
@@ -48,7 +49,8 @@ pub(crate) fn body(
         .transpose()?;
     let sets = sets::declared(evaluator, &path, spec, &from, &to, outline.as_deref())?;
     let at = own.at.then("material");
-    let (material, density) = material::material(evaluator, &at, own.material)?;
+    let material = material::material(evaluator, &at, own.material)?;
+    let uniform = density::uniform(evaluator, own)?;
     let plane = plane(evaluator, &path, spec, dimension)?;
     knows(evaluator, &at, &material, plane)?;
     let mut scene = Scene {
@@ -59,7 +61,7 @@ pub(crate) fn body(
         initial_stress: material::stress(evaluator, own, dimension, &material)?,
         initial_displacement: material::displacement(evaluator, own, dimension, &material)?,
         material,
-        density,
+        density: uniform.clone().unwrap_or(Density::from(f64::NAN)),
         faces: if is_free && spec.bodies.is_none() {
             Vec::new()
         } else {
@@ -73,11 +75,15 @@ pub(crate) fn body(
         bodies: Vec::new(),
         contact: None,
     };
+    if uniform.is_none() {
+        scene.density = density::varying(evaluator, own, &scene)?;
+    }
     revolves(evaluator, &path, &scene)?;
     if scene.is_at_rest() {
         settle(evaluator, &own.at, spec, &mut scene.faces)?;
     }
     load::add(evaluator, &spec.loads, &mut scene)?;
+    density::refuse_loads(evaluator, own, &scene)?;
     Ok(scene)
 }
 

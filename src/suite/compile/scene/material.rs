@@ -1,31 +1,32 @@
 //! The material of a body, and the state in which the body starts.
 
 use super::bodies::Listed;
+use super::density::names_coordinate;
 use crate::exact::InitialStress;
 use crate::exact::formula::Formula;
 use crate::mpm::{Contradiction, MaterialPlan, MaterialSpec, Range};
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time, shown};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// The material and its density (kg/m3).
+/// The material.
 pub(crate) fn material(
     evaluator: &Evaluator<'_>,
     path: &Path,
     spec: &MaterialSpec<NumberText>,
-) -> Result<(MaterialPlan, f64), Diagnostic> {
+) -> Result<MaterialPlan, Diagnostic> {
     let path = path.then(spec.name());
     let material = spec.numbers(|key, parameter, text| {
         let at = path.then(key);
         let value = match parameter.range {
             Range::Positive => evaluator.positive(&at, text, parameter.what),
+            Range::AboveOne => above_one(evaluator, &at, text, parameter.what),
             Range::NotNegative => not_negative(evaluator, &at, text, parameter.what),
             Range::PoissonsRatio => poissons_ratio(evaluator, &at, text),
             Range::Angle => angle(evaluator, &at, text, parameter.what),
         };
         value.map_err(uniform)
     })?;
-    if let Some(Contradiction { key, reason, explanation }) =
-        material.0.properties().contradiction()
+    if let Some(Contradiction { key, reason, explanation }) = material.properties().contradiction()
     {
         return Err(evaluator.diagnostic(&path.then(key), reason).with_label(explanation));
     }
@@ -34,13 +35,12 @@ pub(crate) fn material(
 
 /// A diagnostic of a parameter that varies in space, with advice on what to state instead.
 fn uniform(diagnostic: Diagnostic) -> Diagnostic {
-    let varies = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
-    if !COORDINATES.iter().any(varies) {
+    if !names_coordinate(&diagnostic) {
         return diagnostic;
     }
     diagnostic.with_help(
-        "a material is the same all over its body: where it changes, state several `bodies` in \
-         `scene`, each with its own",
+        "except for its density, a material is the same all over its body: where it changes, state \
+         several `bodies` in `scene`, each with its own",
     )
 }
 
@@ -56,6 +56,20 @@ fn not_negative(
     }
     let message = format!("{what} is {}, and must not be below zero", shown(value));
     Err(evaluator.unusable(path, text, &message, "expected zero or a positive number"))
+}
+
+fn above_one(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    text: &NumberText,
+    what: &str,
+) -> Result<f64, Diagnostic> {
+    let value = evaluator.number(path, text)?;
+    if value > 1.0 {
+        return Ok(value);
+    }
+    let message = format!("{what} is {}, and must be above one", shown(value));
+    Err(evaluator.unusable(path, text, &message, "expected a number above 1"))
 }
 
 fn angle(

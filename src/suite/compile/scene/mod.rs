@@ -2,6 +2,7 @@
 
 pub(crate) mod bodies;
 mod body;
+mod density;
 mod material;
 pub(crate) mod outline;
 mod sets;

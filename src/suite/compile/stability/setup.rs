@@ -217,11 +217,7 @@ fn scales(
     spec: &StabilitySpec,
     scene: &Scene,
 ) -> Result<Scales, Diagnostic> {
-    let modulus = scene
-        .each()
-        .iter()
-        .map(|body| body.material.properties().wave_modulus())
-        .fold(0.0, f64::max);
+    let modulus = scene.each().iter().map(Scene::wave_modulus).fold(0.0, f64::max);
     let path = Path::top("run");
     let bound = |key: &str, text: &Option<NumberText>, default: f64| {
         let at = path.then(key);

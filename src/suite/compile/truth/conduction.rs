@@ -136,7 +136,8 @@ pub(crate) fn problem(
     Ok(Some(Conduction {
         from: scene.from.clone(),
         to: scene.to.clone(),
-        density: scene.density,
+        // A varying density is refused, see `compile::scene::density`.
+        density: scene.density.largest(),
         conductivity: heat.conductivity,
         capacity: heat.capacity,
         source: heat.source.clone(),

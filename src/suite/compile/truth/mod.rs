@@ -11,7 +11,7 @@ use crate::exact::{Equation, Face, Motion, Problem, Survey};
 use crate::fem::BarLaw;
 use crate::mpm::MaterialPlan;
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time};
-use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec, NormName};
+use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec};
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
 use crate::suite::scene::load::{EffectName, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
@@ -195,7 +195,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         outline: scene.outline.clone(),
         bodies: Vec::new(),
         plane: scene.plane,
-        density: scene.density,
+        density: scene.density.clone(),
         equation,
         terms: scene.terms(),
         heat: None,
@@ -328,8 +328,7 @@ fn refuse_equilibrium_with(
         let message = "a body comes to rest once, under the loads at the end of its run";
         return Err(evaluator.diagnostic(&at, message).with_label("expected one end"));
     }
-    let over_time = [NormName::MaxRms, NormName::MaxL1, NormName::MaxL2, NormName::MaxLinf];
-    if over_time.contains(&spec.judge.norm) {
+    if spec.judge.norm.is_over_instants() {
         let message = "on its way a body is not in equilibrium";
         let diagnostic = evaluator.diagnostic(&Path::top("judge").then("norm"), message);
         return Err(diagnostic.with_label("expected a norm at the end: rms, l1, l2 or linf"));

@@ -34,7 +34,8 @@ impl LoadKeys for SetForceSpec {
         Ok(Arc::new(SetForceLoad {
             value: entry.of_time(&entry.path.then("value"), &self.value)?,
             volume,
-            density: scene.density,
+            // A varying density is refused, see `compile::scene::density`.
+            density: scene.density.largest(),
             set,
         }))
     }

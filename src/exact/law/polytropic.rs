@@ -1,0 +1,73 @@
+//! A polytropic gas, `P = -p J F^-T`, `p = K (rho0/J)^g`. Its energy is the work of the expansion
+//! from J to infinity, `W = K rho0^g J^(1-g)/(g - 1)`.
+//!
+//! Stress and energy are `rho0^g` times those of unit reference density, which the methods below
+//! give. The factor is [`ConstitutiveLaw::density_factor`].
+
+use super::contract::ConstitutiveLaw;
+use crate::exact::formula::Number;
+use crate::exact::tensor::{Tensor, cofactor, det, dilation, tensor, unit};
+
+/// A pressure that is a power of the density.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PolytropicLaw {
+    stiffness: f64,
+    exponent: f64,
+}
+
+impl PolytropicLaw {
+    /// From the stiffness K (Pa (m3/kg)^g) and the exponent g.
+    pub fn new(stiffness: f64, exponent: f64) -> Self {
+        Self { stiffness, exponent }
+    }
+}
+
+impl ConstitutiveLaw for PolytropicLaw {
+    const NAME: &'static str = "polytropic";
+    const EQUATION: &'static str =
+        "polytropic gas, rho0 u_tt = Div P + rho0 b, P = -p J F^-T, p = K (rho0/J)^g";
+
+    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
+        let f: Tensor<T, D> = tensor(|i, j| grad[i][j] + unit(i, j));
+        let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
+        let expansion = Number::pow(det(&f, &cofactor), T::from(self.exponent));
+        let tension = T::from(-self.stiffness) / expansion;
+        tensor(|i, j| tension * cofactor[i][j])
+    }
+
+    fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
+        let beyond = self.exponent - 1.0;
+        let logarithm = libm::log1p(dilation(grad));
+        Some(self.stiffness / beyond * libm::exp(-beyond * logarithm))
+    }
+
+    fn modulus(&self) -> f64 {
+        self.exponent * self.stiffness
+    }
+
+    fn density_factor<T: Number>(&self, density: T) -> T {
+        Number::pow(density, T::from(self.exponent))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::law::energy::assert_stress_is_derivative_from;
+    use approx::assert_relative_eq;
+
+    /// At rest p = K and W = K/(g - 1), for unit density.
+    #[test]
+    fn stress_is_the_derivative_of_the_energy() {
+        assert_stress_is_derivative_from(&PolytropicLaw::new(50.0, 1.4), 50.0, 125.0);
+        assert_stress_is_derivative_from(&PolytropicLaw::new(50.0, 3.0), 50.0, 25.0);
+    }
+
+    /// p = 2 (3/1.5)^3 = 16 for a density of 3 kg/m3 that expands by 1.5 along one axis.
+    #[test]
+    fn pressure_is_a_power_of_the_present_density() {
+        let law = PolytropicLaw::new(2.0, 3.0);
+        let [[piola]] = law.piola(&[[0.5]]);
+        assert_relative_eq!(piola * law.density_factor(3.0), -16.0, max_relative = 1e-15);
+    }
+}

@@ -1,0 +1,152 @@
+//! A polytropic gas, `sigma = -p I`, `p = K rho^g`, with the energy `p J/(g - 1)` per unit of
+//! reference volume (Landau & Lifshitz 1987, section 83, with K constant over the body).
+//!
+//! The pressure is a function of the present density `rho = m/V`, the mass of a particle over its
+//! volume. Each particle therefore has the law of its own reference density `m/V0`, which may vary
+//! over the body. The gas has a pressure at J = 1, and none in the limit of infinite expansion,
+//! where its energy is zero.
+//!
+//! The volume is integrated, `J *= det(I + grad v dt)`. F is not stored.
+
+use super::contract::{Material, MaterialProperties};
+use super::stress_update::{StressBlock, StressUpdate};
+use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::particles::Particles;
+use crate::subject::Failure;
+
+/// An inviscid gas whose pressure is a power of its density.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Polytropic {
+    stiffness: f64,
+    exponent: f64,
+}
+
+impl Polytropic {
+    /// From the stiffness K (Pa (m3/kg)^g) and the exponent g, which is above one.
+    pub fn new(stiffness: f64, exponent: f64) -> Self {
+        Self { stiffness, exponent }
+    }
+
+    /// The pressure (Pa) at the present density `density` (kg/m3).
+    fn pressure(&self, density: f64) -> f64 {
+        self.stiffness * libm::pow(density, self.exponent)
+    }
+}
+
+impl MaterialProperties for Polytropic {
+    fn wave_modulus(&self, density: f64) -> f64 {
+        self.exponent * self.pressure(density)
+    }
+
+    /// Finite without density too, where the modulus over the density is not a number.
+    fn wave_speed(&self, density: f64) -> f64 {
+        (self.exponent * self.stiffness * libm::pow(density, self.exponent - 1.0)).sqrt()
+    }
+
+    fn depends_on_deformation_alone(&self) -> Result<(), &'static str> {
+        Ok(())
+    }
+
+    fn starts_stressed(&self) -> Result<(), &'static str> {
+        Err("a gas at rest has the pressure of its density: state an `initial_displacement`")
+    }
+}
+
+impl<const D: usize> Material<D> for Polytropic {
+    fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
+        self.update(&mut StressUpdate::new(0.0, particles));
+        Ok(())
+    }
+
+    fn reads_deformation(&self) -> bool {
+        false
+    }
+
+    fn is_stressed_at_rest(&self) -> bool {
+        true
+    }
+
+    fn energy(&self, particles: &Particles<D>) -> Option<f64> {
+        let all = particles.vol.iter().zip(&particles.mass);
+        let work: f64 = all.map(|(vol, mass)| vol * self.pressure(mass / vol)).sum();
+        Some(work / (self.exponent - 1.0))
+    }
+
+    fn update(&mut self, body: &mut StressUpdate<'_, D>) {
+        let dt = body.dt();
+        body.by_block(|StressBlock { grad_v, mass, vol, sigma, .. }| {
+            let volumes = vol.iter_mut().zip(mass.iter());
+            for ((grad_v, (vol, mass)), sigma) in grad_v.iter().zip(volumes).zip(sigma.iter_mut()) {
+                *vol *= det(&(Matrix::identity() + grad_v * dt));
+                *sigma = Matrix::from_diagonal_element(-self.pressure(mass / *vol));
+            }
+        });
+    }
+}
+
+#[cfg(test)]
+impl super::contract::ClosedForms for Polytropic {
+    fn simple_shear(&self, _: f64) -> [f64; 3] {
+        let pressure = self.pressure_at_rest();
+        [-pressure, 0.0, -pressure]
+    }
+
+    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
+        Some([-self.pressure_at_rest() * libm::pow(stretch, -self.exponent); 2])
+    }
+
+    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
+        Some(self.energy_at_rest() * libm::pow(det(f), 1.0 - self.exponent))
+    }
+
+    fn rounding(&self) -> f64 {
+        8.0 * f64::EPSILON * self.pressure_at_rest()
+    }
+
+    fn pressure_at_rest(&self) -> f64 {
+        let rest = super::specimen::DENSITY;
+        self.stiffness * libm::exp(self.exponent * libm::log(rest))
+    }
+
+    fn energy_at_rest(&self) -> f64 {
+        self.pressure_at_rest() / (self.exponent - 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mpm::foundation::algebra::Vector;
+    use crate::mpm::foundation::particles::Block;
+    use approx::assert_relative_eq;
+
+    /// Particles of one material and different masses, at rest.
+    fn row() -> Particles<1> {
+        let (from, to) = (Vector::<1>::new(0.0), Vector::<1>::new(3.0));
+        let mut row = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        row.mass = vec![0.5, 2.0, 0.0];
+        row
+    }
+
+    /// p = 3 rho^2 with rho = 0.5, 2 and 0 kg/m3; after a stretch of 2, a quarter.
+    #[test]
+    fn each_particle_has_the_pressure_of_its_own_density() {
+        let (mut gas, mut row) = (Polytropic::new(3.0, 2.0), row());
+        gas.start_deformed(&mut row).unwrap();
+        let pressure = |row: &Particles<1>| -> Vec<f64> { row.sigma.iter().map(|s| -s[0]).collect() };
+        assert_eq!(pressure(&row), [0.75, 12.0, 0.0]);
+        assert_relative_eq!(Material::energy(&gas, &row).unwrap(), 12.75, max_relative = 1e-15);
+        row.grad_v.fill(Matrix::<1>::new(1.0));
+        gas.update(&mut StressUpdate::new(1.0, &mut row));
+        assert_eq!(pressure(&row), [0.1875, 3.0, 0.0]);
+        assert_relative_eq!(Material::energy(&gas, &row).unwrap(), 6.375, max_relative = 1e-15);
+    }
+
+    /// c = sqrt(g K rho^(g - 1)).
+    #[test]
+    fn wave_speed_vanishes_with_the_density() {
+        let gas = Polytropic::new(2.0, 3.0);
+        assert_relative_eq!(gas.wave_speed(0.5), 1.5_f64.sqrt(), max_relative = 1e-15);
+        assert_eq!(gas.wave_speed(0.0).to_bits(), 0);
+    }
+}

@@ -1,0 +1,115 @@
+//! The reference density of a body: a number, or a formula of the coordinates.
+
+use super::bodies::Listed;
+use crate::exact::{Density, NoDensity};
+use crate::subject::PlaneState;
+use crate::suite::evaluator::{COORDINATES, Evaluator, shown};
+use crate::suite::model::Scene;
+use crate::suite::scene::load::EffectName;
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
+
+/// Path of the density of a body.
+fn path(own: &Listed<'_>) -> Path {
+    own.at.then("material").then(own.material.name()).then("density")
+}
+
+/// The density if it is a number; `None` for a formula of the coordinates.
+///
+/// # Errors
+/// A diagnostic of a density that is not a number above zero.
+pub(crate) fn uniform(
+    evaluator: &Evaluator<'_>,
+    own: &Listed<'_>,
+) -> Result<Option<Density>, Diagnostic> {
+    let number = evaluator.positive(&path(own), own.material.density(), "the density");
+    match number {
+        Ok(density) => Ok(Some(density.into())),
+        Err(diagnostic) if names_coordinate(&diagnostic) => Ok(None),
+        Err(diagnostic) => Err(diagnostic),
+    }
+}
+
+/// Whether a number could not be evaluated because its formula has a coordinate.
+pub(crate) fn names_coordinate(diagnostic: &Diagnostic) -> bool {
+    let names = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
+    COORDINATES.iter().any(names)
+}
+
+/// The density of a body that varies over it; the shape of `scene` is that of the body.
+///
+/// # Errors
+/// A diagnostic of the formula, of a place inside the body where it is not positive, or of a part
+/// of the scene that does not support a varying density.
+pub(crate) fn varying(
+    evaluator: &Evaluator<'_>,
+    own: &Listed<'_>,
+    scene: &Scene,
+) -> Result<Density, Diagnostic> {
+    let (path, text) = (path(own), own.material.density());
+    let formula = evaluator.formula(&path, text, &COORDINATES[..scene.dimension()])?;
+    if let Some(reason) = unsupported(scene) {
+        let message = format!("the density varies over the body, and {reason}");
+        return Err(evaluator.diagnostic(&path, &message));
+    }
+    let density = Density::of_place(formula, &scene.from, &scene.to, scene.outline.as_deref())
+        .map_err(|place| not_positive(evaluator, (&path, text), &place))?;
+    let properties = scene.material.properties();
+    if density.smallest() == 0.0 && !properties.wave_speed(0.0).is_finite() {
+        let message = format!(
+            "the density is zero on the rim, where waves in `{}` have no bounded speed",
+            scene.material.name()
+        );
+        let diagnostic = evaluator.unusable(&path, text, &message, "expected a positive density");
+        return Err(diagnostic.with_help("take a `polytropic` gas, or add a constant"));
+    }
+    Ok(density)
+}
+
+fn not_positive(
+    evaluator: &Evaluator<'_>,
+    (path, text): (&Path, &NumberText),
+    place: &NoDensity,
+) -> Diagnostic {
+    let label: Vec<String> = place.label.iter().map(|x| shown(*x)).collect();
+    let value = shown(place.value);
+    let message = format!("the density is {value} kg/m3 at ({}) m", label.join(", "));
+    let label = "expected a positive density inside the body, and at least zero on its rim";
+    evaluator.unusable(path, text, &message, label)
+}
+
+/// Why the parts of a scene do not support a density that varies over the body, if so.
+fn unsupported(scene: &Scene) -> Option<&'static str> {
+    if scene.mapped.is_some() || scene.outline.as_ref().is_some_and(|o| o.ball().is_none()) {
+        return Some("masses are integrated in a box or a round body only");
+    }
+    if scene.plane == PlaneState::Axisymmetric {
+        return Some("masses are not integrated in a body of revolution");
+    }
+    if scene.is_at_rest() {
+        return Some("the body does not move: state a number");
+    }
+    None
+}
+
+/// Refuses loads that need a uniform density.
+///
+/// # Errors
+/// A diagnostic at the density.
+pub(crate) fn refuse_loads(
+    evaluator: &Evaluator<'_>,
+    own: &Listed<'_>,
+    scene: &Scene,
+) -> Result<(), Diagnostic> {
+    let loads = [
+        (EffectName::Heat, "`heat` needs one heat capacity per volume"),
+        (EffectName::SetForce, "a `force` on a set is distributed by a uniform density"),
+    ];
+    let listed = loads.iter().find(|(effect, _)| scene.lists(*effect));
+    match listed.filter(|_| scene.density.uniform().is_none()) {
+        None => Ok(()),
+        Some((_, reason)) => {
+            let message = format!("the density varies over the body, and {reason}");
+            Err(evaluator.diagnostic(&path(own), &message))
+        }
+    }
+}
