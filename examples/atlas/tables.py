@@ -100,7 +100,7 @@ def derivative(run: dict) -> list[str]:
     error = abs(last["error"] / last["exact"])
     order = "" if error > 1 else f"order {found['order']:.2f}; "
     sweep = found["sweep"]
-    swept = sweep and f"share {sweep['share']:.4f}, {len(sweep['jumps']) or 'no'} jumps"
+    swept = sweep and f"share {sweep['share']:.4g}, {len(sweep['jumps']) or 'no'} jumps"
     return [f"{value:.0e}", taylor, f"{order}{error:.1e}", swept or "", run["verdict"]]
 
 
