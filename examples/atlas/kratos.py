@@ -143,7 +143,8 @@ class Kratos:
             self.time = self.solver.AdvanceInTime(self.time)
             self.solver.InitializeSolutionStep()
             self.solver.Predict()
-            self.solver.SolveSolutionStep()
+            if self.solver.SolveSolutionStep() is False:
+                raise ArithmeticError(f"step {step + 1} does not converge")
             self.solver.FinalizeSolutionStep()
 
     def state(self) -> Message:

@@ -32,6 +32,11 @@ OWN = {
 }
 
 
+def is_gradient(suite: str) -> bool:
+    """Whether the suite verifies derivatives."""
+    return suite.startswith("gradient-")
+
+
 def is_rigid(suite: str) -> bool:
     """Whether nothing deforms, so that codes do not need the law."""
     return suite.startswith(("translating-block", "falling-block"))
@@ -61,12 +66,16 @@ class Code:
     crate: str | None = None
     adapter: str | None = None  # path from this folder, if it differs from the name
     takes_any_law: bool = True  # option `--any-law` for suites in which nothing deforms
+    # Runs of gradient suites: the settings of each, and its suites.
+    gradients: dict[str, tuple[list[str], list[str]]] = field(default_factory=dict)
 
     def runs(self) -> list[Run]:
         asked = [(suite, variant, arguments) for variant, arguments in self.variants.items()
                  for suite in self.suites]
         asked += [(suite, variant, arguments)
                   for variant, (arguments, suites) in self.further.items() for suite in suites]
+        asked += [(suite, variant, arguments)
+                  for variant, (arguments, suites) in self.gradients.items() for suite in suites]
         rigid = {True: ["--any-law"], False: []}
         return [Run(suite, variant, arguments + rigid[self.takes_any_law and is_rigid(suite)],
                     self.changes.get(variant, {}))
@@ -92,10 +101,19 @@ CODES = [
         "MUSL, off faces": (["--scheme", "musl"], ["free-bar-pulse-small-3d"]),
     }, {"off faces": OFF_FACES, "MUSL, off faces": OFF_FACES}),
     Code("mpm99", "taichi mpm99 1.7.4", PLANE,
-         {"f32": ["--precision", "f32"], "f64": ["--precision", "f64"]}),
+         {"f32": ["--precision", "f32"], "f64": ["--precision", "f64"]}, gradients={
+             f"f64, {title}": (["--precision", "f64", "--derivatives", option],
+                               ["gradient-free-bar-pulse"])
+             for option, title in [("tape", "tape"), ("checked", "tape with checks"),
+                                   ("forward", "forward mode")]}),
     Code("torch_mpm", "mpm-pytorch 0.1.1", SPACE, {"f32": []}, {
         "f64": (["--precision", "f64"], ["translating-block-3d", "free-bar-pulse-hencky-3d",
                                          "moving-bar-pulse-3d", "moving-bar-pulse-hencky-3d"]),
+    }, gradients={
+        "f32": ([], ["gradient-free-bar-pulse-3d"]),
+        "f64": (["--precision", "f64"], ["gradient-free-bar-pulse-3d"]),
+        "f64, bounded adjoint": (["--precision", "f64", "--svd", "bounded"],
+                                 ["gradient-free-bar-pulse-3d"]),
     }),
     Code("newton_mpm", "newton 1.8.0", SPACE, {"f32": []}, {
         "two substeps": (["--substeps", "2"], ["free-bar-pulse-hencky-3d"]),

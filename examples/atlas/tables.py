@@ -72,12 +72,47 @@ def further(reports: dict[str, list[dict]]) -> str:
     return table(["code", "suite", "further run", "result", "original result"], rows)
 
 
+def gradients(reports: dict[str, list[dict]]) -> str:
+    """Derivatives; parameters with the same results share a row."""
+    rows: list[list[str]] = []
+    for code in CODES:
+        for run in reports.get(code.name, []):
+            first = [code.title, run["variant"], f"`{run['suite']}`"]
+            rest = derivative(run)
+            if rows and rows[-1][:3] + rows[-1][4:] == first + rest:
+                rows[-1][3] += f", {run['parameter']}"
+            else:
+                rows.append([*first, run["parameter"], *rest])
+    return table(["code", "run", "suite", "derivative by", "difference of the value",
+                  "orders of the Taylor remainder", "error of the derivative", "sweep", "verdict"],
+                 rows)
+
+
+def derivative(run: dict) -> list[str]:
+    """The checks of one derivative."""
+    found = run["gradient"]
+    if not found:
+        return ["", "", "", "", f"{run['verdict']}: {run['reason']}"]
+    value = abs(found["reported_value"] / found["value"] - 1)
+    orders = [level["order"] for level in found["taylor"] if level["order"] is not None]
+    taylor = f"{min(orders):.2f} to {max(orders):.2f} ({len(orders)})" if orders else "none"
+    last = found["levels"][-1]
+    error = abs(last["error"] / last["exact"])
+    order = "" if error > 1 else f"order {found['order']:.2f}; "
+    sweep = found["sweep"]
+    swept = sweep and f"share {sweep['share']:.4g}, {len(sweep['jumps']) or 'no'} jumps"
+    return [f"{value:.0e}", taylor, f"{order}{error:.1e}", swept or "", run["verdict"]]
+
+
 def write(folder: Path) -> None:
     """Puts the tables between their markers."""
-    reports = {file.stem: json.loads(file.read_text())["runs"] for file in folder.glob("*.json")}
+    files = {file.stem: json.loads(file.read_text()) for file in folder.glob("*.json")}
+    reports = {name: file["runs"] for name, file in files.items()}
+    of_gradients = {name: file.get("gradients", []) for name, file in files.items()}
     page = PAGE.read_text()
     for name, text in [("plane", matrix(PLANE, reports)), ("space", matrix(SPACE, reports)),
-                       ("lagrangian", matrix(LAGRANGIAN, reports)), ("further", further(reports))]:
+                       ("lagrangian", matrix(LAGRANGIAN, reports)), ("further", further(reports)),
+                       ("gradients", gradients(of_gradients))]:
         begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
         head, rest = page.split(begin)
         page = head + begin + text + "\n" + end + rest.split(end)[1]

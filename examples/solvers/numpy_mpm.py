@@ -42,6 +42,7 @@ class Dual(np.lib.mixins.NDArrayOperatorsMixin):
             np.matmul: lambda da, db: (0 * a + da) @ b + a @ (0 * b + db),
             np.divide: lambda da, db: (da - a / b * db) / b, np.negative: lambda da: -da,
             np.log: lambda da: da / a, np.exp: lambda da: value * da,
+            np.sqrt: lambda da: 0.5 * da / value,
             np.absolute: lambda da: np.sign(a) * da,
             np.maximum: lambda da, db: np.where(a > b, da, db)}.get(ufunc)
         if slope is None:  # comparisons and roundings
@@ -113,6 +114,16 @@ def bsplines(degree: int, s: Array, cell: Array, cells: int, periodic: bool) -> 
     spans = [knots[degree + r] - knots[r] for r in range(degree)]
     terms = [degree * low / span for low, span in zip(lower, spans)]
     return np.stack(value), -np.diff(np.stack(terms), axis=0, prepend=0, append=0)
+
+
+def rotation(f: Array) -> Array:
+    """Rotation R of F = R U: in two dimensions that of the sum of F and its cofactors."""
+    if f.shape[1] != 2:
+        u, _, vt = np.linalg.svd(f)
+        return u @ vt
+    cos, sin = f[:, 0, 0] + f[:, 1, 1], f[:, 1, 0] - f[:, 0, 1]
+    rows = [np.stack([cos, -sin], axis=1), np.stack([sin, cos], axis=1)]
+    return np.stack(rows, axis=1) / np.sqrt(cos * cos + sin * sin)[:, None, None]
 
 
 class Mpm:
@@ -395,9 +406,8 @@ class Mpm:
 
     def corotated(self, _: Array) -> None:
         """sigma = (2 mu/J) (F - R) F^T + lambda (J - 1) I, with the rotation R of F."""
-        u, _, vt = np.linalg.svd(self.f)
         j = np.linalg.det(self.f)[:, None, None]
-        shear = 2 * self.mu * (self.f - u @ vt) @ self.f.transpose(0, 2, 1)
+        shear = 2 * self.mu * (self.f - rotation(self.f)) @ self.f.transpose(0, 2, 1)
         self.kirchhoff(shear + self.lam * (j - 1) * j * np.eye(self.d))
 
     def kirchhoff(self, tau: Array) -> None:
@@ -419,8 +429,8 @@ class Mpm:
 
     def refuse(self, of: Message) -> None:
         """Raises `Cannot` if the functional `of` has no derivatives here."""
-        if self.d > 1 and self.update_stress in (self.hencky, self.corotated):
-            raise Cannot("gradients of this law in one dimension only")
+        if self.d > {self.hencky: 1, self.corotated: 2}.get(self.update_stress, 3):
+            raise Cannot("no gradients of this law in so many dimensions")
         if of["functional"] == "position_of" and of["particle"] >= len(self.x):
             raise Cannot(f"there is no particle {of['particle']}")
 
