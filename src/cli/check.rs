@@ -1,7 +1,7 @@
 //! `mpm-verify check`.
 
 use super::arguments::{FormatArgs, SolverArgs, Targets};
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use super::{output, select, solver};
 use clap::Args;
 use mpm_verify::report::indented;

@@ -2,7 +2,7 @@
 
 use super::arguments::share;
 use super::output;
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use clap::{Args, ValueEnum};
 use mpm_verify::report::compare::{self, ReportComparison, ReportDocument, Unreadable};
 use mpm_verify::suite::yaml::Diagnostic;

@@ -1,7 +1,7 @@
 //! `mpm-verify cost`: measures the cost of accuracy on this machine.
 
 use super::arguments::{FormatArgs, SolversArgs, Targets, seconds};
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use super::suite_runs::{self, SuiteRuns};
 use super::{output, select, solver};
 use clap::Args;

@@ -1,7 +1,7 @@
 //! `mpm-verify diagnose`: the cause if a case does not have the theoretical order.
 
 use super::arguments::{FormatArgs, SolverArgs, Targets, seconds};
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use super::{output, select, solver};
 use clap::Args;
 use mpm_verify::external::SolverFactory;

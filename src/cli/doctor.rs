@@ -1,7 +1,7 @@
 //! `mpm-verify doctor`: finds defects of an external solver.
 
 use super::arguments::{FormatArgs, SolverArgs};
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use super::{output, solver};
 use clap::Args;
 use mpm_verify::testing::{DoctorReport, doctor as examine, page};

@@ -2,7 +2,7 @@
 
 use super::arguments::FormatArgs;
 use super::output;
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use clap::Args;
 use mpm_verify::suite::yaml::Diagnostic;
 use mpm_verify::verify::{

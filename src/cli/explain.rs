@@ -1,7 +1,7 @@
 //! `mpm-verify explain`: the problem, the cost of a step of each case, and the expectations.
 
 use super::arguments::{FormatArgs, Targets};
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use super::{select, show};
 use clap::Args;
 use mpm_verify::study::describe::Dispensable;

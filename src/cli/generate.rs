@@ -1,7 +1,7 @@
 //! Texts that this program generates from itself: JSON Schemas, shell completions and manual pages.
 
 use super::output;
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use clap::{Args, Command, ValueEnum};
 use clap_complete::Shell;
 use clap_mangen::Man;

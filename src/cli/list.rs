@@ -2,8 +2,8 @@
 //! level.
 
 use super::arguments::{FormatArgs, Targets};
+use super::output::Status;
 use super::show;
-use super::status::Status;
 use clap::Args;
 use mpm_verify::study::{Estimate, TimeStep, estimates, time_steps};
 use mpm_verify::suite::yaml::Source;

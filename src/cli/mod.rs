@@ -19,14 +19,13 @@ mod run;
 mod select;
 mod show;
 mod solver;
-mod status;
 mod suite_runs;
 
 use arguments::ColorArgs;
 use clap::error::ContextKind;
 use clap::{CommandFactory, Parser, Subcommand};
 use mpm_verify::nearest;
-use status::{CommandError, Status};
+use output::{CommandError, Status};
 use std::ffi::OsString;
 use std::process::ExitCode;
 

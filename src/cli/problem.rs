@@ -1,7 +1,7 @@
 //! `mpm-verify problem`: a level of a suite as a file.
 
 use super::arguments::{Expected, number, whole};
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use super::{output, select};
 use clap::Args;
 use mpm_verify::external::ProblemFormat;

@@ -1,7 +1,7 @@
 //! `mpm-verify propose`: entries of `expect` that a run supports.
 
 use super::arguments::{FormatArgs, SolverArgs, Targets};
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use super::{show, solver};
 use clap::Args;
 use mpm_verify::external::SolverFactory;

@@ -1,6 +1,6 @@
 //! Pages about suites, one after the other, or in one JSON document.
 
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use super::{output, select};
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;

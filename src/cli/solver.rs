@@ -2,7 +2,7 @@
 
 use super::arguments::{SolverArgs, SolverCommand, SolverLimitArgs, SolversArgs};
 use super::output;
-use super::status::CommandError;
+use super::output::CommandError;
 use mpm_verify::external::{ProgramLimits, SolverFactory, SolverProgram};
 use mpm_verify::study::under_on;
 use mpm_verify::suite::{GateTerms, Suite};

@@ -1,6 +1,6 @@
 //! Suites with their own methods, with external solvers, or both in one report.
 
-use super::status::CommandError;
+use super::output::CommandError;
 use mpm_verify::study::Shard;
 use mpm_verify::suite::{Extent, Suite};
 use std::collections::BTreeSet;

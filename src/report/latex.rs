@@ -1,7 +1,7 @@
 //! The report as LaTeX tables, for papers.
 
+use crate::report::columns::grouped;
 use crate::report::columns::level::{self, LevelRow, NamedStudy};
-use crate::report::grouping::grouped;
 use crate::verify::{Axis, Interval, SuiteOutcome, Verdict};
 use std::fmt::Write;
 

@@ -1,6 +1,6 @@
 //! The matrix of problems and methods: the result of each basis in each suite.
 
-use crate::report::grouping::{distinct, grouped};
+use crate::report::columns::{distinct, grouped};
 use crate::verify::{
     Acceptance, CaseOutcome, Convergence, Exemption, StabilityStudy, SuiteOutcome, Verdict,
 };

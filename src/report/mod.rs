@@ -14,7 +14,6 @@ pub mod compare;
 #[cfg(feature = "cli")]
 mod csv;
 pub mod figure;
-pub(crate) mod grouping;
 pub(crate) mod json;
 #[cfg(feature = "cli")]
 mod junit;

@@ -89,8 +89,8 @@ pub(crate) use order::window::FEWEST_LEVELS;
 pub use outcome::{CaseOutcome, Exemption, SuiteOutcome};
 pub use rerun::{Reruns, RoundingSizes};
 pub use spectrum::{
-    AMPLITUDE, MeasuredWave, PERIODS, Recurrence, SpectrumExpectation, SpectrumRow, SpectrumStudy,
-    WaveFigures, run_wave, steps_of_run,
+    AMPLITUDE, MeasuredWave, ObservedWave, PERIODS, Recurrence, SpectrumExpectation, SpectrumRow,
+    SpectrumStudy, WaveFigures, run_wave, steps_of_run,
 };
 pub(crate) use stability::is_looked_at;
 pub use stability::{

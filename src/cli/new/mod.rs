@@ -4,7 +4,7 @@ mod template;
 
 use super::arguments::FormatArgs;
 use super::output;
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use clap::{Args, ValueEnum};
 use mpm_verify::mpm::{BasisName, SchemeName, TransferName};
 use mpm_verify::nearest;

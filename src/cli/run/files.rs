@@ -4,7 +4,7 @@ use super::args::ReportArgs;
 use super::printing::labelled;
 use super::progress::RunProgress;
 use crate::cli::output;
-use crate::cli::status::CommandError;
+use crate::cli::output::CommandError;
 use mpm_verify::report::{self, page};
 use mpm_verify::study::describe::sketch::sketch_svg;
 use mpm_verify::study::{Runner, SeriesError, SeriesFile};

@@ -6,7 +6,7 @@ mod gate;
 mod printing;
 mod progress;
 
-use super::status::{CommandError, Status};
+use super::output::{CommandError, Status};
 use super::suite_runs::{self, SuitePart, SuiteRuns};
 use super::{output, select, solver};
 use args::ReportArgs;

@@ -2,7 +2,7 @@
 
 use super::args::{CaseLabel, ReportArgs, RunFormat};
 use crate::cli::output;
-use crate::cli::status::CommandError;
+use crate::cli::output::CommandError;
 use crate::cli::suite_runs::SuiteRuns;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::SuiteOutcome;

@@ -7,7 +7,7 @@ use super::document::{
 use super::shared_words::shared_words;
 use super::stability::StabilityMove;
 use super::{accuracy, equal_error, stability};
-use crate::report::grouping::distinct;
+use crate::report::columns::distinct;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// See [`compare`](super::compare()).

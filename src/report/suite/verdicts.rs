@@ -1,7 +1,7 @@
 //! The head of a report: results and expectations of each case.
 
 use crate::report::columns::{TableColumn, decimals, scientific};
-use crate::report::grouping::{distinct, grouped};
+use crate::report::columns::{distinct, grouped};
 use crate::report::study::KINDS;
 use crate::report::text::cost::cheapest;
 use crate::report::text::prose::{hanging, row};

@@ -5,7 +5,7 @@ use super::table::Table;
 use super::table::shared;
 use crate::report::columns::level::{LevelColumn, LevelRow, NamedStudy};
 use crate::report::columns::{TableColumn, decimals, level, short};
-use crate::report::grouping::{distinct, grouped};
+use crate::report::columns::{distinct, grouped};
 use crate::verify::{
     Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, StepKind, format_number,
 };

@@ -1,7 +1,7 @@
 //! Plain aligned tables.
 
 use crate::report::columns::TableColumn;
-use crate::report::grouping::{distinct, grouped};
+use crate::report::columns::{distinct, grouped};
 use std::borrow::Borrow;
 
 /// A line of headings and rows of cells, which are aligned to the right by default.

@@ -16,7 +16,7 @@ use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, StepWarning,
 use crate::study::time_series::{SeriesError, ShownRun};
 use crate::subject::{Profile, SubjectError};
 use crate::suite::compile::check::size;
-use crate::suite::compile::truth::conservation_only::Unknown;
+use crate::suite::compile::truth::Unknown;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify;

@@ -4,7 +4,7 @@ use crate::exact::heat::Conduction;
 use crate::study::describe::statement::{Rows, push, scene, stated, step_profile};
 use crate::study::exact_motion::{self, amplitude};
 use crate::subject::SubjectError;
-use crate::suite::compile::truth::conservation_only;
+use crate::suite::compile::truth::is_truthless;
 use crate::suite::evaluator::shown;
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
 use crate::suite::model::{Case, ConvergencePlan, SameMethod};
@@ -42,7 +42,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
         push(&mut rows, "reference", &same_method(same, &plan.refine));
     }
     refinement(plan, &mut rows);
-    if !conservation_only::is_truthless(plan) {
+    if !is_truthless(plan) {
         push(&mut rows, "judged", &judged(plan));
     }
     push(&mut rows, "crossing levels", plan.crossing_levels.name());

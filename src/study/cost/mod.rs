@@ -5,7 +5,6 @@
 
 pub(crate) mod budget;
 pub(crate) mod candidate;
-pub(crate) mod machine;
 pub(crate) mod measure;
 
 pub use budget::{BudgetError, best_candidate};

@@ -2,7 +2,7 @@
 
 use crate::external::SolverFactory;
 use crate::study::kind::{RunContext, Study};
-use crate::study::preflight::cost::estimate_of;
+use crate::study::preflight::estimate_of;
 use crate::suite::compile::suite::with_changes;
 use crate::suite::grammar::{BoxSpec, ConvergenceSpec, MethodSpec, SchemeKey, StepSpec};
 use crate::suite::model::method::Method;

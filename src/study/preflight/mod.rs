@@ -4,31 +4,30 @@
 //! subject      the study, and places in its file
 //! grid         levels that can count for an order, a motion that leaves the grid, and a box whose
 //!              last particles start on nodes, with linear functions
-//! time_step    steps beyond the stable one, and steps that do not follow the cells
 //! error_floor  errors that no refinement lowers: small strain, single precision, linearised laws
 //! alignment    interfaces and loaded faces inside a cell
 //! undamped     an equilibrium in which nothing removes energy
-//! cost         seconds and memory
 //! ```
 //!
 //! A rule concerns an expectation: a suite that only bounds an error gets no warning about too few
 //! levels for an order. A suite acknowledges intended findings by their names, with `acknowledge`.
 
 pub(crate) mod alignment;
-pub(crate) mod cost;
 pub(crate) mod error_floor;
 pub(crate) mod grid;
 pub(crate) mod subject;
-pub(crate) mod time_step;
 pub(crate) mod undamped;
 
-pub(crate) use cost::UNKNOWN;
-pub use cost::{Estimate, estimate, estimates, unit_seconds};
-
 use self::subject::Preflight;
+use crate::study::convergence::judge_plan::in_time;
+use crate::suite::compile::check::size;
 use crate::suite::grammar::WarningName;
-use crate::suite::model::{ConvergencePlan, Suite};
+use crate::suite::model::method::Method;
+use crate::suite::model::refine_plan::{Extent, LevelPlan};
+use crate::suite::model::{Case, ConvergencePlan, Suite};
+use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity, Source};
+use crate::verify::Axis;
 
 /// Findings of one rule.
 type PreflightRule = fn(&Preflight<'_>) -> Vec<Diagnostic>;
@@ -36,7 +35,7 @@ type PreflightRule = fn(&Preflight<'_>) -> Vec<Diagnostic>;
 /// Rules of suites that claim an order, with the names under which suites acknowledge them.
 const RULES_OF_ORDER: [(WarningName, PreflightRule); 6] = [
     (WarningName::FewLevels, grid::few_levels),
-    (WarningName::TimeStep, time_step::check),
+    (WarningName::TimeStep, check),
     (WarningName::LeavesGrid, grid::leaves_grid),
     (WarningName::SmallStrain, error_floor::small_strain),
     (WarningName::SinglePrecision, error_floor::single_precision),
@@ -80,4 +79,159 @@ pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     }
     findings.extend(preflight.unused_acknowledgements(&used));
     findings
+}
+
+/// Warns of a step in which a wave, or a particle, crosses more than a cell, or in which heat does
+/// not flow stably, and notes one that is the same on every level of a study of space.
+pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    found.extend(too_long(preflight));
+    found.extend(too_long_for_heat(preflight));
+    found.extend(fixed(preflight));
+    found
+}
+
+/// A rule is a share of the stable time step.
+fn too_long(preflight: &Preflight<'_>) -> Option<Diagnostic> {
+    let plan = preflight.plan;
+    let moves = plan.cases.iter().any(|case| matches!(case.method, Method::Mpm { .. }));
+    if let Some(share) = plan.refine.rule {
+        let message = format!("the time step is {share} times the stable time step");
+        let found = preflight.finding(Severity::Warning, &steps(preflight), &message);
+        return (share > 1.0).then(|| found.with_label("expected a share of at most 1"));
+    }
+    if !moves {
+        return None;
+    }
+    let waves = plan.scene.fastest_wave();
+    let speed = preflight.extremes.as_ref().map_or(0.0, |motion| motion.speed);
+    let courant = |level: &LevelPlan| level.dt * (waves + speed) / level.h;
+    let level = preflight.levels().iter().find(|level| courant(level) > 1.0)?;
+    let (cells, courant) = (level.cells, courant(level));
+    let message = format!(
+        "with {cells} cells the time step is {courant:.2} times what a wave takes to cross a cell"
+    );
+    let found = preflight.finding(Severity::Warning, &steps(preflight), &message);
+    let help = "`dt: {courant: 0.5}` takes half of the stable time step on every level";
+    Some(found.with_label("expected a stable step").with_help(help))
+}
+
+/// Forward Euler on lumped linear elements is stable up to h^2 rho c/(2 k) (Hughes 2000, section
+/// 8.2).
+fn too_long_for_heat(preflight: &Preflight<'_>) -> Option<Diagnostic> {
+    let scene = &preflight.plan.scene;
+    let heat = scene.heat()?;
+    let diffusivity = heat.conductivity / (scene.density.largest() * heat.capacity);
+    let limit = |level: &LevelPlan| 0.5 * level.h * level.h / diffusivity;
+    let level = preflight.levels().iter().find(|level| level.dt > limit(level))?;
+    let (cells, limit, times) = (level.cells, limit(level), level.dt / limit(level));
+    let message = format!(
+        "with {cells} cells the time step is {times:.2} times the stable one of heat, {limit:.2e} s"
+    );
+    let found = preflight.finding(Severity::Warning, &steps(preflight), &message);
+    let help = "steps of heat are stable up to about h^2*density*capacity/(2*conductivity)";
+    Some(found.with_label("expected a stable step").with_help(help))
+}
+
+fn fixed(preflight: &Preflight<'_>) -> Option<Diagnostic> {
+    let refine = &preflight.plan.refine;
+    let levels = preflight.levels();
+    let (first, last) = (levels.first()?, levels.last()?);
+    let same = first.dt.total_cmp(&last.dt).is_eq() && first.h > last.h;
+    if refine.axis != Axis::Space || refine.rule.is_some() || !same {
+        return None;
+    }
+    let case = preflight.of_an_order().find(|case| matches!(case.method, Method::Mpm { .. }))?;
+    let order = in_time(case.method, preflight.plan.exact.as_ref());
+    let message = format!(
+        "the time step is the same on every level: its error, of order {order}, stays while that of \
+         the cells falls"
+    );
+    let found = preflight.finding(Severity::Note, &steps(preflight), &message);
+    Some(found.with_help("a formula of h, or `{courant: 0.5}`, refines both together"))
+}
+
+fn steps(preflight: &Preflight<'_>) -> Path {
+    if preflight.plan.refine.steps.len() > 1 {
+        Path::top("refine").then("dt")
+    } else {
+        Path::top("run").then("dt")
+    }
+}
+
+/// Seconds per particle and step, by dimension, including errors and set-up: fitted to whole runs
+/// of eight suites in the profile of `cargo run`, on one thread. Single suites differ by a factor
+/// of up to three.
+const SECONDS: [f64; 3] = [2.5e-7, 6e-7, 1.8e-6];
+
+/// Time (s) of a case without a prediction.
+pub(crate) const UNKNOWN: f64 = 0.5;
+
+/// Bytes of a particle, and of a node, by dimension.
+const BYTES: [[f64; 2]; 3] = [[100.0, 40.0], [250.0, 70.0], [450.0, 100.0]];
+
+/// Estimate of a whole suite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Particles times steps, over all cases and levels.
+    pub particle_steps: f64,
+    /// Seconds of one thread, to a factor of about three.
+    pub seconds: f64,
+    /// Memory of the largest level (bytes).
+    pub bytes: f64,
+}
+
+/// Cost of the levels of the gate of a convergence study; `None` for other studies.
+pub fn estimate(suite: &Suite) -> Option<Estimate> {
+    suite.plan().map(estimate_of)
+}
+
+/// Cost of each case of a suite; `None` for studies without refinement.
+pub fn estimates(suite: &Suite, extent: Extent) -> Vec<Option<Estimate>> {
+    match suite.plan::<ConvergencePlan>() {
+        Some(plan) => plan.cases.iter().map(|case| Some(of_case(plan, case, extent))).collect(),
+        None => vec![None; suite.case_names().len()],
+    }
+}
+
+/// Cost of the levels of the gate.
+pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
+    let none = Estimate { particle_steps: 0.0, seconds: 0.0, bytes: 0.0 };
+    let cases = plan.cases.iter().map(|case| of_case(plan, case, Extent::Usual));
+    cases.fold(none, |all, case| Estimate {
+        particle_steps: all.particle_steps + case.particle_steps,
+        seconds: all.seconds + case.seconds,
+        bytes: all.bytes.max(case.bytes),
+    })
+}
+
+/// Time (s, one thread) of each unit of progress of a run: its levels, or an estimate for studies
+/// without refinement.
+pub fn unit_seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
+    let Some(plan) = suite.plan::<ConvergencePlan>() else {
+        return vec![UNKNOWN; suite.case_names().len()];
+    };
+    let index = plan.scene.dimension().clamp(1, 3) - 1;
+    let levels = plan.refine.levels(extent);
+    let each = plan.cases.iter().flat_map(|case| levels.iter().map(move |level| (case, level)));
+    each.map(|(case, level)| SECONDS[index] * particle_steps(plan, case, *level)).collect()
+}
+
+/// Particles times steps of a level.
+fn particle_steps(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
+    let steps = case.clock(plan, level.dt).map_or(0, |clock| clock.steps);
+    size::particles(&plan.scene, level) * steps as f64
+}
+
+fn of_case(plan: &ConvergencePlan, case: &Case, extent: Extent) -> Estimate {
+    let scene = &plan.scene;
+    let index = scene.dimension().clamp(1, 3) - 1;
+    let (mut all, mut bytes) = (0.0, 0.0_f64);
+    for level in plan.refine.levels(extent) {
+        let particles = size::particles(scene, *level);
+        all += particle_steps(plan, case, *level);
+        let [particle, node] = BYTES[index];
+        bytes = bytes.max(particle * particles + node * size::nodes(scene, level.h));
+    }
+    Estimate { particle_steps: all, seconds: SECONDS[index] * all, bytes }
 }

@@ -5,7 +5,7 @@ use super::check::{self, load_steps, size, steps, sums};
 use super::expect::any_method;
 use super::run::{self, places, reference, refine};
 use super::scene;
-use super::truth::{self, conduction, conservation_only};
+use super::truth::{self, conduction, refuse_need_of_truth};
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{AcknowledgeSpec, ConvergenceSpec, WarningName};
 use crate::suite::model::ConvergencePlan;
@@ -38,7 +38,7 @@ const CROSS_CHECKS: [CrossCheck; 9] = [
     |suite| truth::refuse_violated(suite.evaluator, suite.spec, suite.plan),
     |suite| check::refuse_law_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| check::refuse_foreign(suite.evaluator, suite.spec, &suite.plan.scene, suite.latest),
-    |suite| conservation_only::refuse_need_of_truth(suite.evaluator, suite.spec, suite.plan),
+    |suite| refuse_need_of_truth(suite.evaluator, suite.spec, suite.plan),
     |suite| check::refuse_quantity_unknown_to_fem(suite.evaluator, suite.spec, suite.plan),
     |suite| size::refuse_unfit_levels(suite.evaluator, suite.spec, suite.plan, &suite.levels),
     |suite| steps::refuse_unusable(suite.evaluator, suite.plan, &suite.levels),

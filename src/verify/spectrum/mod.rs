@@ -15,4 +15,4 @@ mod wave;
 pub use expectation::SpectrumExpectation;
 pub use recurrence::Recurrence;
 pub use study::{SpectrumRow, SpectrumStudy, WaveFigures};
-pub use wave::{AMPLITUDE, MeasuredWave, PERIODS, run_wave, steps_of_run};
+pub use wave::{AMPLITUDE, MeasuredWave, ObservedWave, PERIODS, run_wave, steps_of_run};

@@ -38,17 +38,27 @@ pub fn steps_of_run(cells: f64, courant: f64, log_kept: Option<f64>) -> u64 {
     until.min(whole).max(FEWEST_STEPS) as u64
 }
 
-/// Runs `subject` for `steps` steps of length `dt` (s), and fits the recurrence of the sums
-/// `sum v sin(k X)` over its points, with the wave number `k = 2 pi/length` and X from `from` (m).
-/// The state at the start is not part of the series: it need not be a state after a step.
+/// A wave in a periodic row, and the steps in which it is observed.
+#[derive(Debug, Clone, Copy)]
+pub struct ObservedWave {
+    /// Start of the row (m), where the wave is zero.
+    pub from: f64,
+    /// Wavelength (m).
+    pub length: f64,
+    /// Length of a step (s).
+    pub dt: f64,
+    /// Number of steps.
+    pub steps: u64,
+}
+
+/// Runs `subject` and fits the recurrence of the sums `sum v sin(k X)` over its points, with the
+/// wave number `k = 2 pi/length` and X from the start of the row. The state at the start is not
+/// part of the series: it need not be a state after a step.
 ///
 /// # Errors
 /// One line with the step that failed.
-pub fn run_wave(
-    subject: &mut dyn Subject,
-    (dt, steps): (f64, u64),
-    (from, length): (f64, f64),
-) -> Result<MeasuredWave, String> {
+pub fn run_wave(subject: &mut dyn Subject, wave: ObservedWave) -> Result<MeasuredWave, String> {
+    let ObservedWave { from, length, dt, steps } = wave;
     let (mut samples, mut weights) = (Samples::default(), Vec::new());
     let mut series = Vec::new();
     for step in 1..=steps {
@@ -100,10 +110,11 @@ mod tests {
     #[test]
     fn the_velocity_of_the_wave_gives_the_recurrence() {
         let mut subject = Scripted { velocity: [1.0, 0.9], step: 0 };
-        let found = run_wave(&mut subject, (1.0, 40), (2.0, 4.0)).unwrap();
+        let wave = ObservedWave { from: 2.0, length: 4.0, dt: 1.0, steps: 40 };
+        let found = run_wave(&mut subject, wave).unwrap();
         assert_relative_eq!(found.trace, 1.8, epsilon = 1e-12);
         assert_relative_eq!(found.determinant, 0.9, epsilon = 1e-12);
-        let failure = run_wave(&mut subject, (1.0, 100), (2.0, 4.0)).unwrap_err();
+        let failure = run_wave(&mut subject, ObservedWave { steps: 100, ..wave }).unwrap_err();
         assert_eq!(failure, "the solver stopped (step 60)");
     }
 

@@ -11,7 +11,6 @@
 //! | [`outcome`](StabilityStudy) | the rows of a report |
 
 mod amplification;
-mod checkerboard;
 mod expectation;
 mod limit;
 mod outcome;

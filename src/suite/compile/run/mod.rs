@@ -9,7 +9,7 @@ use crate::mpm::{
     FrameName, MassName, combine, combine_across, combine_bodies, combine_precision, combine_volume,
 };
 use crate::suite::compile::expect::expectations;
-use crate::suite::compile::truth::{conservation_only, law_of_bar};
+use crate::suite::compile::truth::{is_truthless, law_of_bar};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec, RunSpec};
 use crate::suite::model::method::Method;
@@ -152,7 +152,7 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
         plan.reference.as_ref().map(|_| (Against::Reference, "-vs-reference")),
         plan.same_method.map(|same| (Against::SameMethod(same), same.suffix())),
     ];
-    let nothing = conservation_only::is_truthless(plan).then_some((Against::Nothing, ""));
+    let nothing = is_truthless(plan).then_some((Against::Nothing, ""));
     truths.into_iter().flatten().chain(nothing).collect()
 }
 

@@ -3,16 +3,15 @@
 //! A body is compared with its equilibrium at the end of the run.
 
 pub(crate) mod conduction;
-pub(crate) mod conservation_only;
 mod interface;
 pub(crate) mod tolerance;
 
-use crate::exact::{Equation, Face, Motion, Problem, Survey};
+use crate::exact::{Equation, Face, Motion, Problem, Survey, Truth};
 use crate::fem::BarLaw;
 use crate::mpm::MaterialPlan;
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time};
-use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec};
-use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
+use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec, ExpectSpec};
+use crate::suite::model::{ConvergencePlan, SameMethod, Scene, SceneFace};
 use crate::suite::scene::load::{EffectName, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use conduction::ConductionInputs;
@@ -357,6 +356,60 @@ fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnos
         let message = format!("the set `{set}` is driven, and the body comes to rest");
         let at = scene_path.then("sets").then(set);
         return Err(evaluator.diagnostic_at_key(&at, &message));
+    }
+    Ok(())
+}
+
+/// Placeholder for a suite without exact solution: only conserved sums are judged.
+pub(crate) struct Unknown;
+
+impl Truth for Unknown {
+    fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {
+        into.fill(f64::NAN);
+    }
+
+    fn velocity(&self, _: &[f64], _: f64, into: &mut [f64]) {
+        into.fill(f64::NAN);
+    }
+}
+
+/// Whether a suite has no exact solution and no reference.
+pub(crate) fn is_truthless(plan: &ConvergencePlan) -> bool {
+    !plan.has_formulas() && plan.reference.is_none() && !is_truth(plan.same_method)
+}
+
+/// Whether the same method can be the only reference of a suite. With shorter steps it only
+/// measures the error of the time step, and needs an exact solution in addition.
+pub(crate) fn is_truth(same_method: Option<SameMethod>) -> bool {
+    matches!(same_method, Some(SameMethod::FineGrid(_)))
+}
+
+/// Refuses a suite without exact solution or reference that uses a key which needs one.
+pub(crate) fn refuse_need_of_truth(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    plan: &ConvergencePlan,
+) -> Result<(), Diagnostic> {
+    if !is_truthless(plan) {
+        return Ok(());
+    }
+    let asked = |spec: &ExpectSpec| {
+        let ExpectSpec { order, verdict, finest_pair, floor, drift, energy_rate, .. } = spec;
+        let judged = order.is_some() || verdict.is_some() || finest_pair.is_some();
+        let kept = drift.is_some() || energy_rate.is_some();
+        judged || floor.is_some() || !spec.bounds().is_empty() || !kept
+    };
+    let full = |spec: &ExpectSpec| spec.full.as_deref().is_some_and(asked);
+    if spec.expect.iter().any(|spec| asked(spec) || full(spec)) {
+        let message = "no truth: a convergence study needs `exact`, `manufactured`, `equilibrium` or \
+                       `reference`";
+        let diagnostic = evaluator.diagnostic_at_key(&Path::top("suite"), message);
+        return Err(diagnostic
+            .with_help("without one, expectations may bound a `drift` or an `energy_rate` only"));
+    }
+    if spec.observe.is_some() {
+        let message = "a place is observed against a truth, and the suite has none";
+        return Err(evaluator.diagnostic_at_key(&Path::top("observe"), message));
     }
     Ok(())
 }
