@@ -1,4 +1,5 @@
-"""Kratos' MPM application: linear functions on a mesh of squares or cubes, explicit in time.
+"""Kratos' MPM application: linear functions on a mesh of squares or cubes, explicit in time, or in
+quasi-static load steps (`--scheme static`).
 
 Each particle is created from a separate small element, at its centre. Walls are constrained nodes,
 along any axis.
@@ -39,7 +40,7 @@ class Kratos:
         self.capabilities = {
             "dimensions": [2, 3], "laws": laws(["linear_elastic", "neo_hookean"], any_law),
             "conditions": ["free", "fixed", "roller"], "loads": ["gravity", "body_force"],
-            "manufactured": True}
+            "manufactured": True, "load_steps": scheme == "static"}
 
     def setup(self, problem: Problem) -> None:
         self.problem, self.d = problem, problem.dimension
@@ -62,6 +63,8 @@ class Kratos:
 
     def settings(self) -> Km.Parameters:
         """Parameters of the solver."""
+        if self.scheme == "static":
+            return self.static_settings()
         central = self.scheme == "central_difference"
         settings = Km.Parameters("""{"solver_type": "dynamic", "time_integration_method": "explicit",
             "analysis_type": "linear", "model_part_name": "MPM_Material",
@@ -76,6 +79,23 @@ class Kratos:
         settings["element_search_settings"]["searching_tolerance"].SetDouble(self.search)
         settings.AddString("scheme_type", "central_difference" if central else "forward_euler")
         settings.AddString("stress_update", "usf" if central else self.scheme)
+        return settings
+
+    def static_settings(self) -> Km.Parameters:
+        """Parameters of Newton's method with a direct solver. A load step is a unit of time."""
+        settings = Km.Parameters("""{"solver_type": "static", "analysis_type": "non_linear",
+            "model_part_name": "MPM_Material",
+            "grid_model_import_settings": {"input_type": "use_input_model_part"},
+            "model_import_settings": {"input_type": "use_input_model_part"},
+            "time_stepping": {"time_step": 1.0}, "convergence_criterion": "residual_criterion",
+            "residual_relative_tolerance": 1e-12, "residual_absolute_tolerance": 1e-12,
+            "max_iteration": 50,
+            "linear_solver_settings": {"solver_type": "skyline_lu_factorization"},
+            "element_search_settings": {"search_algorithm_type": "bin_based",
+                "max_number_of_results": 1000, "searching_tolerance": 1e-5,
+                "remove_entities_not_found": true}}""")
+        settings.AddInt("domain_size", self.d)
+        settings["element_search_settings"]["searching_tolerance"].SetDouble(self.search)
         return settings
 
     def add_grid(self, part: Km.ModelPart) -> None:
@@ -139,12 +159,18 @@ class Kratos:
         has_force = self.problem.message["body_force"] != "none"
         for step in range(steps):
             if has_force:
-                self.give(Mpm.MP_VOLUME_ACCELERATION, self.problem.body_force(time + step * dt))
+                self.give(Mpm.MP_VOLUME_ACCELERATION, self.load(time + step * dt))
             self.time = self.solver.AdvanceInTime(self.time)
             self.solver.InitializeSolutionStep()
             self.solver.Predict()
             self.solver.SolveSolutionStep()
             self.solver.FinalizeSolutionStep()
+
+    def load(self, time: float) -> Array:
+        """Body force per mass: at a time, or its share in the next load step."""
+        if self.scheme != "static":
+            return self.problem.body_force(time)
+        return self.problem.body_force(0.0) * (self.time + 1) / self.problem.message["load_steps"]
 
     def state(self) -> Message:
         return {"displacement": self.take(Mpm.MP_COORD) - self.problem.reference_position,
@@ -153,7 +179,7 @@ class Kratos:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
-    schemes = ["usf", "usl", "musl", "central_difference"]
+    schemes = ["usf", "usl", "musl", "central_difference", "static"]
     parser.add_argument("--scheme", choices=schemes, default="usl")
     parser.add_argument("--search", type=float, default=1e-5, help="how far beyond the faces of a "
                         "cell a particle still counts as inside; Kratos' default is 1e-5")
