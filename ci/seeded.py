@@ -57,7 +57,9 @@ def digest(*parts):
 
 
 def suite_names():
-    return sorted(path.stem for path in (ROOT / "verification").glob("*/*.yaml"))
+    """Suites that the built-in solvers run: a suite for external solvers only has no snapshot."""
+    files = (ROOT / "verification").glob("*/*.yaml")
+    return sorted(path.stem for path in files if path.with_suffix(".snap").is_file())
 
 
 def suite_file(suite, root):

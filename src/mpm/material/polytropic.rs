@@ -133,7 +133,8 @@ mod tests {
     fn each_particle_has_the_pressure_of_its_own_density() {
         let (mut gas, mut row) = (Polytropic::new(3.0, 2.0), row());
         gas.start_deformed(&mut row).unwrap();
-        let pressure = |row: &Particles<1>| -> Vec<f64> { row.sigma.iter().map(|s| -s[0]).collect() };
+        let pressure =
+            |row: &Particles<1>| -> Vec<f64> { row.sigma.iter().map(|s| -s[0]).collect() };
         assert_eq!(pressure(&row), [0.75, 12.0, 0.0]);
         assert_relative_eq!(Material::energy(&gas, &row).unwrap(), 12.75, max_relative = 1e-15);
         row.grad_v.fill(Matrix::<1>::new(1.0));

@@ -23,11 +23,10 @@ mod register;
 use super::algebra::{Vector, array};
 use fearless_simd::{Level, Select, SimdBase, SimdFloat, SimdMask};
 use register::{Array, Pair};
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 pub(in crate::mpm) use register::{F64x4, LANES, Plain, Register};
 use std::ops::Range;
-use std::sync::LazyLock;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+use std::sync::LazyLock;
 
 /// Loop over registers. All functions that it calls must be `#[inline(always)]`: other functions
 /// are compiled for the baseline processor.
