@@ -8,11 +8,11 @@
 //! in a closed cycle of deformation is not zero, so that there is no energy.
 
 use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
-use super::linear_elastic::LinearElastic;
-use super::spectral::{MatrixBatch, assembled_batch, spectral_batch};
+use super::linear_elastic::{LinearElastic, logarithm};
+use super::spectral::{MatrixBatch, VectorBatch, assembled, spectral_batch};
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::foundation::algebra::{Matrix, det};
-use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, product};
+use crate::mpm::foundation::simd::{BATCH, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Memory};
 
 /// Isotropic linear elasticity with the rate of Green and Naghdi.
@@ -28,13 +28,13 @@ pub struct GreenNaghdi {
 struct Unrotated {
     /// `R^T tau R` (Pa).
     stress: Matrix<3>,
-    /// `U`.
-    stretch: Matrix<3>,
+    /// `U^-1`.
+    inverse_stretch: Matrix<3>,
 }
 
 impl Default for Unrotated {
     fn default() -> Self {
-        Self { stress: Matrix::zeros(), stretch: Matrix::identity() }
+        Self { stress: Matrix::zeros(), inverse_stretch: Matrix::identity() }
     }
 }
 
@@ -46,9 +46,9 @@ impl Entry for Unrotated {
 
 impl Memory for Unrotated {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self { stress, stretch } = self;
+        let Self { stress, inverse_stretch } = self;
         checkpoint.visit(stress);
-        checkpoint.visit(stretch);
+        checkpoint.visit(inverse_stretch);
     }
 }
 
@@ -58,80 +58,25 @@ impl GreenNaghdi {
         Self { elasticity: LinearElastic::new(young, poisson), states: Vec::new() }
     }
 
-    /// Updates the states of a batch of particles after a step to `def_grad`, and returns the
-    /// Kirchhoff stresses (Pa).
-    #[inline(always)]
-    fn step<const D: usize>(
+    /// The state after a step to F, whose right stretch has these `squares` along `axes`, and the
+    /// Kirchhoff stress (Pa).
+    fn after<const D: usize>(
         &self,
-        states: &mut [Unrotated],
-        def_grad: &[Matrix<D>],
-    ) -> MatrixBatch<D> {
-        let mut f = MatrixBatch::identity();
-        let (mut before, mut stress) = (f, f);
-        for (lane, (state, def_grad)) in states.iter().zip(def_grad).enumerate() {
-            f.set(lane, def_grad);
-            before.set(lane, &in_plane(&state.stretch));
-            stress.set(lane, &in_plane(&state.stress));
-        }
-        let (squares, axes) = spectral_batch(f.transposed().product(&f));
-        let stretch = assembled_batch(&squares.map(|all| map(all, f64::sqrt)), &axes);
-        let inverse = assembled_batch(&squares.map(|all| map(all, |x| 1.0 / x.sqrt())), &axes);
-        let strain = strain(&before, &stretch);
-        let LinearElastic { lambda, mu } = self.elasticity;
-        stress = stress.zip(&strain, |stress, strain| stress + 2.0 * mu * strain);
-        stress.add_to_diagonal(&map(&strain.traces(), |trace| lambda * trace));
-        for (lane, state) in states.iter_mut().enumerate() {
-            state.stress = in_space(&stress.get(lane));
-            state.stretch = in_space(&stretch.get(lane));
-        }
-        let rotation = f.product(&inverse);
-        rotation.product(&stress).product(&rotation.transposed())
+        before: &Unrotated,
+        f: &Matrix<D>,
+        (squares, axes): (Vector<D>, Matrix<D>),
+    ) -> (Unrotated, Matrix<D>) {
+        let stretch = assembled(&squares.map(f64::sqrt), &axes);
+        let inverse_stretch = assembled(&squares.map(|square| 1.0 / square.sqrt()), &axes);
+        let log = logarithm(&product(&stretch, &in_plane(&before.inverse_stretch)));
+        let strain = (log + log.transpose()) * 0.5;
+        let stress = in_plane(&before.stress) + self.elasticity.increment(&strain);
+        let turn = product(f, &inverse_stretch);
+        let tau = product(&product(&turn, &stress), &turn.transpose());
+        let after =
+            Unrotated { stress: in_space(&stress), inverse_stretch: in_space(&inverse_stretch) };
+        (after, tau)
     }
-}
-
-/// `f` of every number.
-#[inline(always)]
-fn map(numbers: &F64Batch, f: impl Fn(f64) -> f64) -> F64Batch {
-    let mut all = *numbers;
-    for lane in 0..BATCH {
-        all.0[lane] = f(all.0[lane]);
-    }
-    all
-}
-
-/// Maximum number of terms of a logarithm: enough for a stretch of 1/100 or 100 in one step.
-const MOST_TERMS: u32 = 2000;
-
-/// `sym(ln(U' U^-1)) = 2 sym(artanh(Z))`, `Z = (U' - U)(U' + U)^-1` (Higham 2008, eq. 11.5), from U
-/// before and U' after a step; NaN if the series does not converge. A particle whose series has
-/// converged takes no further term, so that its bits do not depend on the batch.
-#[inline(always)]
-fn strain<const D: usize>(before: &MatrixBatch<D>, after: &MatrixBatch<D>) -> MatrixBatch<D> {
-    let difference = after.zip(before, |after, before| after - before);
-    let sum = after.zip(before, |after, before| after + before);
-    // U and U' are symmetric: Z^T = (U' + U)^-1 (U' - U).
-    let z = difference.solved_by(sum).transposed();
-    let square = z.product(&z);
-    let (mut series, mut power) = (z, z);
-    let mut is_open = F64Batch([1.0; BATCH]);
-    for k in 1..MOST_TERMS {
-        power = power.product(&square);
-        let divisor = f64::from(2 * k + 1);
-        let term = power.map_lanes(|lane, x| if is_open.0[lane] > 0.0 { x / divisor } else { 0.0 });
-        series = series.zip(&term, |series, term| series + term);
-        let (last, all) = (term.norms_squared(), series.norms_squared());
-        let mut open = 0.0;
-        for lane in 0..BATCH {
-            let is_settled = last.0[lane] <= (0.01 * f64::EPSILON * f64::EPSILON) * all.0[lane];
-            is_open.0[lane] = if is_settled { 0.0 } else { is_open.0[lane] };
-            open += is_open.0[lane];
-        }
-        if open == 0.0 {
-            break;
-        }
-    }
-    let series = series.map_lanes(|lane, x| if is_open.0[lane] > 0.0 { f64::NAN } else { x });
-    series.zip(&series.transposed(), |entry, mirrored| entry + mirrored)
 }
 
 /// The part of a tensor along the axes of a scene in D dimensions.
@@ -142,6 +87,20 @@ fn in_plane<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
 /// A tensor with zeros along the axes that a scene in D dimensions has not.
 fn in_space<const D: usize>(m: &Matrix<D>) -> Matrix<3> {
     Matrix::from_fn(|i, j| if i < D && j < D { m[(i, j)] } else { 0.0 })
+}
+
+/// The right stretch of a batch of particles: its squares and their axes.
+fn stretch<const D: usize>(def_grad: &[Matrix<D>]) -> (VectorBatch<D>, MatrixBatch<D>) {
+    vectorized(
+        #[inline(always)]
+        || {
+            let mut squares = MatrixBatch::identity();
+            for (lane, f) in def_grad.iter().enumerate() {
+                squares.set(lane, &product(&f.transpose(), f));
+            }
+            spectral_batch(squares)
+        },
+    )
 }
 
 impl MaterialProperties for GreenNaghdi {
@@ -183,15 +142,15 @@ impl<const D: usize> Material<D> for GreenNaghdi {
             let volumes = vol.chunks_mut(BATCH).zip(vol0.chunks(BATCH));
             let results = volumes.zip(sigma.chunks_mut(BATCH));
             for ((def_grad, states), ((vol, vol0), sigma)) in columns.zip(results) {
-                let tau = vectorized(
-                    #[inline(always)]
-                    || self.step(states, def_grad),
-                );
-                let results = vol.iter_mut().zip(vol0).zip(sigma).zip(def_grad);
-                for (lane, (((vol, vol0), sigma), f)) in results.enumerate() {
+                let (squares, axes) = stretch(def_grad);
+                let results = vol.iter_mut().zip(vol0).zip(sigma);
+                let particles = def_grad.iter().zip(states).zip(results).enumerate();
+                for (lane, ((f, state), ((vol, vol0), sigma))) in particles {
+                    let (after, tau) = self.after(state, f, (squares.get(lane), axes.get(lane)));
                     let j = det(f);
+                    *state = after;
                     *vol = j * vol0;
-                    *sigma = tau.get(lane) / j;
+                    *sigma = tau / j;
                 }
             }
         });
@@ -216,33 +175,5 @@ impl super::contract::ClosedForms for GreenNaghdi {
 
     fn energy_density(&self, _: &Matrix<3>) -> Option<f64> {
         None
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Right stretches near and far from the identity, so that the series end at different terms.
-    fn stretches() -> impl Iterator<Item = Matrix<3>> {
-        (0..BATCH).map(|lane| {
-            let size = libm::exp2(-(lane as f64));
-            let m = Matrix::<3>::new(0.3, -0.2, 0.1, -0.2, 0.5, 0.05, 0.1, 0.05, -0.4);
-            Matrix::identity() + m * size
-        })
-    }
-
-    #[test]
-    fn bits_of_a_particle_do_not_depend_on_its_batch() {
-        let before = MatrixBatch::<3>::identity();
-        let mut together = before;
-        stretches().enumerate().for_each(|(lane, u)| together.set(lane, &u));
-        let strains = strain(&before, &together);
-        for (lane, u) in stretches().enumerate() {
-            let mut alone = before;
-            alone.set(BATCH - 1 - lane, &u);
-            let alone = strain(&before, &alone).get(BATCH - 1 - lane);
-            assert_eq!(strains.get(lane), alone, "particle {lane}");
-        }
     }
 }

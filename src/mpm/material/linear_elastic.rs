@@ -63,7 +63,7 @@ const MOST_TERMS: u32 = 2000;
 
 /// `ln F = 2 artanh(Z)`, `Z = (F - I)(F + I)^-1` (Higham 2008, eq. 11.5); NaN if the series does
 /// not converge: for stretches below 1/100 or above 100, and rotations by 90 degrees.
-fn logarithm<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
+pub(super) fn logarithm<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
     let nothing = Matrix::from_element(f64::NAN);
     let Some(inverse) = (f + Matrix::identity()).try_inverse() else { return nothing };
     let z = (f - Matrix::identity()) * inverse;
