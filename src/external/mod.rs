@@ -71,8 +71,9 @@ pub trait SolverFactory: Sync {
     /// particles, or its own sample points.
     ///
     /// # Errors
-    /// [`SubjectError::Unsupported`] if the solver refuses the problem; the case is then not
-    /// applicable. A solver with an error returns a subject whose first step fails.
+    /// [`SubjectError::Unsupported`] if the solver refuses the problem. A case with an error is not
+    /// applicable. A solver that breaks returns a subject whose first step fails, and the case
+    /// fails.
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError>;
 
     /// The value of a functional after all steps of `problem`, and its gradient. The default is

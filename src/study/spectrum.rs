@@ -1,6 +1,7 @@
 //! One case of a spectrum study: a run for each wave.
 
 use crate::external::{ProblemNeeds, SolverFactory};
+use crate::report::columns::distinct;
 use crate::study::describe::statement::{Rows, push, scene};
 use crate::study::handover::{HandedRun, of_scene, problem, start, unloaded};
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, Study};
@@ -24,20 +25,20 @@ use std::sync::Arc;
 const ONE_PERCENT: f64 = 0.01;
 
 /// The needs of a run.
-pub(super) fn needs(plan: &SpectrumPlan) -> ProblemNeeds {
+fn needs(plan: &SpectrumPlan) -> ProblemNeeds {
     of_scene(&plan.scene)
 }
 
 /// One case of a study.
-pub(super) struct WaveRun<'a> {
-    pub(super) plan: &'a SpectrumPlan,
-    pub(super) case: &'a SpectrumCase,
-    pub(super) context: RunContext<'a>,
+struct WaveRun<'a> {
+    plan: &'a SpectrumPlan,
+    case: &'a SpectrumCase,
+    context: RunContext<'a>,
 }
 
 impl WaveRun<'_> {
     /// Cells per wavelength for a phase error of 1 % at the Courant number of each wave.
-    pub(super) fn cells_for_one_percent(&self) -> Vec<Option<f64>> {
+    fn cells_for_one_percent(&self) -> Vec<Option<f64>> {
         let mut known: Vec<(f64, Option<f64>)> = Vec::new();
         let of = |wave: &Wave| {
             let same = known.iter().find(|(courant, _)| *courant == wave.courant);
@@ -54,7 +55,7 @@ impl WaveRun<'_> {
     }
 
     /// The row of one wave.
-    pub(super) fn row(&self, wave: &Wave, cells_for_one_percent: Option<f64>) -> SpectrumRow {
+    fn row(&self, wave: &Wave, cells_for_one_percent: Option<f64>) -> SpectrumRow {
         let (cells, courant) = (wave.cells, wave.courant);
         let predicted = self.case.curve.map(|curve| {
             let step = curve.step(TAU / cells);
@@ -138,7 +139,7 @@ impl WaveRun<'_> {
     }
 
     /// The run of a wave, for output as files.
-    pub(super) fn shown(&self, wave: &Wave) -> Result<ShownRun<'static>, SubjectError> {
+    fn shown(&self, wave: &Wave) -> Result<ShownRun<'static>, SubjectError> {
         let steps = self.steps(wave);
         Ok(ShownRun {
             name: format!("{} cells, C = {}", wave.cells, wave.courant),
@@ -151,7 +152,7 @@ impl WaveRun<'_> {
 }
 
 /// Capabilities that the study of `plan` requires and `solver` does not have.
-pub(super) fn lacking(plan: &SpectrumPlan, solver: &dyn SolverFactory) -> Vec<String> {
+fn lacking(plan: &SpectrumPlan, solver: &dyn SolverFactory) -> Vec<String> {
     let mut lacks = solver.lacks(&needs(plan));
     if solver.precision() == Precision::Single {
         lacks.push("double precision".to_owned());
@@ -263,24 +264,16 @@ fn outcome(described: CaseOutcome, case: &SpectrumCase, rows: Vec<SpectrumRow>) 
 fn rows(plan: &SpectrumPlan) -> Rows {
     let mut rows = Rows::new();
     scene(&plan.scene, &mut rows);
-    let list = |values: Vec<f64>| {
-        let mut texts: Vec<String> = Vec::new();
-        for text in values.into_iter().map(shown) {
-            if !texts.contains(&text) {
-                texts.push(text);
-            }
-        }
-        texts.join(", ")
-    };
+    let list = |of: fn(&Wave) -> f64| distinct(plan.waves.iter().map(|w| shown(of(w)))).join(", ");
     let shift = match plan.shift {
         0.0 => String::new(),
         shift => format!(", shifted by {} m", shown(shift)),
     };
     push(&mut rows, "cells", &format!("{} of size {} m", plan.cells, shown(plan.h)));
     push(&mut rows, "particles", &format!("{} per cell{shift}", plan.ppc));
-    let lengths = list(plan.waves.iter().map(|wave| wave.cells).collect());
+    let lengths = list(|wave| wave.cells);
     push(&mut rows, "wavelengths", &format!("{lengths} cells"));
-    let courants = list(plan.waves.iter().map(|wave| wave.courant).collect());
+    let courants = list(|wave| wave.courant);
     push(&mut rows, "dt", &format!("C h/c with C = {courants}"));
     push(&mut rows, "start", &format!("standing wave with a velocity of {AMPLITUDE:e} c"));
     push(

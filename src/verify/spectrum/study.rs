@@ -83,7 +83,7 @@ impl SpectrumStudy {
         let kept = measured().map(WaveFigures::kept).fold(f64::INFINITY, f64::min);
         let (count, failed) = (self.rows.len(), self.rows.len() - measured().count());
         if failed == count {
-            return format!("no figure of {count} waves: the runs failed");
+            return format!("no results: the runs of all {count} waves failed");
         }
         let failed = if failed == 0 { String::new() } else { format!(", {failed} runs failed") };
         format!(
