@@ -9,7 +9,7 @@
 use super::check::event::Event;
 use super::condition::{Face, FacePoint};
 use super::formula::Formula;
-use super::motion::{Derivatives, variables};
+use super::motion::{Derivatives, Places, variables};
 use super::problem::Problem;
 use super::violation::Violation;
 use crate::subject::PlaneState;
@@ -105,30 +105,46 @@ struct Line<'a> {
     elements: usize,
     /// Length of an element (m).
     h: f64,
+    /// Reference positions of the nodes (m).
+    labels: Vec<Vec<f64>>,
+    /// The motion at the nodes.
+    motion: Box<dyn Places>,
 }
 
-impl Line<'_> {
-    fn label(&self, node: usize) -> Vec<f64> {
-        let Problem { from, to, .. } = self.problem;
-        let mut label: Vec<f64> = from.iter().zip(to).map(|(a, b)| 0.5 * (a + b)).collect();
-        label[self.axis] = from[self.axis] + self.h * node as f64;
-        label
+impl<'a> Line<'a> {
+    fn new(problem: &'a Problem, axis: usize, elements: usize) -> Self {
+        let Problem { from, to, .. } = problem;
+        let h = (to[axis] - from[axis]) / elements as f64;
+        let label = |node: usize| {
+            let mut label: Vec<f64> = from.iter().zip(to).map(|(a, b)| 0.5 * (a + b)).collect();
+            label[axis] = from[axis] + h * node as f64;
+            label
+        };
+        let labels: Vec<Vec<f64>> = (0..=elements).map(label).collect();
+        let motion = problem.motion.at_places(labels.iter().map(Vec::as_slice));
+        Self { problem, axis, elements, h, labels, motion }
     }
 
-    /// Residual force (N/m3) at a node.
-    fn residual(&self, node: usize, t: f64) -> f64 {
-        let (problem, label, i) = (self.problem, self.label(node), self.axis);
-        let now = problem.derivatives(&label, t);
-        let force = problem.force(&label, problem.loaded(t), &now)[i];
-        problem.divergence(&label, t, &now)[i]
-            + problem.density.at(&label) * (force - now.acceleration[i])
+    /// Writes the motion at a node, at the present time.
+    fn at_node(&mut self, node: usize, now: &mut Derivatives) {
+        self.motion.derivatives(node, now);
+        self.problem.complete(&self.labels[node], now);
     }
 
-    fn demand(&self, high: bool, t: f64) -> Demand {
+    /// Residual force (N/m3) at a node, where `now` is the motion at the time `t`.
+    fn residual(&self, node: usize, t: f64, now: &Derivatives) -> f64 {
+        let (problem, label, i) = (self.problem, &self.labels[node], self.axis);
+        let force = problem.force(label, problem.loaded(t), now)[i];
+        problem.divergence(label, t, now)[i]
+            + problem.density.at(label) * (force - now.acceleration[i])
+    }
+
+    /// Requirement at an end of the line, where `now` is the motion at the time `t`.
+    fn demand(&self, high: bool, t: f64, now: Derivatives) -> Demand {
         let face = |face: &&Face| face.axis == self.axis && face.high == high;
         let Some(face) = self.problem.faces.iter().find(face) else { return Demand::Other };
-        let event = Event { label: self.label(if high { self.elements } else { 0 }), t };
-        let now = self.problem.derivatives(&event.label, t);
+        let label = self.labels[if high { self.elements } else { 0 }].clone();
+        let event = Event { label, t };
         let demand = Cell::new(Demand::Other);
         let point = DemandPoint { problem: self.problem, face, event, now, demand };
         if face.condition.check(&point).is_err() {
@@ -138,14 +154,20 @@ impl Line<'_> {
     }
 
     /// Nodal forces (Pa) of the residual at a time, and whether both ends are held.
-    fn forces(&self, t: f64) -> Option<(Vec<f64>, [bool; 2])> {
+    fn forces(&mut self, t: f64) -> Option<(Vec<f64>, [bool; 2])> {
         let last = self.elements;
         let weight = |node: usize| if node == 0 || node == last { 0.5 } else { 1.0 };
-        let mut forces: Vec<f64> =
-            (0..=last).map(|node| weight(node) * self.h * self.residual(node, t)).collect();
+        self.motion.set_time(t);
+        let mut now = Derivatives::default();
+        let mut forces = Vec::with_capacity(last + 1);
+        for node in 0..=last {
+            self.at_node(node, &mut now);
+            forces.push(weight(node) * self.h * self.residual(node, t, &now));
+        }
         let mut held = [false; 2];
         for (end, node) in [0, last].into_iter().enumerate() {
-            match self.demand(end == 1, t) {
+            self.at_node(node, &mut now);
+            match self.demand(end == 1, t, now) {
                 Demand::Held => held[end] = true,
                 Demand::Traction(traction) => forces[node] += traction,
                 Demand::Other => return None,
@@ -155,7 +177,7 @@ impl Line<'_> {
     }
 
     /// The correction (m) of a state of rest: equilibrium of the nodal forces.
-    fn at_rest(&self, t: f64) -> Option<Vec<f64>> {
+    fn at_rest(&mut self, t: f64) -> Option<Vec<f64>> {
         let (forces, held) = self.forces(t)?;
         // Without the reaction at the low end, the force in an element is minus the sum of the
         // nodal forces below it.
@@ -181,13 +203,14 @@ impl Line<'_> {
     }
 
     /// The correction at the time `until`, from a start with zero correction.
-    fn in_motion(&self, until: f64, steps: usize) -> Option<FirstCorrection> {
+    fn in_motion(&mut self, until: f64, steps: usize) -> Option<FirstCorrection> {
         let (problem, last) = (self.problem, self.elements);
         let (dt, stiffness) = (until / steps as f64, problem.modulus() / self.h);
         let mass = |node: usize| {
             let share = if node == 0 || node == last { 0.5 } else { 1.0 };
-            share * self.h * problem.density.at(&self.label(node))
+            share * self.h * problem.density.at(&self.labels[node])
         };
+        let masses: Vec<f64> = (0..=last).map(mass).collect();
         let (mut d, mut v) = (vec![0.0; last + 1], vec![0.0; last + 1]);
         let mut largest = 0.0_f64;
         for step in 0..steps {
@@ -204,7 +227,7 @@ impl Line<'_> {
             let share = if step == 0 { 0.5 } else { 1.0 };
             for node in 0..=last {
                 let is_held = (node == 0 && held[0]) || (node == last && held[1]);
-                let kick = share * dt * (forces[node] / mass(node) - damping * v[node]);
+                let kick = share * dt * (forces[node] / masses[node] - damping * v[node]);
                 v[node] = if is_held { 0.0 } else { v[node] + kick };
                 d[node] += dt * v[node];
             }
@@ -247,7 +270,7 @@ impl Problem {
         if !(elements * steps <= 10.0 * EVALUATIONS) && !self.at_rest {
             return None;
         }
-        let line = Line { problem: self, axis, elements: elements as usize, h: length / elements };
+        let mut line = Line::new(self, axis, elements as usize);
         let correction = if self.at_rest {
             let at_end = root_mean_square(&line.at_rest(self.until)?);
             FirstCorrection { at_end, largest: at_end }

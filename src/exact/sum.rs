@@ -142,14 +142,14 @@ impl BodySum {
             (0..=TIMES).map(|k| problem.until * (k as f64 / TIMES as f64)).collect()
         };
         let mut sum = Self { sites: sites(&bodies, region, 1), bodies, density, size: f64::NAN };
-        let mut coarse: Vec<ValueAndSize> = times.iter().map(|t| sum.with_size(*t)).collect();
+        let mut coarse = sum.with_sizes(&times);
         for refinement in 1_u32.. {
             let sites = sites(&sum.bodies, region, 1 << refinement);
             if sites.len() > MOST_POINTS {
                 break;
             }
             sum.sites = sites;
-            let fine: Vec<ValueAndSize> = times.iter().map(|t| sum.with_size(*t)).collect();
+            let fine = sum.with_sizes(&times);
             sum.size = fine.iter().map(|(_, size)| *size).fold(0.0, f64::max);
             if sum.size == 0.0 {
                 return Err(SumError::Zero);
@@ -172,22 +172,33 @@ impl BodySum {
 
     /// The sum at time `t` (s); components beyond the dimension are zero.
     pub fn at(&self, t: f64) -> [f64; 3] {
-        self.with_size(t).0
+        self.with_sizes(&[t])[0].0
     }
 
-    fn with_size(&self, t: f64) -> ValueAndSize {
-        let mut sum = ([0.0; 3], 0.0);
-        for SumSite { body, face, label, weight } in &self.sites {
-            let problem = &self.bodies[*body];
-            let now = problem.derivatives(label, t);
-            let face = face.map(|face| &problem.faces[face]);
-            let (value, size) = (self.density)(&SumPoint { problem, face, label, t, now });
-            for (sum, value) in sum.0.iter_mut().zip(value) {
-                *sum += weight * value;
+    /// The sum and its size at each of `times` (s). Terms that do not depend on time are computed
+    /// once for all of them.
+    fn with_sizes(&self, times: &[f64]) -> Vec<ValueAndSize> {
+        let mut sums = vec![([0.0; 3], 0.0); times.len()];
+        for sites in self.sites.chunk_by(|a, b| a.body == b.body) {
+            let problem = &self.bodies[sites[0].body];
+            let mut motion = problem.motion.at_places(sites.iter().map(|site| &site.label[..]));
+            for (sum, t) in sums.iter_mut().zip(times) {
+                motion.set_time(*t);
+                for (place, SumSite { face, label, weight, .. }) in sites.iter().enumerate() {
+                    let mut now = Derivatives::default();
+                    motion.derivatives(place, &mut now);
+                    problem.complete(label, &mut now);
+                    let face = face.map(|face| &problem.faces[face]);
+                    let point = SumPoint { problem, face, label, t: *t, now };
+                    let (value, size) = (self.density)(&point);
+                    for (sum, value) in sum.0.iter_mut().zip(value) {
+                        *sum += weight * value;
+                    }
+                    sum.1 += weight * size;
+                }
             }
-            sum.1 += weight * size;
         }
-        sum
+        sums
     }
 }
 
