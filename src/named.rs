@@ -1,4 +1,4 @@
-//! Choices that a suite makes by name.
+//! Enums for choices by name in suites.
 
 /// Declares an enum whose members have the same spelling in YAML, reports and messages.
 ///

@@ -9,7 +9,7 @@ const LONGEST: usize = 64;
 /// Letters per allowed typing error.
 const LETTERS: usize = 3;
 
-/// The nearest of the `known` names, if it is close enough; the first one of a tie.
+/// The nearest of the `known` names, if close enough; the first name in a tie.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     by_nearness(name, known).into_iter().next().filter(|known| is_near(name, known))
 }

@@ -9,7 +9,8 @@ use std::fmt::Write;
 /// VTK number of the cell type "vertex": a cell that is a point.
 const VERTEX: u8 = 1;
 
-/// Tensor rank of a field entry. In one dimension the number of components does not determine it.
+/// Tensor rank of a field entry. In one dimension the number of components does not determine the
+/// rank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TensorRank {
     Scalar,
@@ -69,8 +70,8 @@ pub(crate) fn grid(
     file.written("ImageData", &place)
 }
 
-/// A time series: for each file the time (s), the part (one for each body and one for its grid) and
-/// the path relative to the series file.
+/// A time series. Each entry has a time (s), a part (one for each body and one for its grid) and
+/// the file path relative to the series file.
 pub(crate) fn series(files: &[(f64, usize, String)]) -> String {
     let mut xml = head("Collection", "");
     for (t, part, file) in files {

@@ -219,7 +219,7 @@ impl Bar {
         }
     }
 
-    /// Counts one visit of each node of an element from each of its quadrature points.
+    /// Counts one visit for each pair of a node and a quadrature point in an element.
     fn count_visits(&mut self) {
         self.transfers += (self.def_grad.len() * self.mesh.element().nodes()) as u64;
     }
@@ -313,10 +313,10 @@ fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
 /// An element of degree k interpolates `u` with an error that, to leading order, is the same
 /// polynomial everywhere: `(1 - xi^2) u''` if linear, `xi (1 - xi^2) u'''` if quadratic. At the
 /// zeros of this polynomial (the nodes, including the midside node) only the error of the nodal
-/// values remains, which may be of a higher order. At `xi = 1/4` and `3/4` the linear polynomial
-/// has the values 0.94 and 0.44 (maximum 1), and the quadratic one 0.23 and 0.33 (maximum 0.38).
-/// None of these places is therefore superconvergent. They also differ from the points
-/// `+-1/sqrt(3)`, where the *strain* of a quadratic element is superconvergent.
+/// values remains. This error may be of a higher order. At `xi = 1/4` and `3/4` the linear
+/// polynomial has the values 0.94 and 0.44 (maximum 1), and the quadratic one 0.23 and 0.33
+/// (maximum 0.38). None of these places is therefore superconvergent. They also differ from the
+/// points `+-1/sqrt(3)`, where the *strain* of a quadratic element is superconvergent.
 const PLACES: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
 impl Bar {

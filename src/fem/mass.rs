@@ -88,8 +88,8 @@ fn product(mesh: &Mesh, a: usize, b: usize) -> f64 {
     mesh.points().iter().map(|point| point.weight * (point.shape[a] * point.shape[b])).sum()
 }
 
-/// The matrix of the free nodes. The row and column of a fixed node become those of the identity,
-/// which preserves the numbering and keeps the matrix positive definite.
+/// The matrix of the free nodes. For a fixed node, the row and column of the identity matrix are
+/// inserted. This preserves the numbering and keeps the matrix positive definite.
 fn held(matrix: &CooMatrix<f64>, fixed: [bool; 2]) -> CooMatrix<f64> {
     let size = matrix.nrows();
     let is_fixed = |i: usize| (fixed[0] && i == 0) || (fixed[1] && i + 1 == size);

@@ -96,7 +96,7 @@ impl Mesh {
         self.from + (self.to - self.from) * (cell as f64 + place) / self.cells as f64
     }
 
-    /// Index of the first node of a cell. The other nodes follow it.
+    /// Index of the first node of a cell, followed by its other nodes.
     #[inline]
     pub(super) fn first_node(&self, cell: usize) -> usize {
         cell * self.element.degree()

@@ -1,5 +1,5 @@
-//! Set-up of a bar and its validation, and the laws of the bar in uniaxial strain, `P(F)`. The laws
-//! are implemented independently of those of MPM and of the exact solutions.
+//! Set-up of a bar and its validation, and the laws of the bar in uniaxial strain, `P(F)`. Their
+//! implementation is independent of the laws of MPM and of the exact solutions.
 
 use super::Element;
 use crate::named::named;

@@ -76,7 +76,7 @@ struct MassEntries {
     pairs: Vec<(usize, usize)>,
     /// Mass of each entry (kg).
     masses: Vec<f64>,
-    /// Whether the pairs differ from those of the previous step.
+    /// Whether the pairs have changed since the previous step.
     have_moved: bool,
 }
 
@@ -161,8 +161,8 @@ impl Factor {
         Ok(Self { row, rows, assembly, values, cholesky })
     }
 
-    /// Refactors the matrix for other masses with the same pattern. Operations and bits are
-    /// identical to those of a new factorisation.
+    /// Refactors the matrix for other masses with the same pattern. The result is bit-identical to
+    /// a new factorisation.
     fn refactored(mut self, entries: &MassEntries) -> Result<Self, CholeskyError> {
         self.assembly.add_up(&entries.masses, &mut self.values);
         self.cholesky.refactor(&self.values).map(|()| self)
@@ -236,7 +236,7 @@ impl Assembly {
     /// without a place are ignored.
     ///
     /// The entries of a place are added in the order of an unstable but deterministic sort.
-    /// `nalgebra_sparse` uses the same order for a `CooMatrix`, so the bits agree.
+    /// `nalgebra_sparse` uses the same order for a `CooMatrix`, so the sums are bit-identical.
     fn new(size: usize, places: impl Iterator<Item = Option<(usize, usize)>>) -> Self {
         let mut columns = vec![Vec::new(); size];
         let mut row = Vec::new();

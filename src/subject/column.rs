@@ -1,5 +1,5 @@
-//! Columns of the state of a subject (their size in memory and their numbers), and the cost of a
-//! step: its passes, the particles that they visit, and the columns.
+//! Columns of the state of a subject, with their size in memory and their numbers. The cost of a
+//! step: its passes, the visited particles and the columns.
 
 /// Owner of the entries of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

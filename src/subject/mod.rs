@@ -50,8 +50,8 @@ pub trait Subject {
         None
     }
 
-    /// Reaction of all fixed walls, or of one face (axis of the normal, and whether it is the high
-    /// end). `None` by default, and before the first step.
+    /// Reaction of all fixed walls, or of one face. A face is given by the axis of its normal and
+    /// whether it is at the high end. `None` by default, and before the first step.
     fn reaction(&self, _face: Option<(usize, bool)>) -> Option<Reaction> {
         None
     }
@@ -65,7 +65,8 @@ pub trait Subject {
 
     /// Kinetic energy (J) of the part of the velocities that the discretisation does not resolve:
     /// for particles, the part in the null space of the map to the grid. The computation may cost
-    /// as much as tens of steps and runs only if a report needs it; `None` by default.
+    /// as much as tens of steps, so callers request this energy only for reports. `None` by
+    /// default.
     fn null_space_energy(&self) -> Option<f64> {
         None
     }

@@ -22,9 +22,9 @@ const UNTIL: f64 = 0.5;
 const DT: f64 = 2e-5;
 
 /// The order is k + 1 inside the elements and 2k at the nodes. Lumping does not reduce the order of
-/// the quadratic element: it is the quadrature at the Lobatto points, which integrates the mass to
-/// degree 2k - 1. This is sufficient for the order 2k of the frequencies (Fried & Malkus, *Int. J.
-/// Solids Struct.* 11, 1975).
+/// the quadratic element. Lumping is equivalent to quadrature at the Lobatto points, which
+/// integrates the mass to degree 2k - 1. This degree is sufficient for the order 2k of the
+/// frequencies (Fried & Malkus, *Int. J. Solids Struct.* 11, 1975).
 #[rstest]
 #[case(Linear, Lumped, Inside, 2.0)]
 #[case(Linear, Consistent, Inside, 2.0)]
@@ -137,7 +137,7 @@ fn energy(bar: &Bar) -> f64 {
     0.5 * (kinetic + stretched.sum::<f64>() * 100.0 / h)
 }
 
-/// A symplectic step keeps the energy near its initial value, after 100 periods as after one.
+/// With a symplectic step the energy error is as small after 100 periods as after one.
 #[rstest]
 fn energy_stays_bounded(#[values(Start::AtZero, Start::HalfStepBack)] start: Start) {
     let mut bar = Bar::new(BarSetup { start, ..vibrating_bar(16, Linear, Lumped) }).unwrap();

@@ -235,8 +235,8 @@ impl WaveMethod {
     }
 
     /// Number of cells per wavelength above which the phase error stays below `tolerance`. A wave
-    /// without a phase counts as outside the tolerance. `None` if the error of waves of 1e4 cells
-    /// is not below the tolerance, or if all waves of two cells or more are within it.
+    /// without a phase counts as outside the tolerance. `None` if the error is not below the
+    /// tolerance at 1e4 cells, or if it is below the tolerance for all waves of two cells or more.
     pub fn cells_for_phase_error(&self, courant: f64, tolerance: f64) -> Option<f64> {
         let is_within = |cells: f64| {
             let error = self.step(TAU / cells).phase_error(courant);

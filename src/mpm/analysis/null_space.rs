@@ -17,12 +17,14 @@ use crate::mpm::step::solver::Solver;
 /// Energy of the residual that counts as rounding, as a share of the initial energy.
 const ROUNDING: f64 = 1e-26;
 
-/// Maximum number of iterations. A mode that PIC multiplies by l needs about `1/sqrt(l)` of them.
+/// Maximum number of iterations. A mode that PIC multiplies by l needs about `1/sqrt(l)`
+/// iterations.
 const MOST: usize = 200;
 
 impl<const D: usize> Solver<D> {
     /// Kinetic energy (J) of the null-space part of the particle velocities, at the current
-    /// positions. Walls have no influence: they fix nodes, and this part has no effect on nodes.
+    /// positions. Walls have no influence, because they fix nodes, and this part has no effect on
+    /// nodes.
     pub fn null_space_energy(&self) -> f64 {
         0.5 * square(&self.setup.particles, &self.null_space_velocity())
     }

@@ -2,13 +2,13 @@
 //!
 //! Nodal velocities strain the particles, the stresses give forces, and the forces accelerate the
 //! nodes. This operator, `L = M^-1 K`, is applied by running the stages of a step on a small
-//! velocity. Power iteration gives its largest eigenvalue, the square of the highest frequency.
-//! Under USL an explicit step is stable up to `dt^2 L = 4/((2 - a) l)`, where a, between 0 and 1,
-//! is the share of a velocity that the particles return to the grid. So `dt = sqrt(2/L)` is stable
-//! for every mode. Under USF and MUSL the strain comes from grid velocities that were mapped to
-//! particles and back: `L = P N M^-1 K` with the maps N to particles and P to nodes. This operator
-//! stays bounded where a node has little mass. The analysis needs no assumption about basis, mass
-//! matrix, particle positions or law, because it runs the passes of the solver.
+//! velocity. Power iteration gives the largest eigenvalue of L, the square of the highest
+//! frequency. Under USL an explicit step is stable up to `dt^2 L = 4/((2 - a) l)`, where a, between
+//! 0 and 1, is the share of a velocity that the particles return to the grid. So `dt = sqrt(2/L)`
+//! is stable for every mode. Under USF and MUSL the strain comes from grid velocities that were
+//! mapped to particles and back. With the maps N to particles and P to nodes, `L = P N M^-1 K`.
+//! This operator stays bounded if a node has little mass. The analysis needs no assumption about
+//! basis, mass matrix, particle positions or law, because it runs the passes of the solver.
 //!
 //! A load that depends on the displacement adds a stiffness k per unit mass to each particle. The
 //! maps to nodes and back are averages, so the load increases the square of a frequency by at most
@@ -166,8 +166,8 @@ impl<const D: usize> Solver<D> {
     }
 }
 
-/// Whether velocities are mapped to particles and back before they strain them. For affine fields
-/// and series the loss in this mapping is neglected.
+/// Whether velocities are mapped to particles and back before they strain the particles. For affine
+/// fields and series the loss in this mapping is neglected.
 fn strains_by_mapped_velocity(scheme: SchemeName, kind: TransferKind) -> bool {
     scheme != SchemeName::Usl && kind == TransferKind::Velocity
 }

@@ -42,7 +42,7 @@ fn mean(knots: &[f64]) -> f64 {
 /// Maximum number of knots around a cell: twice the largest degree.
 const MOST_KNOTS: usize = 6;
 
-/// The 2p knots around a cell of an axis with walls for degree `p`: p knots up to the low side of
+/// The 2p knots around a cell for degree `p`, on an axis with walls: p knots up to the low side of
 /// the cell, and p knots from its high side. The rest of the array is not used.
 fn knots_around(cell: usize, p: usize, cells: usize) -> [f64; MOST_KNOTS] {
     array(0.0, |k| knot(cell + 1 + k, p, cells, false))
@@ -123,7 +123,7 @@ fn uniform_cells(degree: usize, cells: f64, periodic: bool) -> (f64, f64) {
     if periodic { (0.0, cells) } else { (degree as f64 - 1.0, cells - degree as f64 + 1.0) }
 }
 
-/// Functions along an axis where knots may be repeated.
+/// Functions along an axis near walls, where knots may be repeated.
 #[cold]
 #[inline(never)]
 fn along_wall<const D: usize, const K: usize>(
@@ -165,7 +165,8 @@ fn put_right<const D: usize, const K: usize>(
     }
 }
 
-/// Values, slopes (per cell) and offsets from the particle (in cells) where knots may be repeated.
+/// Values, slopes (per cell) and offsets from the particle (in cells) near walls, where knots may
+/// be repeated.
 fn at_wall<const K: usize>(cells: usize, cell: usize, xi: f64) -> [[f64; K]; 3] {
     let (p, s) = (K - 1, cell as f64 + xi);
     let around = knots_around(cell, p, cells);

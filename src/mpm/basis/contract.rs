@@ -60,8 +60,9 @@ pub trait Basis: Sized + Sync + Send + 'static {
     fn abscissa(index: usize, cells: usize, periodic: bool) -> f64;
 
     /// Calls `visit` for every patch of particle `p`. A node may be in several patches: its weight
-    /// and gradient are then sums. A particle outside the grid has no patch, and the solver reports
-    /// it when it moves particles. Must be `#[inline(always)]`, because it is part of the hot loop.
+    /// and gradient are then sums. A particle outside the grid has no patch; the solver reports
+    /// such particles when it moves them. Must be `#[inline(always)]`, because this function is
+    /// part of the hot loop.
     fn patches<const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
@@ -71,8 +72,8 @@ pub trait Basis: Sized + Sync + Send + 'static {
 
     /// Stores the patches of the four particles of `lanes`. Returns a mask with bit k for particle
     /// `lanes.particle + k`. A bit is set if the particle has a single patch, which is then stored.
-    /// For other particles, use [`Basis::patches`], which gives the same bits. A basis overrides
-    /// this method to compute the weights of four particles at once.
+    /// For other particles, use [`Basis::patches`]; its results are bit-identical. A basis
+    /// overrides this method to compute the weights of four particles at once.
     #[inline(always)]
     fn patches_x4<S: Simd, const D: usize>(
         _width: S,
@@ -179,8 +180,8 @@ pub trait PatchBatch<const D: usize>: Debug {
     fn compute_row_weights<S: Simd>(&mut self, simd: S, lanes: &Range<usize>);
 
     /// Computes offsets `x_i - x_p - mean` (m) and the inverse of the inertia tensor (1/m^2), for
-    /// cells of size `h` (m). Without `mean`, the mean over the nodes of each patch is used; the
-    /// patch must then be the only one of its particle.
+    /// cells of size `h` (m). Without `mean`, the mean over the nodes of each patch is used; its
+    /// particle must then have no other patch.
     fn compute_offsets<S: Simd>(
         &mut self,
         simd: S,

@@ -223,7 +223,7 @@ impl<S: Simd> Domain1dSimd<S> {
     }
 
     /// Functions of domains that end before the third node. The branches of [`integral`] and
-    /// [`hat`] are known there, and the results have the same bits.
+    /// [`hat`] are known there, and the results are bit-identical.
     #[inline(always)]
     pub(in crate::mpm) fn along(&self, simd: S, h: f64, inverse_h: f64) -> WeightsSimd<S, AT_ONCE> {
         let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
@@ -325,7 +325,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Both code paths give the functions of a short domain with the same bits.
+        /// For a short domain, both code paths give bit-identical functions.
         #[test]
         fn a_short_domain_has_the_functions_of_any(
             at in 0.0..=5.0_f64,

@@ -45,8 +45,8 @@ pub trait Boundary<const D: usize>: Send {
     fn hold_acceleration(&self, acceleration: &mut [Vector<D>], advance: &Advance);
 
     /// Imposes a condition on velocities (m/s) and accelerations (m/s2) together. The velocities
-    /// before the advance already satisfy it. Velocities are mapped by then only if a condition
-    /// reads them.
+    /// before the advance already satisfy the condition. Velocities have been mapped only if a
+    /// condition reads them.
     fn hold_advance(
         &mut self,
         _velocity: &mut [Vector<D>],

@@ -4,9 +4,10 @@
 //! would enter the wall (or, for a node already in contact, press on it), it stays on the wall,
 //! `v . n = a . n = 0`, as with a roller. The required impulse, `I = m |v* . n|`, limits the
 //! friction. If an impulse of at most `mu I` stops the tangential part of `v*`, the node sticks,
-//! `v = a = 0`, as on a fixed wall. Otherwise it slides, and its acceleration is reduced by the
-//! impulse `mu I` against `v*`. If the wall would have to pull, the node is free. (Bardenhagen,
-//! Brackbill & Sulsky 2000, CMAME 187, section 3, with a fixed wall as the other body.)
+//! `v = a = 0`, as on a fixed wall. Otherwise the node slides, and the impulse `mu I` against `v*`
+//! is subtracted from its acceleration. If the wall would have to pull, the node is free.
+//! (Bardenhagen, Brackbill & Sulsky 2000, CMAME 187, section 3, with a fixed wall as the other
+//! body.)
 //!
 //! Nodes store their contact state between two advances. This state is applied to velocities mapped
 //! in between. The same contact state is used for two bodies at a node.

@@ -35,8 +35,8 @@ impl<const D: usize> Prescribed<D> {
 }
 
 /// `value` at `x` and `t` (s). Before the start the formula may be undefined and is not evaluated.
-/// It is extrapolated through its value at the start, `v(-t) = 2 v(0) - v(t)`, which is exact for a
-/// constant acceleration.
+/// The velocity is extrapolated through its value at the start, `v(-t) = 2 v(0) - v(t)`, which is
+/// exact for a constant acceleration.
 pub(in crate::mpm) fn continued<const D: usize>(
     value: &VelocityField<D>,
     x: &Vector<D>,

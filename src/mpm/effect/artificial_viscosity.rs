@@ -108,7 +108,7 @@ mod tests {
         }
     }
 
-    /// A body that only expands has the same bits as without viscosity.
+    /// For a body that only expands, viscosity changes no bit.
     #[test]
     fn expansion_is_free() {
         let block = Block { from: Vector::zeros(), to: Vector::<1>::new(1.0), density: 3.0 };

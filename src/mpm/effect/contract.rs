@@ -49,8 +49,8 @@ pub trait Effect<const D: usize>: Send {
         0
     }
 
-    /// Whether [`Effect::modify_force`] reads the grid velocities. Only then do schemes map them
-    /// before the forces.
+    /// Whether [`Effect::modify_force`] reads the grid velocities. Schemes map velocities before
+    /// forces only in this case.
     fn reads_grid_velocity(&self) -> bool {
         false
     }
@@ -63,7 +63,7 @@ pub trait Effect<const D: usize>: Send {
     /// (s). Called after G2P of velocities, and at the start of a run with `dt` = 0.
     fn modify_velocity(&self, _t: f64, _dt: f64, _particles: &mut Particles<D>) {}
 
-    /// Modifies the positions of particles after the grid has moved them over `dt` (s).
+    /// Modifies the particle positions after the grid has moved the particles over `dt` (s).
     fn modify_position(&mut self, _dt: f64, _particles: &mut Particles<D>) {}
 
     /// Completes the initial state of the particles, after their columns have been created.

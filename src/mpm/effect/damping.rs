@@ -5,10 +5,10 @@
 //!
 //! A force `-alpha m_i v_i` on the nodes would not damp the null-space part of the particle
 //! velocities, which FLIP retains. Damping of particles is stable for every alpha, dt, scheme and
-//! transfer. Strain and positions follow in the same step with MUSL and in the next step with USF
-//! and USL, so the damping is of first order in time. The damping has no effect on a body at rest.
-//! An affine state (APIC) is not scaled, because it comes from grid velocities that were mapped
-//! from damped velocities.
+//! transfer. The damping affects strain and positions in the same step with MUSL, and in the next
+//! step with USF and USL. It is therefore of first order in time. The damping has no effect on a
+//! body at rest. An affine state (APIC) is not scaled, because it comes from grid velocities that
+//! were mapped from damped velocities.
 
 use super::contract::Effect;
 use crate::mpm::foundation::particles::Particles;

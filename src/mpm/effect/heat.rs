@@ -12,8 +12,8 @@
 //! ```
 //!
 //! The published scheme maps only T_p. Row sums then give the mean over a function. At a wall this
-//! mean differs from the wall value: with linear functions the slope at the wall is a third too
-//! small, and the method is not of second order at a face with heat flux. With `g_p`, the slope of
+//! mean differs from the wall value. With linear functions the slope at the wall is a third too
+//! small, and the error at a face with heat flux is not of second order. With `g_p`, the slope of
 //! the previous step (as in TPIC), the map reproduces a linear field up to the wall.
 //!
 //! The method is of second order in space and of first order in time. The sum of `Q_i` is the heat

@@ -1,10 +1,10 @@
 //! The rim of a round two-dimensional body, divided into facets that carry a surface force.
 //!
-//! The particles at a rim form a staircase, so they do not have equal shares of the surface as on a
-//! face of a box. The circle is divided into arcs about half a spacing long. The force on an arc
-//! acts on the nearest particle, together with its moment: if linear fields are reproduced, the sum
-//! of `f_i (x) x_i` for a particle and its arc is `f (x) x_s`. The area vectors are exact, so a
-//! uniform pressure has no resultant.
+//! The particles at a rim form a staircase, so their shares of the surface are not equal, unlike on
+//! a face of a box. The circle is divided into arcs about half a spacing long. The force on an arc
+//! acts on the nearest particle, together with its moment. If linear fields are reproduced, the sum
+//! of `f_i (x) x_i` is then `f (x) x_s`, as for a force at the middle x_s of the arc. The area
+//! vectors are exact, so a uniform pressure has no resultant.
 
 use super::surface::put_at_surface;
 use crate::mpm::foundation::algebra::{Vector, cofactor};

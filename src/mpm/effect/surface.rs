@@ -5,8 +5,8 @@
 //! grid in one of two ways ([`Placement`]):
 //!
 //! - at the particle, `f_i += f N_i(x_p)`, half a spacing inside, as in the original MPM. The sum
-//!   of the forces is exact, but not their moment: the moment arm of forces along the face is s/2
-//!   too short, which causes a bending error of order h in the whole body;
+//!   of the forces is exact, but their moment is not. The moment arm of forces along the face is
+//!   s/2 too short, which causes a bending error of order h in the whole body;
 //! - at the surface, `f_i += f N_i(x_p) + (f (x) d) grad N_i(x_p)`, `d = F s/2 N`: the weights of
 //!   the surface point, extrapolated linearly from the particle. Sum and moment are exact,
 //!   `sum_i f_i (x) x_i = f (x) (x_p + d)`, if the basis reproduces linear fields. The exact
@@ -14,8 +14,8 @@
 //!   without mass.
 //!
 //! On a face of a mapped box, the layer contains the particles whose domains end on the face. The
-//! middles of the outer domain faces lie on the face of the body ([`Particles::fill_mapped`]), even
-//! if the rows of particles meet the face at an angle.
+//! middles of these domain ends are on the face of the body ([`Particles::fill_mapped`]), even if
+//! the particle rows meet the face at an angle.
 
 use crate::mpm::boundary::Side;
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
@@ -118,9 +118,9 @@ impl Surface {
         if particles.across.is_empty() { 1.0 } else { self.continued(&particles.across, p) }
     }
 
-    /// Value of a column at the surface above particle `p`, extrapolated linearly from the particle
-    /// and the one below it. The value of the particle itself belongs to a point half a spacing
-    /// away.
+    /// Value of a column at the surface above particle `p`, extrapolated linearly from this
+    /// particle and the particle below it. The value of the particle itself belongs to a point half
+    /// a spacing away.
     fn continued<T>(&self, column: &[T], p: usize) -> T
     where
         T: Copy + Mul<f64, Output = T> + Sub<Output = T>,

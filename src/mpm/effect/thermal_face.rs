@@ -1,10 +1,10 @@
 //! Thermal condition on a face of the grid: temperature, heat flux or heat transfer.
 //!
-//! The functions of every basis of this crate conform to the walls of the grid: along the normal,
-//! one function is 1 at the wall, and all others are 0. The wall nodes therefore have the
-//! temperature of the face. The face share of node i is `sum_p A_p N_i` over the layer of particles
-//! at the face, evaluated along the face only. Heat enters at the face. If heat entered at the
-//! particles half a spacing inside, the error would be of first order.
+//! Every basis of this crate conforms to the walls of the grid: along the normal, one function is 1
+//! at the wall, and all others are 0. The wall nodes therefore have the temperature of the face.
+//! The face share of node i is `sum_p A_p N_i` over the layer of particles at the face, evaluated
+//! along the face only. Heat enters at the face. If heat entered at the particles half a spacing
+//! inside, the error would be of first order.
 //!
 //! Areas are taken in the reference configuration, as for tractions. The face must stay at the end
 //! of the grid.

@@ -84,8 +84,8 @@ impl<const D: usize> Block<D> {
 
 impl<const D: usize> Particles<D> {
     /// Fills `block` with equally spaced particles, each at the centre of its part, at rest and
-    /// free of stress. The number of particles per cell of size `h` on each axis is as close to
-    /// `per_axis` as the length of the body allows; it is exact if the body is a whole number of
+    /// free of stress. Along each axis, the number of particles per cell of size `h` is as close to
+    /// `per_axis` as the body length allows. The number is exact if the body is a whole number of
     /// cells long.
     pub fn fill(block: &Block<D>, h: f64, per_axis: usize) -> Self {
         Self::fill_where(block, h, per_axis, |_| true)

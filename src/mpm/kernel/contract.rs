@@ -2,7 +2,7 @@
 //!
 //! [`Kernel`] is object-safe: there is one virtual call per pass, none per particle. Each pass
 //! recomputes the weights of a particle. Parts for the same particles and nodes therefore share one
-//! pass, and each part has the same bits as in a separate pass.
+//! pass, and each part is bit-identical to the result of a separate pass.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::foundation::algebra::{Matrix, Vector};
@@ -193,7 +193,7 @@ pub trait Scalars<const D: usize> {
 
 /// Gradient of the velocity field around each particle. `mean_p` is the weighted mean of the node
 /// positions, which is the position of the particle unless a wall truncates its domain. The affine
-/// part is taken about `mean_p`, so it has no momentum.
+/// part is taken about `mean_p`, and therefore has no momentum.
 #[derive(Debug, Clone, Copy)]
 pub enum Affine<'a, const D: usize> {
     /// `C_p` (1/s).
@@ -306,7 +306,7 @@ impl<const D: usize> G2pRequest<'_, D> {
 /// Settings of the particle loops.
 #[derive(Debug, Clone, Copy)]
 pub struct LoopSettings {
-    /// Instruction set of the loops. Results have the same bits for every set.
+    /// Instruction set of the loops. Results are bit-identical for every set.
     pub level: Level,
     /// Minimum number of particles for blocks on several threads; smaller scenes fit the cache.
     /// Sums over blocks have a different rounding order.

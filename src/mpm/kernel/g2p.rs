@@ -142,7 +142,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
         }
     }
 
-    /// Writes the sums of the batch that starts at entry `first` of the columns of the request.
+    /// Writes the sums of a batch to the columns of the request, starting at entry `first`.
     #[inline(always)]
     fn write<S: Simd>(&mut self, first: usize, moments: bool, sums: &G2pSums<S, D>) {
         let request = &mut self.request;

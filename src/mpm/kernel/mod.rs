@@ -16,7 +16,7 @@
 //! ```
 //!
 //! `tests/it/mpm/kernel/textbook.rs` computes the same sums with textbook loops. Sums run over
-//! particles and nodes in a fixed order, so results have the same bits on any processor and for any
+//! particles and nodes in a fixed order, so results are bit-identical on any processor and for any
 //! number of threads.
 //!
 //! The module also contains the P2G and G2P loops for scalars.
@@ -66,7 +66,7 @@ fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSetting
 
 /// Kernel of basis `B`.
 struct Loops<B> {
-    /// Memory reused by all passes; results do not depend on its contents.
+    /// Memory reused by all passes; results do not depend on the old contents.
     workspace: Mutex<Workspace>,
     tally: Tally,
     basis: PhantomData<B>,

@@ -46,7 +46,7 @@ fn flux<S: Simd, const D: usize>(simd: S, particles: &Particles<D>, p: usize) ->
     if !particles.current_position.is_empty() {
         return columns(simd, &-particles.flux(p), force_lane(D));
     }
-    // Without a matrix in memory, whose store would not be forwarded to the loads of its columns.
+    // Avoids a matrix in memory: its store would not be forwarded to the loads of its columns.
     let stress = columns(simd, &particles.sigma[p], force_lane(D));
     array(simd.splat(0.0), |axis| stress[axis] * -particles.vol[p])
 }

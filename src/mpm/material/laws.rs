@@ -76,9 +76,9 @@ fn stress_is_the_derivative_of_the_energy<const D: usize>(plan: MaterialPlan) {
     }
 }
 
-/// The stored energy is the potential of the stress. At rest it equals its closed form (zero for a
-/// solid). It is accurate to second order in small strains, although the test takes a difference of
-/// larger numbers.
+/// The stored energy is the potential of the stress. At rest the energy equals its closed form
+/// (zero for a solid). The energy is accurate to second order in small strains, although the test
+/// takes a difference of larger numbers.
 fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
     let law = plan.closed_forms();
     for (size, tolerance) in [(0.25, 1e-13), (1e-2, 1e-11), (1e-6, 1e-6)] {
@@ -163,7 +163,7 @@ fn a_deformed_start_has_the_stress_of_the_way_there<const D: usize>(plan: Materi
     }
 }
 
-/// The resumed run has the same bits: plastic flow and hardening are in the checkpoint.
+/// The resumed run is bit-identical: plastic flow and hardening are in the checkpoint.
 fn an_interrupted_run_goes_on<const D: usize>(plan: MaterialPlan) {
     let step = |k: i32| scattered::<D>(0.1, f64::from(k));
     for dt in [SLOW, 1.0, FAST] {

@@ -44,8 +44,8 @@ impl LinearElastic {
     }
 }
 
-/// `eps e^eps - e^eps + 1`, the integral of `s e^s`; evaluated as a series where the sum would
-/// cancel.
+/// `eps e^eps - e^eps + 1`, the integral of `s e^s`. For small `eps` the sum would cancel, and a
+/// series is evaluated instead.
 fn logarithmic_work(eps: f64) -> f64 {
     if eps.abs() > 0.05 {
         return eps * libm::exp(eps) - libm::expm1(eps);

@@ -1,7 +1,7 @@
 //! Plates in plane stress: the out-of-plane stretch is determined by sigma_33 = 0.
 //!
 //! The volume of a particle is `V = J V0` with J over all three axes, so the forces in a plate
-//! belong to its current thickness.
+//! account for its current thickness.
 
 use super::contract::Material;
 use super::stress_update::{StressBlock, StressUpdate};

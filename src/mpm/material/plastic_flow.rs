@@ -3,10 +3,10 @@
 //!
 //! The split is `F = Fe Fp`. The Kirchhoff stress is `tau = J sigma = K tr(eps) I + 2 mu dev(eps)`
 //! with the elastic strain `eps = ln(be)/2` (Simo 1992; de Souza Neto, Peric & Owen 2008, chapter
-//! 14). With the exponential map, the return in `eps` has the form of small strain, along the axes
-//! of the trial strain. A yield surface therefore needs only principal values. The plastic flow is
-//! stored as `Cp^-1` in `be = F Cp^-1 F^T`. The trial state is a function of F alone, so a body
-//! that starts deformed needs only its F, and an elastic state does not drift.
+//! 14). With the exponential map, the return in `eps` has the same form as in small strain, along
+//! the axes of the trial strain. A yield surface is therefore a function of principal values. The
+//! plastic flow is stored as `Cp^-1` in `be = F Cp^-1 F^T`. The trial state is a function of F
+//! alone, so a body that starts deformed needs only its F, and an elastic state does not drift.
 //!
 //! Plane and uniaxial strain have out-of-plane elastic strain, so the state is 3-D in any
 //! dimension.

@@ -58,8 +58,7 @@ macro_rules! materials {
                 }
             }
 
-            /// Evaluates every parameter with `number`, which receives its key and suite text, and
-            /// returns the material.
+            /// Evaluates the suite text of every parameter with `number`, and returns the material.
             ///
             /// # Errors
             /// The first error that `number` returns.

@@ -5,8 +5,9 @@
 //! Equal eigenvalues are no special case. The eigenvalues of a positive definite matrix have a
 //! small relative error (Demmel & Veselic 1992), as the logarithm of a small eigenvalue requires.
 //!
-//! The batch version applies the operations of [`spectral`] to all particles of a batch at once. It
-//! has no branches, so the compiler vectorises it. A test checks that the bits are equal.
+//! The batch version applies the operations of [`spectral`] to all particles of a batch at once.
+//! This version has no branches, so the compiler vectorises the loops. A test checks that the bits
+//! are equal.
 
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
@@ -315,7 +316,7 @@ mod tests {
         assert!(spectral(&Matrix::<3>::from_element(f64::NAN)).0.iter().all(|v| v.is_nan()));
     }
 
-    /// Each particle of a batch has the same bits as a single particle.
+    /// The results of a batch are bit-identical to the results of single particles.
     fn hold_batch<const D: usize>(given: &[Matrix<D>; BATCH]) {
         let mut m = MatrixBatch::identity();
         for (lane, given) in given.iter().enumerate() {

@@ -74,7 +74,7 @@ impl<const D: usize> StressResponse<D> {
         if difference.abs() > EQUAL * self.squares[a].max(self.squares[b]) {
             return (self.stresses[a] - self.stresses[b]) / difference;
         }
-        // The error of the mean of both limits is of second order in the difference of the values.
+        // The mean of both limits has an error of second order in the difference of the values.
         let limit = |a, b| (self.modulus[(a, a)] - self.modulus[(a, b)]) / (2.0 * self.squares[a]);
         0.5 * (limit(a, b) + limit(b, a))
     }

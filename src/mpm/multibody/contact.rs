@@ -7,8 +7,8 @@
 //! friction limit. Bodies that separate are not changed.
 //!
 //! The normal is the direction of `grad ln m_a - grad ln m_b`. Bardenhagen et al. use a separate
-//! normal from the mass of each body. Two such normals are not opposite, and neither would be the
-//! impulses along them. With one normal for both bodies, momentum is conserved to rounding, for any
+//! normal from the mass of each body. Two such normals are not opposite, so the impulses would not
+//! be opposite either. With one normal for both bodies, momentum is conserved to rounding, for any
 //! number of bodies, with one pair processed after another. The logarithm is used because the mass
 //! field of a smooth basis oscillates inside a body. At a node near the last particles of one body
 //! and inside the other body, `grad m_a - grad m_b` may have the wrong sign.

@@ -1,5 +1,5 @@
-//! Couplings of bodies at their interface: the interface trait, the nodes to which more than one
-//! body contributes mass, and one velocity field for all bodies.
+//! Couplings of bodies at their interface: the trait, the nodes to which more than one body
+//! contributes mass, and the coupling by one velocity field.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;

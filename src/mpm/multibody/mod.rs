@@ -212,8 +212,8 @@ pub(in crate::mpm) fn joint_profile<const D: usize>(
     all
 }
 
-/// Adds the columns of one body to `all`. A column is added to the column of the same kind. If a
-/// body has several columns of a kind (two walls), they are matched in order.
+/// Adds the columns of one body to `all`. A column is added to the column of the same kind. Several
+/// columns of one kind (two walls) are matched in order.
 fn add_columns(all: &mut Vec<ColumnSize>, body: Vec<ColumnSize>) {
     let kind = |column: &ColumnSize| (column.name, column.holder, column.bytes);
     let known = all.len();

@@ -3,8 +3,8 @@
 //!
 //! The tangent of a quasi-static step is symmetric only for elastic and associated laws, and may be
 //! indefinite, so Cholesky factorisation does not apply. The operations have a fixed order and no
-//! fused products. Results therefore have the same bits on any machine, unlike with a library that
-//! chooses its instructions at run time.
+//! fused products. Results are therefore bit-identical on any machine. A library that chooses its
+//! instructions at run time does not guarantee this.
 
 /// A square matrix with `band` diagonals on either side of the main diagonal.
 #[derive(Debug, Clone)]

@@ -84,8 +84,8 @@ impl<const D: usize> QuasiStatic<D> {
         Ok(Self { setup, advanced, transfers, min_j, cell_tracker, residuals })
     }
 
-    /// Residuals of the iterates of the last load step: the norm over all nodes with unknowns,
-    /// divided by the norm of the load of the step. The first residual belongs to zero increments.
+    /// Residuals of the iterates in the last load step: norms over all nodes with unknowns, divided
+    /// by the norm of the load. The first residual belongs to zero increments.
     pub fn residuals(&self) -> &[f64] {
         &self.residuals
     }

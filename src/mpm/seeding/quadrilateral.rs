@@ -62,8 +62,8 @@ impl Quadrilateral {
         self.corners[(i + 1) % 4] - self.corners[i]
     }
 
-    /// Number of particles along each axis of the map: as close to `per_axis` particles per cell of
-    /// size `h` (m) as the mean length of opposite sides allows, and at least two.
+    /// Number of particles along each axis of the map, at least two. The number per cell of size
+    /// `h` (m) is as close to `per_axis` as the mean length of opposite sides allows.
     pub fn counts(&self, h: f64, per_axis: usize) -> [usize; 2] {
         [0, 1].map(|i| {
             let length = f64::midpoint(self.side(i).norm(), self.side(i + 2).norm());
@@ -143,8 +143,8 @@ mod tests {
             for (x, domain) in particles.x0.iter().zip(&particles.domain0) {
                 prop_assert!(is_inside(&panel, x), "{:?}", x);
                 for axis in 0..2 {
-                    // The middles of the sides of a domain are inside the panel, up to rounding
-                    // where sides meet.
+                    // The middles of domain sides are inside the panel, up to rounding on the
+                    // boundary.
                     let towards = domain.column(axis) * (1.0 - 1e-9);
                     prop_assert!(is_inside(&panel, &(x + towards)));
                     prop_assert!(is_inside(&panel, &(x - towards)));

@@ -125,8 +125,7 @@ impl<const D: usize> Memory for CellTracker<D> {
     }
 }
 
-/// Whether every particle of a batch is between the faces of its previous cell, as usual after a
-/// step.
+/// Whether every particle of a batch is still in its previous cell, which is the usual case.
 #[inline(always)]
 #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch")]
 fn stay<const D: usize>(grid: &Grid<D>, cells: &[[f64; D]], x: &[Vector<D>]) -> bool {

@@ -3,10 +3,10 @@
 //!
 //! The reaction follows from the weak form with the functions of fixed nodes. Without the wall, the
 //! nodal forces would accelerate these nodes (`m_i a_i = f_i` with a lumped mass), so the wall
-//! balances them. The reaction is therefore `-sum f_i` over the fixed components of internal and
-//! external forces. The functions of these nodes are the only ones that do not vanish on the wall,
-//! and their sum there is one. For small cells the reaction therefore converges to the integral of
-//! the traction.
+//! balances these forces. The reaction is therefore `-sum f_i` over the fixed components of
+//! internal and external forces. Only the functions of these nodes are non-zero on the wall, and
+//! their sum there is one. For small cells the reaction therefore converges to the integral of the
+//! traction.
 
 use super::solver::Solver;
 use crate::mpm::boundary::{Boundary, Side};
@@ -29,8 +29,8 @@ impl<const D: usize> Particles<D> {
         totals
     }
 
-    /// Angular momentum of particle p per unit mass, as the matrix with this axial vector: `v x^T`
-    /// for the motion of its centre, plus the moment `own` about the centre.
+    /// Matrix whose axial vector is the angular momentum of particle p per unit mass: `v x^T` for
+    /// the motion of its centre, plus the moment `own` about the centre.
     fn moment(&self, p: usize, own: Option<Matrix<D>>) -> Matrix<D> {
         dyad(&self.v[p], self.position(p)) + own.unwrap_or_else(Matrix::zeros)
     }

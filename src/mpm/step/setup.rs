@@ -26,7 +26,7 @@ pub struct Setup<const D: usize> {
     pub mass: Box<dyn MassMatrix<D>>,
     /// Configuration in which the basis is evaluated.
     pub frame: FrameName,
-    /// Volume ratio at which the law computes its stress.
+    /// Volume ratio for which the law computes the stress.
     pub volume: VolumeName,
     /// The constitutive law.
     pub material: Box<dyn Material<D>>,

@@ -275,7 +275,7 @@ fn matrices<const D: usize>(particles: &Particles<D>) -> impl Iterator<Item = &M
     [&particles.sigma, &particles.def_grad].into_iter().flatten()
 }
 
-/// Affine velocity field of the particles, if the transfer has one.
+/// Affine velocity field of the particles, if the transfer has such a field.
 fn affine<const D: usize>(solver: &Solver<D>) -> Option<Affine<'_, D>> {
     solver.setup.transfer.p2g_request(&solver.setup.particles).momentum?.affine
 }

@@ -15,7 +15,8 @@ pub enum TransferKind {
     Velocity,
     /// Particles have an affine velocity field.
     Field,
-    /// Like [`Field`](Self::Field), but gradients come from its fit instead of the basis.
+    /// Like [`Field`](Self::Field), but gradients come from the fit of the field instead of the
+    /// basis.
     Fit,
     /// A series in the lumped mass matrix.
     Series,
@@ -123,8 +124,8 @@ pub(super) fn p2g<const D: usize>(
 
 /// Performs G2P over `dt` (s) for `stages` in one pass. It computes new velocities, velocity
 /// gradients in `particles.grad_v`, and positions after the step in `advected` (m). Returns the
-/// number of passes of its parts. The pass for positions is excluded, because it is counted when
-/// the particles move.
+/// number of passes for these parts, except the pass for positions, which is counted when the
+/// particles move.
 pub fn g2p<const D: usize>(
     transfer: &mut dyn Transfer<D>,
     kernel: &dyn Kernel<D>,

@@ -1,5 +1,5 @@
 //! The family of transfers of velocity between particles and grid. A member is one file and one
-//! line below. A member with a parameter in suites has a second line.
+//! line below. A member whose parameter is set in suites has a second line.
 
 /// The transfer added by `docs/exercises/transfer.md`.
 #[cfg(test)]

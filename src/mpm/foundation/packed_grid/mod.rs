@@ -15,7 +15,7 @@
 //! ```
 //!
 //! The margin of a periodic axis repeats its first nodes, so that the nodes of a patch always form
-//! a box. The margin of other axes is zero; it may belong to functions with weight zero.
+//! a box. The margin of other axes is zero; functions with weight zero may read it.
 //!
 //! The module also defines the columns of nodes to which packed fields are unpacked.
 

@@ -12,7 +12,7 @@
 //! ```
 //!
 //! Each lane performs the same IEEE operations at every level. Products and sums are fused only
-//! where the source requests it, so results have the same bits on every processor (tested in
+//! where the source requests it, so results are bit-identical on every processor (tested in
 //! `tests/it/mpm/kernel`).
 //!
 //! The module also defines the processor levels with their registers, and columns of one batch of
@@ -38,7 +38,8 @@ pub trait SimdPass: Sized {
     fn run<S: Simd>(self, simd: S);
 }
 
-/// Runs `pass` at `level`. [`Basis::run`](crate::mpm::Basis::run) describes where it is compiled.
+/// Runs `pass` at `level`. [`Basis::run`](crate::mpm::Basis::run) describes where the loop is
+/// compiled.
 #[inline(always)]
 pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -301,7 +302,7 @@ sums!(fearless_simd::f64x8<fearless_simd::x86::Avx512>);
 const ROOT_OF_HALF: u64 = 0x3fe6_a09e << 32;
 const ONE: u64 = 0x3ff0_0000 << 32;
 const MANTISSA: u64 = (1 << 52) - 1;
-/// 2^52, whose last bit counts ones: putting a smaller integer into the mantissa adds it.
+/// 2^52, whose last bit has the value one: an integer put into the mantissa is added.
 const COUNTING: u64 = 0x4330_0000 << 32;
 
 const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;

@@ -9,7 +9,7 @@ pub(in crate::mpm) const LANES: usize = 4;
 
 /// A register of several `f64`.
 pub trait Register: Copy + Add<Output = Self> + AddAssign + Mul<f64, Output = Self> {
-    /// `self + a b`, rounded once (fusedMultiplyAdd of IEEE 754). The result has the same bits on
+    /// `self + a b`, rounded once (fusedMultiplyAdd of IEEE 754). The result is bit-identical on
     /// processors without this instruction.
     fn plus_product(self, a: Self, b: f64) -> Self;
 }

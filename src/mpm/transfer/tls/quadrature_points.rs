@@ -1,5 +1,5 @@
 //! Quadrature points: the Gauss points of full cells, and the particles in cells at the rim of the
-//! body, where no polynomial may extend beyond the body.
+//! body. In rim cells a polynomial would extend beyond the body.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
