@@ -1,8 +1,8 @@
-//! The dimension ladder: a number of space dimensions becomes a constant that types can carry.
+//! The dimension ladder: turns a number of space dimensions into a constant that types can use.
 
-/// Evaluates `$work` with the constant `$D` for `$dimension`, which is 1, 2 or 3 (anything above
-/// counts as 3): `with_dimension!(scene.dimension(), D => solve::<D>(scene))`. What is built over
-/// time as well takes `{ D + 1 }`.
+/// Evaluates `$work` with the constant `$D` for `$dimension`, which is 1, 2 or 3 (larger values
+/// count as 3): `with_dimension!(scene.dimension(), D => solve::<D>(scene))`. Space-time code uses
+/// `{ D + 1 }`.
 macro_rules! with_dimension {
     ($dimension:expr, $D:ident => $work:expr) => {
         match $dimension {
@@ -23,8 +23,8 @@ macro_rules! with_dimension {
 }
 pub(crate) use with_dimension;
 
-/// Declares the trait `$every` of all types that have `$contract<D>` in every dimension: an object
-/// of it can be built in any of them.
+/// Declares the trait `$every` of all types that implement `$contract<D>` in every dimension. An
+/// object of this trait converts to any of these dimensions.
 macro_rules! in_every_dimension {
     ($(#[$meta:meta])* $every:ident: $contract:ident) => {
         $(#[$meta])*

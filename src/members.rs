@@ -1,15 +1,14 @@
-//! Members of the families that have files in two modules, one line each. Each of the two modules
-//! uses its own part of the lines to declare its files, and does not name files of the other
-//! module.
+//! Lists the members of families whose files are in two modules, one line per member. Each module
+//! declares its own files from these lines and does not name files of the other module.
 
 /// Calls the macro `declare` with every material. A line
 ///
 /// `"hencky" => hencky::Hencky { young: YOUNG, poisson: POISSON }, truth hencky::HenckyLaw;`
 ///
-/// gives the name of the material in suites; its file and type in `mpm/material`, with the keys of
-/// its parameters in the order in which `new` takes them; and the file and type of its law in
-/// `exact/law`, whose `new` takes the same. `#[serde(default)]` before a key makes it optional and
-/// zero. A material without `truth` has no stated solutions.
+/// gives the name of the material in suites; its file and type in `mpm/material`, with the
+/// parameter keys in the argument order of `new`; and the file and type of its law in `exact/law`,
+/// whose `new` takes the same arguments. `#[serde(default)]` before a key makes it optional, with
+/// default zero. A material without `truth` has no stated solutions.
 macro_rules! each_material {
     ($declare:ident) => {
         $declare! {
@@ -57,9 +56,9 @@ pub(crate) use each_material;
 /// `ThermalExpansion = "thermal_expansion" => thermal_expansion::ExpansionSpec,`
 /// `effect thermal_expansion::ThermalExpansion, needs [Heat];`
 ///
-/// gives its member of `EffectName` and its name in suites; the file and the type of its keys in
-/// `suite/scene/load`; the file and the type of the effect in `mpm/effect`, if it has its own; and
-/// the members that it requires, if any.
+/// gives the member of `EffectName` and its name in suites; the file and type of its keys in
+/// `suite/scene/load`; the file and type of the effect in `mpm/effect`, if it has its own; and the
+/// members that it requires, if any.
 macro_rules! each_effect {
     ($declare:ident) => {
         $declare! {
@@ -94,7 +93,7 @@ macro_rules! each_effect {
 }
 pub(crate) use each_effect;
 
-/// The key of a field: `yield` for `r#yield`.
+/// The key of a field, without the prefix of raw identifiers: `yield` for `r#yield`.
 pub(crate) fn key(field: &'static str) -> &'static str {
     field.trim_start_matches("r#")
 }

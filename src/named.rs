@@ -1,9 +1,9 @@
-//! Choices that a suite makes by name.
+//! Enums for choices by name in suites.
 
-/// Declares an enum whose members have one spelling in YAML, reports and messages.
+/// Declares an enum whose members have the same spelling in YAML, reports and messages.
 ///
-/// `named! { /// docs  pub enum Mass { /// docs  Lumped = "lumped", } }` derives what a choice
-/// needs and adds `ALL` (in the order of declaration) and `name()`.
+/// `named! { /// docs  pub enum Mass { /// docs  Lumped = "lumped", } }` derives the usual traits
+/// and adds `ALL` (in declaration order) and `name()`.
 macro_rules! named {
     ($(#[$meta:meta])* pub enum $names:ident {
         $($(#[$member_meta:meta])* $member:ident = $text:literal,)+
@@ -18,7 +18,7 @@ macro_rules! named {
         }
 
         impl $names {
-            /// Every member, in the order of declaration.
+            /// Every member, in declaration order.
             pub const ALL: &[Self] = &[$(Self::$member),+];
 
             /// The name in suites and reports.

@@ -2,19 +2,19 @@
 
 use strsim::damerau_levenshtein;
 
-/// Maximum length of names: longer names are not typing errors, and the cost of the distance is the
-/// product of the lengths.
+/// Maximum length of names. Longer names are not typing errors, and the cost of the distance is
+/// proportional to the product of both lengths.
 const LONGEST: usize = 64;
 
 /// Letters per allowed typing error.
 const LETTERS: usize = 3;
 
-/// The nearest of the `known` names, if one is near; the first of several as near.
+/// The nearest of the `known` names, if close enough; the first name in a tie.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     by_nearness(name, known).into_iter().next().filter(|known| is_near(name, known))
 }
 
-/// The `known` names, the nearest first.
+/// The `known` names, nearest first.
 pub(crate) fn by_nearness<'a>(
     name: &str,
     known: impl IntoIterator<Item = &'a str>,
@@ -31,7 +31,7 @@ fn is_near(name: &str, known: &str) -> bool {
     name.len() <= LONGEST && distance(name, known) <= letters / LETTERS
 }
 
-/// Number of typing errors between two names; capitals and the kind of hyphen do not count.
+/// Number of typing errors between two names; capitals, spaces and hyphens do not count.
 fn distance(name: &str, known: &str) -> usize {
     let plain = |name: &str| name.to_lowercase().replace(['-', ' '], "_");
     damerau_levenshtein(&plain(name), &plain(known))

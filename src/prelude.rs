@@ -1,4 +1,4 @@
-//! Names that the author of a solver in Rust needs: `use mpm_verify::prelude::*`.
+//! Names for authors of solvers in Rust: `use mpm_verify::prelude::*`.
 
 pub use crate::external::{
     BodyForceField, Capabilities, FieldName, FieldPlaces, LevelProblem, ProblemFields,

@@ -1,16 +1,16 @@
-//! Files of VTK in its XML format, for ParaView: points and grids with data, and time series of
-//! them (VTK File Formats, "XML File Formats"). Numbers are appended as raw bytes, because readers
-//! of text stop at the first NaN. The format is implemented here because the existing crate depends
-//! on parsers that future versions of Rust will refuse.
+//! VTK files in XML format for ParaView: points and grids with data, and time series of such files
+//! (VTK File Formats, "XML File Formats"). Numbers are appended as raw bytes, because text readers
+//! stop at the first NaN. This crate has its own implementation because the existing crate depends
+//! on parsers that future Rust versions will reject.
 
 use crate::subject::StateField;
 use std::fmt::Write;
 
-/// VTK's number of a cell that is a point.
+/// VTK number of the cell type "vertex": a cell that is a point.
 const VERTEX: u8 = 1;
 
-/// Tensor rank of an entry of a field, which the number of components does not determine in one
-/// dimension.
+/// Tensor rank of a field entry. In one dimension the number of components does not determine the
+/// rank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TensorRank {
     Scalar,
@@ -29,7 +29,7 @@ impl TensorRank {
     }
 }
 
-/// Points, each a vertex: positions (m) have `d` numbers.
+/// A file of points, each with a vertex cell; each position (m) has `d` numbers.
 pub(crate) fn points(d: usize, positions: &[f64], fields: &[(TensorRank, StateField)]) -> Vec<u8> {
     let n = positions.len() / d.max(1);
     let mut file = VtkFile::default();
@@ -46,13 +46,13 @@ pub(crate) fn points(d: usize, positions: &[f64], fields: &[(TensorRank, StateFi
     file.written("UnstructuredGrid", "")
 }
 
-/// The points of the fields of a body, whose ranks follow from their numbers.
+/// Fields of a body with their tensor ranks, which follow from the numbers of components.
 pub(crate) fn ranked(d: usize, fields: Vec<StateField>) -> Vec<(TensorRank, StateField)> {
     fields.into_iter().map(|field| (TensorRank::of(&field, d), field)).collect()
 }
 
-/// Nodes of a grid of cells of size `h` (m), `counts` along each axis from its lowest one at
-/// `origin` (m), the first axis first.
+/// A file of grid nodes with spacing `h` (m). `counts` has the number of nodes along each axis,
+/// `origin` is the lowest node (m), and the first axis varies fastest.
 pub(crate) fn grid(
     origin: &[f64],
     h: f64,
@@ -70,8 +70,8 @@ pub(crate) fn grid(
     file.written("ImageData", &place)
 }
 
-/// A time series: the time (s) of each file, its part (one for each body and its grid) and its path
-/// from the series.
+/// A time series. Each entry has a time (s), a part (one for each body and one for its grid) and
+/// the file path relative to the series file.
 pub(crate) fn series(files: &[(f64, usize, String)]) -> String {
     let mut xml = head("Collection", "");
     for (t, part, file) in files {
@@ -88,7 +88,7 @@ fn head(kind: &str, attributes: &str) -> String {
     )
 }
 
-/// The text of a file, and the numbers that follow it.
+/// The XML text of a file, and the appended numbers.
 #[derive(Default)]
 struct VtkFile {
     xml: String,

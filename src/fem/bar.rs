@@ -1,6 +1,4 @@
-//! The bar in motion.
-//!
-//! Places at which the state of a bar is sampled.
+//! A bar in motion, and the points at which its state is sampled.
 
 use super::Sampling;
 use super::mass::{BarMassMatrix, add_nodal_lengths};
@@ -8,8 +6,8 @@ use super::mesh::{Element, Mesh, dot};
 use super::setup::{BarSetup, ScalarFunction, SetupError};
 use crate::subject::{Checkpoint, Failure, RunCounters, Samples, Site, Start, Subject};
 
-/// Evaluates `$body` with `$nodes` as the number of nodes of an element, a constant: the loops over
-/// them are unrolled.
+/// Evaluates `$body` with the number of nodes of an element as the constant `$nodes`, so that the
+/// compiler unrolls loops over the nodes.
 macro_rules! with_nodes {
     ($element:expr, $nodes:ident => $body:expr) => {
         match $element {
@@ -25,7 +23,7 @@ macro_rules! with_nodes {
     };
 }
 
-/// A bar, discretised by finite elements, at some instant.
+/// State of a bar, discretised by finite elements, at one time.
 pub struct Bar {
     setup: BarSetup,
     pub(super) mesh: Mesh,
@@ -33,24 +31,24 @@ pub struct Bar {
     mass: BarMassMatrix,
     displacement: Vec<f64>,
     velocity: Vec<f64>,
-    /// Holds the nodal forces until the mass matrix has been solved with.
+    /// Holds the nodal forces until the solve with the mass matrix.
     acceleration: Vec<f64>,
-    /// F at the quadrature points of the present state, element after element.
+    /// F at the quadrature points, element after element.
     def_grad: Vec<f64>,
-    /// Positions of the quadrature points (m), displacements (m) and the body force there (m/s2);
-    /// empty without one.
+    /// Positions of the quadrature points (m), and the displacements (m) and body force (m/s2)
+    /// there; empty without a body force.
     places: Vec<f64>,
     displaced: Vec<f64>,
     load: Vec<f64>,
     time: f64,
-    /// Time by which the velocities are behind the displacements (s).
+    /// Time lag of the velocities behind the displacements (s).
     lag: f64,
     transfers: u64,
     min_j: f64,
 }
 
 impl Bar {
-    /// Puts the bar into its initial state.
+    /// Creates the bar in its initial state.
     ///
     /// # Errors
     /// [`SetupError`] names the invalid part of `setup`.
@@ -83,7 +81,7 @@ impl Bar {
         Ok(bar)
     }
 
-    /// Present time (s).
+    /// Current time (s).
     pub fn time(&self) -> f64 {
         self.time
     }
@@ -98,21 +96,22 @@ impl Bar {
         &self.displacement
     }
 
-    /// Velocities of the nodes at the present time (m/s), see [`Bar::velocity_at`].
+    /// Nodal velocities at the current time (m/s), see [`Bar::velocity_at`].
     pub fn nodal_velocities(&self) -> impl Iterator<Item = f64> {
         self.velocity.iter().zip(&self.acceleration).map(|(v, a)| v + self.lag * a)
     }
 
-    /// Displacement (m) at any reference position; beyond an end, that of the end.
+    /// Displacement (m) at any reference position; beyond an end, the displacement of that end.
     pub fn displacement_at(&self, x: f64) -> f64 {
         let (cell, place) = self.mesh.locate(x);
         self.displacement_in(cell, place)
     }
 
-    /// Velocity (m/s) at any reference position; beyond an end, that of the end.
+    /// Velocity (m/s) at any reference position; beyond an end, the velocity of that end.
     ///
-    /// [`Start::HalfStepBack`] steps velocities of half a step ago. Here the last acceleration
-    /// brings them to the present time, which is accurate to second order.
+    /// With [`Start::HalfStepBack`] the stored velocities are half a step old. This function
+    /// advances them to the current time with the last acceleration, which is accurate to second
+    /// order.
     pub fn velocity_at(&self, x: f64) -> f64 {
         let (cell, place) = self.mesh.locate(x);
         self.velocity_in(cell, place)
@@ -123,21 +122,21 @@ impl Bar {
         self.mesh.interpolate(cell, place, &self.displacement)
     }
 
-    /// Velocity at a place of a cell, brought to the present time.
+    /// Velocity at a place of a cell, advanced to the current time.
     pub(super) fn velocity_in(&self, cell: usize, place: f64) -> f64 {
         let velocity = self.mesh.interpolate(cell, place, &self.velocity);
         velocity + self.lag * self.mesh.interpolate(cell, place, &self.acceleration)
     }
 
-    /// F at every quadrature point. An inverted element has no physical stress, and an infinite or
-    /// undefined nodal value always gives an F that is not finite.
+    /// Computes F at every quadrature point. An inverted element has no physical stress. An
+    /// infinite or undefined nodal value always gives an F that is not finite.
     fn deform(&mut self) -> Result<(), Failure> {
         with_nodes!(self.mesh.element(), N => self.deform_elements::<N>())?;
         self.count_visits();
         Ok(())
     }
 
-    /// F of elements with N nodes and N quadrature points.
+    /// Computes F in elements with N nodes and N quadrature points.
     fn deform_elements<const N: usize>(&mut self) -> Result<(), Failure> {
         let (points, mut least) = (self.mesh.points_of::<N>(), self.min_j);
         let elements = self.def_grad.as_chunks_mut::<N>().0.iter_mut().enumerate();
@@ -158,7 +157,7 @@ impl Bar {
         Ok(())
     }
 
-    /// Nodal forces per unit area, in the order: inside, body force, ends.
+    /// Computes nodal forces per unit area, in the order: internal forces, body force, ends.
     fn force(&mut self) -> Result<(), Failure> {
         self.acceleration.fill(0.0);
         with_nodes!(self.mesh.element(), N => self.add_stress::<N>());
@@ -168,7 +167,7 @@ impl Bar {
         all_finite("force", &self.acceleration)
     }
 
-    /// `-int P dN_i/dX dX` over elements with N nodes and N quadrature points.
+    /// Adds `-int P dN_i/dX dX` over elements with N nodes and N quadrature points.
     fn add_stress<const N: usize>(&mut self) {
         let points = self.mesh.points_of::<N>();
         let elements = self.def_grad.as_chunks::<N>().0.iter().enumerate();
@@ -183,7 +182,7 @@ impl Bar {
         }
     }
 
-    /// `int rho0 b N_i dX`.
+    /// Adds `int rho0 b N_i dX`.
     fn add_body_force(&mut self) {
         let Some(body_force) = &mut self.setup.body_force else { return };
         let points = self.mesh.points();
@@ -206,8 +205,8 @@ impl Bar {
         self.count_visits();
     }
 
-    /// Adds the tractions, whose sign is that of the outward normal. The reaction of the support
-    /// balances the rest.
+    /// Adds the tractions with the sign of the outward normal. At a fixed end the reaction of the
+    /// support balances all forces.
     fn add_ends(&mut self) {
         let last = self.acceleration.len() - 1;
         for (end, (node, normal)) in [(0, -1.0), (last, 1.0)].into_iter().enumerate() {
@@ -220,7 +219,7 @@ impl Bar {
         }
     }
 
-    /// Counts one visit of each node of an element from each of its quadrature points.
+    /// Counts one visit for each pair of a node and a quadrature point in an element.
     fn count_visits(&mut self) {
         self.transfers += (self.def_grad.len() * self.mesh.element().nodes()) as u64;
     }
@@ -232,8 +231,8 @@ impl Subject for Bar {
         self.mass.solve(&mut self.acceleration);
         let (kick, lag) = match self.setup.start {
             Start::AtZero => (dt, 0.0),
-            // From the middle of the previous step (from t = 0, if there is none) to that of this
-            // step.
+            // From the middle of the previous step, or from t = 0 in the first step, to the middle
+            // of this step.
             Start::HalfStepBack => (self.lag + 0.5 * dt, 0.5 * dt),
         };
         let motion = self.displacement.iter_mut().zip(&mut self.velocity);
@@ -273,7 +272,7 @@ impl Subject for Bar {
     }
 }
 
-/// Why `def_grad` is not a valid F of the element `cell`.
+/// Reason why `def_grad` is not a valid F of the element `cell`.
 #[cold]
 fn no_deformation(cell: usize, def_grad: f64) -> Failure {
     let site = Site::Element(cell);
@@ -290,7 +289,7 @@ fn quadrature(mesh: &Mesh) -> Vec<f64> {
     (0..mesh.cells()).flat_map(inside).collect()
 }
 
-/// Nodal values of a field, and zero at fixed ends.
+/// Nodal values of a field; zero at fixed ends.
 fn interpolant(nodes: &[f64], fixed: [bool; 2], field: &ScalarFunction) -> Vec<f64> {
     let is_fixed = |i: usize| (fixed[0] && i == 0) || (fixed[1] && i + 1 == nodes.len());
     let value = |(i, &x): (usize, &f64)| if is_fixed(i) { 0.0 } else { field(x) };
@@ -298,7 +297,7 @@ fn interpolant(nodes: &[f64], fixed: [bool; 2], field: &ScalarFunction) -> Vec<f
 }
 
 fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
-    // Without early exit, so that the compiler checks several numbers at once.
+    // Without early exit, so that the compiler can check several numbers at once.
     if nodal.iter().fold(true, |finite, value| finite & value.is_finite()) {
         return Ok(());
     }
@@ -308,20 +307,21 @@ fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
     }
 }
 
-/// Places in an element, 0 to 1: the centres of its quarters, as for four particles.
+/// Sampling places in an element, from 0 to 1: the centres of its quarters, like the positions of
+/// four particles.
 ///
 /// An element of degree k interpolates `u` with an error that, to leading order, is the same
 /// polynomial everywhere: `(1 - xi^2) u''` if linear, `xi (1 - xi^2) u'''` if quadratic. At the
 /// zeros of this polynomial (the nodes, including the midside node) only the error of the nodal
-/// values remains, which may be of a higher order. At `xi = 1/4` and `3/4` the polynomials have the
-/// values 0.94 and 0.44, or 0.23 and 0.33 (their maxima are 1 and 0.38), so that none of these
-/// places is superconvergent. They also differ from the points `+-1/sqrt(3)`, where the *strain* of
-/// a quadratic element is superconvergent.
+/// values remains. This error may be of a higher order. At `xi = 1/4` and `3/4` the linear
+/// polynomial has the values 0.94 and 0.44 (maximum 1), and the quadratic one 0.23 and 0.33
+/// (maximum 0.38). None of these places is therefore superconvergent. They also differ from the
+/// points `+-1/sqrt(3)`, where the *strain* of a quadratic element is superconvergent.
 const PLACES: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
 impl Bar {
-    /// Writes the present state at the points of `sampling`, which may differ from those of the
-    /// set-up.
+    /// Writes the current state at the points of `sampling`, which may differ from the sampling of
+    /// the set-up.
     pub fn sample_as(&self, sampling: Sampling, samples: &mut Samples) {
         samples.clear();
         samples.dimension = 1;
@@ -333,7 +333,7 @@ impl Bar {
         samples.mass.extend(samples.weight.iter().map(|weight| density * weight));
     }
 
-    /// Each place has the weight of a quarter of the element.
+    /// Samples inside the elements; each point has the weight of a quarter of the element.
     fn sample_inside(&self, samples: &mut Samples) {
         let weight = self.mesh.cell_length() / PLACES.len() as f64;
         for cell in 0..self.mesh.cells() {
@@ -346,7 +346,7 @@ impl Bar {
         }
     }
 
-    /// Each node has the weight of its lumped length.
+    /// Samples at the nodes; the weight of a node is its lumped length.
     fn sample_nodes(&self, samples: &mut Samples) {
         samples.label.extend(self.nodes());
         samples.displacement.extend(self.nodal_displacements());

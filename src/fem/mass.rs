@@ -1,4 +1,4 @@
-//! The mass matrix, and accelerations from forces.
+//! Mass matrices, and the solve that turns forces into accelerations.
 
 use nalgebra::DMatrixViewMut;
 use nalgebra_sparse::factorization::CscCholesky;
@@ -8,17 +8,16 @@ use super::Mass;
 use super::mesh::Mesh;
 use crate::subject::Failure;
 
-/// A mass matrix, prepared for one solve per step.
+/// A mass matrix, prepared for one solve in each step.
 pub(super) enum BarMassMatrix {
     /// The diagonal.
     Lumped(Vec<f64>),
-    /// The Cholesky factor. It has the band structure of the matrix, so that no reordering is
-    /// needed.
+    /// The Cholesky factor. It has the band structure of the matrix, so reordering is not needed.
     Consistent(Box<CscCholesky<f64>>),
 }
 
 impl BarMassMatrix {
-    /// Assembles, and factorises if there is something to factorise.
+    /// Assembles the matrix, and factorises it if it is not diagonal.
     pub(super) fn new(
         mass: Mass,
         mesh: &Mesh,
@@ -36,8 +35,8 @@ impl BarMassMatrix {
         }
     }
 
-    /// Turns forces into accelerations, in place: neither branch allocates. The force on a fixed
-    /// node must be zero; its acceleration is then zero.
+    /// Converts forces to accelerations in place, without allocation. The force on a fixed node
+    /// must be zero; its acceleration is then zero.
     pub(super) fn solve(&self, force: &mut [f64]) {
         match self {
             Self::Lumped(diagonal) => {
@@ -53,7 +52,7 @@ impl BarMassMatrix {
     }
 }
 
-/// Adds the reference length that belongs to each node, `int N_i dX` (m), to `lengths`.
+/// Adds the reference length of each node, `int N_i dX` (m), to `lengths`.
 pub(super) fn add_nodal_lengths(mesh: &Mesh, lengths: &mut [f64]) {
     for cell in 0..mesh.cells() {
         let shares = mesh.element().shares();
@@ -70,7 +69,7 @@ pub(super) fn lumped(mesh: &Mesh, density: f64) -> Vec<f64> {
     lengths.into_iter().map(|length| density * length).collect()
 }
 
-/// `int rho0 N_i N_j dX` (kg/m2), element after element.
+/// The matrix `int rho0 N_i N_j dX` (kg/m2), element by element.
 pub(super) fn consistent(mesh: &Mesh, density: f64) -> CooMatrix<f64> {
     let mut matrix = CooMatrix::new(mesh.node_count(), mesh.node_count());
     for cell in 0..mesh.cells() {
@@ -89,8 +88,8 @@ fn product(mesh: &Mesh, a: usize, b: usize) -> f64 {
     mesh.points().iter().map(|point| point.weight * (point.shape[a] * point.shape[b])).sum()
 }
 
-/// The matrix of the nodes that are free to move: the row and the column of a fixed node become
-/// those of the identity, which keeps the numbering and leaves the matrix positive definite.
+/// The matrix of the free nodes. For a fixed node, the row and column of the identity matrix are
+/// inserted. This preserves the numbering and keeps the matrix positive definite.
 fn held(matrix: &CooMatrix<f64>, fixed: [bool; 2]) -> CooMatrix<f64> {
     let size = matrix.nrows();
     let is_fixed = |i: usize| (fixed[0] && i == 0) || (fixed[1] && i + 1 == size);

@@ -1,22 +1,22 @@
-//! The uniform mesh: places of nodes and quadrature points, interpolation between nodes, and shape
-//! functions on the parent interval `-1 <= xi <= 1`.
+//! The uniform mesh: positions of nodes and quadrature points, interpolation between nodes, and
+//! shape functions on the parent interval `-1 <= xi <= 1`.
 
 use crate::named::named;
 
-/// A quadrature point, the same in every element.
+/// A quadrature point. All elements have the same points.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MeshPoint {
-    /// Place within the element, 0 at its left end and 1 at its right end.
+    /// Position in the element: 0 at its left end, 1 at its right end.
     pub(super) place: f64,
-    /// Shape functions.
+    /// Values of the shape functions.
     pub(super) shape: PerNode,
     /// Derivatives of the shape functions with respect to X (1/m).
     pub(super) gradient: PerNode,
-    /// Length represented by the point (m).
+    /// Quadrature weight: the length that the point represents (m).
     pub(super) weight: f64,
 }
 
-/// Elements of one kind and one length.
+/// A mesh of elements of the same kind and length.
 #[derive(Debug, Clone)]
 pub(super) struct Mesh {
     from: f64,
@@ -27,7 +27,7 @@ pub(super) struct Mesh {
 }
 
 impl Mesh {
-    /// `from < to` and `cells > 0` have been checked.
+    /// Creates a mesh. The caller has checked that `from < to` and `cells > 0`.
     pub(super) fn new(from: f64, to: f64, cells: usize, element: Element) -> Self {
         let half = 0.5 * (to - from) / cells as f64; // dX/dxi
         let points = element.quadrature().iter().map(|gauss| MeshPoint {
@@ -61,7 +61,7 @@ impl Mesh {
         &self.points
     }
 
-    /// Quadrature points of an element with N nodes, which has N of them.
+    /// Quadrature points of an element with N nodes and N points.
     #[inline]
     pub(super) fn points_of<const N: usize>(&self) -> &[MeshPoint; N] {
         self.points.first_chunk().unwrap_or_else(|| unreachable!("{N} nodes"))
@@ -96,7 +96,7 @@ impl Mesh {
         self.from + (self.to - self.from) * (cell as f64 + place) / self.cells as f64
     }
 
-    /// Index of the first node of a cell. The others follow it.
+    /// Index of the first node of a cell, followed by its other nodes.
     #[inline]
     pub(super) fn first_node(&self, cell: usize) -> usize {
         cell * self.element.degree()
@@ -114,14 +114,15 @@ impl Mesh {
         &mut nodal[self.first_node(cell)..][..self.element.nodes()]
     }
 
-    /// Cell that contains X, and the place in it. Positions beyond an end are moved to that end.
+    /// Cell that contains X, and the place of X in the cell. Positions beyond an end are moved to
+    /// that end.
     pub(super) fn locate(&self, x: f64) -> (usize, f64) {
         let along = (x.clamp(self.from, self.to) - self.from) / self.cell_length();
         let cell = (along as usize).min(self.cells - 1); // the last node belongs to the last cell
         (cell, along - cell as f64)
     }
 
-    /// Value at a place of a cell of the field that has these nodal values.
+    /// Value of the field with these nodal values at a place of a cell.
     pub(super) fn interpolate(&self, cell: usize, place: f64, nodal: &[f64]) -> f64 {
         dot(&self.element.shape(2.0 * place - 1.0), self.local(cell, nodal))
     }
@@ -144,10 +145,11 @@ named! {
     }
 }
 
-/// Largest number of nodes of an element.
+/// Maximum number of nodes of an element.
 const MOST_NODES: usize = 3;
 
-/// One number for each node of an element, from left to right; a linear element ignores the last.
+/// One number for each node of an element, from left to right; a linear element ignores the last
+/// number.
 pub(super) type PerNode = [f64; MOST_NODES];
 
 /// A Gauss point of the parent interval.
@@ -166,9 +168,9 @@ const TWO: f64 = 0.577_350_269_189_625_8;
 /// `sqrt(3 / 5)`.
 const THREE: f64 = 0.774_596_669_241_483_4;
 
-/// Exact to degree 3 (Hughes 2000, section 3.8).
+/// Two-point Gauss rule, exact to degree 3 (Hughes 2000, section 3.8).
 const GAUSS_2: [GaussPoint; 2] = [gauss(-TWO, 1.0), gauss(TWO, 1.0)];
-/// Exact to degree 5 (Hughes 2000, section 3.8).
+/// Three-point Gauss rule, exact to degree 5 (Hughes 2000, section 3.8).
 const GAUSS_3: [GaussPoint; 3] =
     [gauss(-THREE, 5.0 / 9.0), gauss(0.0, 8.0 / 9.0), gauss(THREE, 5.0 / 9.0)];
 
@@ -206,9 +208,9 @@ impl Element {
         }
     }
 
-    /// The `k + 1` Gauss points. They are exact to degree `2k + 1`, thus for the mass matrix
-    /// (degree 2k) and for the internal force of a linear law (degree 2k - 2); a smooth integrand
-    /// is integrated to order `2k + 2`, above the order `k + 1` of the element (Ciarlet, *The
+    /// The `k + 1` Gauss points, exact to degree `2k + 1`. They are exact for the mass matrix
+    /// (degree 2k) and for the internal force of a linear law (degree 2k - 2). The error for a
+    /// smooth integrand is of order `2k + 2`, above the order `k + 1` of the element (Ciarlet, *The
     /// Finite Element Method for Elliptic Problems*, 1978, section 4.1, requires degree 2k - 2).
     pub(super) fn quadrature(self) -> &'static [GaussPoint] {
         match self {
@@ -217,9 +219,10 @@ impl Element {
         }
     }
 
-    /// `int N_a dxi / 2`: the share of an element for each of its nodes. For the quadratic element
-    /// these are also the weights of the three-point Gauss-Lobatto rule (Simpson's), so that row
-    /// sums of the mass matrix and lumping by nodal quadrature agree (Hughes 2000, section 7.3.2).
+    /// `int N_a dxi / 2`: share of the element length for each node. For the quadratic element the
+    /// shares are also the weights of the three-point Gauss-Lobatto rule (Simpson's rule). Row sums
+    /// of the mass matrix and lumping by nodal quadrature therefore agree (Hughes 2000, section
+    /// 7.3.2).
     pub(super) fn shares(self) -> PerNode {
         match self {
             Self::Linear => [0.5, 0.5, 0.0],

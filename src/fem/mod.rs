@@ -1,37 +1,36 @@
-//! The reference 1-D finite element method: the subject that MPM is compared with.
+//! The reference finite element method in 1-D, with which MPM is compared.
 //!
-//! Total-Lagrangian, explicit, on `[from, to]`:
+//! The method is total-Lagrangian and explicit, on `[from, to]`:
 //!
 //! ```text
 //! rho0 u_tt = dP(F)/dX + rho0 b(X, t),    F = 1 + u_X
 //! ```
 //!
-//! In the weak form, with shape functions `N_i` (Belytschko, Liu, Moran & Elkhodary, *Nonlinear
+//! The weak form with shape functions `N_i` is (Belytschko, Liu, Moran & Elkhodary, *Nonlinear
 //! Finite Elements for Continua and Structures*, 2nd ed. 2014, sections 2.3 and 2.4):
 //!
 //! ```text
 //! sum_j M_ij a_j = f_i = -int P(F) N_i' dX + int rho0 b N_i dX + [P N_i] at the two ends
 //! ```
 //!
-//! - [`Element`]: linear or quadratic shape functions and their Gauss points.
-//! - [`Mass`]: the lumped or the consistent matrix M, factorised once.
-//! - [`Start`](crate::subject::Start): Euler-Cromer steps from `v(0)`, or from `v(-dt/2)`.
+//! - [`Element`]: linear or quadratic shape functions with their Gauss points.
+//! - [`Mass`]: the lumped or consistent mass matrix M, factorised once.
+//! - [`Start`](crate::subject::Start): Euler-Cromer steps from `v(0)` or from `v(-dt/2)`.
 //! - [`Sampling`]: sample points inside the elements, or at the nodes, where displacements
 //!   superconverge.
 //!
-//! With element length h and wave speed `c = sqrt(P'/rho0)` a step is stable up to `c dt / h` of
+//! With element length h and wave speed `c = sqrt(P'/rho0)`, the stability limits of `c dt / h` are
 //!
 //! | element   | lumped      | consistent   |
 //! |-----------|-------------|--------------|
 //! | linear    | 1           | 1 / sqrt(3)  |
 //! | quadratic | 1 / sqrt(6) | 1 / sqrt(15) |
 //!
-//! which is `dt = 2 / omega` of the highest frequency of a single element (Hughes 2000, section
-//! 9.1 for the limit, 7.3.2 for the matrices).
+//! These limits are `dt = 2 / omega` with the highest frequency omega of a single element (Hughes
+//! 2000, section 9.1 for the limit, section 7.3.2 for the matrices).
 //!
-//! [`BarSetup`] describes the problem, and [`Bar`] solves it. A step does not allocate:
-//! [`Bar::new`] makes every array and the factor of the mass matrix, and the triangular solves work
-//! in place.
+//! [`BarSetup`] describes the problem, and [`Bar`] solves it. Steps do not allocate: [`Bar::new`]
+//! creates all arrays and factorises the mass matrix, and the triangular solves are in place.
 
 mod bar;
 mod mass;

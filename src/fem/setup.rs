@@ -1,7 +1,5 @@
-//! Set-up of a bar, and its validation.
-//!
-//! Laws of the bar in uniaxial strain, `P(F)`, written separately from those of MPM and of exact
-//! solutions.
+//! Set-up of a bar and its validation, and the laws of the bar in uniaxial strain, `P(F)`. Their
+//! implementation is independent of the laws of MPM and of the exact solutions.
 
 use super::Element;
 use crate::named::named;
@@ -12,12 +10,12 @@ use thiserror::Error;
 pub type ScalarFunction = Box<dyn Fn(f64) -> f64 + Send>;
 /// A function of time t.
 pub type TimeFunction = Box<dyn Fn(f64) -> f64 + Send>;
-/// A function of time, reference position and displacement, at many positions at once: given t (s),
-/// positions X (m), which are equal in every call, and displacements u (m) there, it writes the
-/// values.
+/// A function of time, reference position and displacement, evaluated at many positions in one
+/// call. Its arguments are t (s), positions X (m), which are equal in every call, and the
+/// displacements u (m) there. It writes the values.
 pub type BarLoad = Box<dyn FnMut(f64, (&[f64], &[f64]), &mut [f64]) + Send>;
 
-/// The load that has the value `f(X, t)` at each position.
+/// The load with the value `f(X, t)` at each position.
 pub fn pointwise(f: impl Fn(f64, f64) -> f64 + Send + 'static) -> BarLoad {
     Box::new(move |t, (places, _), values| {
         for (value, x) in values.iter_mut().zip(places) {
@@ -46,13 +44,13 @@ named! {
     }
 }
 
-/// A bar on `[from, to]` (m), its law, its loads and its discretisation.
+/// A bar on `[from, to]` (m): its law, loads and discretisation.
 pub struct BarSetup {
     /// Reference position of the left end (m).
     pub from: f64,
     /// Reference position of the right end (m).
     pub to: f64,
-    /// Number of elements, all of one length.
+    /// Number of elements, which have equal lengths.
     pub cells: usize,
     /// Shape functions.
     pub element: Element,
@@ -62,21 +60,21 @@ pub struct BarSetup {
     pub density: f64,
     /// First Piola-Kirchhoff stress `P(F)` (Pa).
     pub law: ScalarFunction,
-    /// Whether the left and the right end are fixed at zero displacement. The initial fields are
-    /// not evaluated there.
+    /// Whether the left and right ends are fixed at zero displacement. The initial fields are not
+    /// evaluated at fixed ends.
     pub fixed: [bool; 2],
-    /// Body force `b(X, t, u)` per unit mass (m/s2); with `None`, no such term is computed.
+    /// Body force `b(X, t, u)` per unit mass (m/s2), if any.
     pub body_force: Option<BarLoad>,
-    /// Piola stress `p0(t)` (Pa) on the left and on the right end: tension is positive at both.
-    /// Only a free end can have one.
+    /// Piola stress `p0(t)` (Pa) on the left and right ends; tension is positive at both. Only a
+    /// free end can have a traction.
     pub traction: [Option<TimeFunction>; 2],
     /// Displacement `u(X)` at t = 0 (m).
     pub initial_displacement: ScalarFunction,
-    /// Velocity `v(X)` at t = 0 (m/s). Like the displacement it is interpolated at the nodes. The
-    /// interpolant is accurate to order k + 1, the order of the element; it needs no second
-    /// factorisation if the mass is lumped, and preserves `v` at a fixed end.
+    /// Velocity `v(X)` at t = 0 (m/s). Like the displacement, the velocity is interpolated at the
+    /// nodes. The interpolant is accurate to order k + 1, the order of the element. It needs no
+    /// second factorisation if the mass is lumped, and preserves `v` at a fixed end.
     pub initial_velocity: ScalarFunction,
-    /// Meaning of the initial velocity in the first step.
+    /// Time of the initial velocity.
     pub start: Start,
     /// Points at which the state is sampled.
     pub sampling: Sampling,
@@ -85,7 +83,7 @@ pub struct BarSetup {
 /// Maximum number of elements; a larger number is probably a mistake.
 pub(super) const MOST_CELLS: usize = 1 << 24;
 
-/// Why the set-up is invalid.
+/// Reason why the set-up is invalid.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SetupError {
     /// The number of elements is invalid.
@@ -105,13 +103,13 @@ pub enum SetupError {
     /// A traction acts on an end with a prescribed displacement.
     #[error("the {0} end is fixed and cannot take a traction")]
     TractionAtFixedEnd(&'static str),
-    /// The initial state is not one, or the mass matrix has no factor.
+    /// The initial state is invalid, or the mass matrix cannot be factorised.
     #[error("before the first step: {0}")]
     Initial(#[from] Failure),
 }
 
 impl BarSetup {
-    /// Refuses invalid values. NaN fails each comparison.
+    /// Rejects invalid values. NaN fails each comparison.
     pub(super) fn check(&self) -> Result<(), SetupError> {
         let Self { from, to, cells, density, .. } = *self;
         if !(1..=MOST_CELLS).contains(&cells) {
@@ -137,7 +135,7 @@ named! {
     pub enum BarLaw {
         /// `P = M (F - 1)`, `M = lambda + 2 mu`.
         SmallStrain = "small_strain",
-        /// `P = M ln F`, to which the rate form of linear elasticity integrates in 1-D.
+        /// `P = M ln F`, the integral of the rate form of linear elasticity in 1-D.
         LogStrain = "log_strain",
         /// `P = lambda ln(F)/F + mu (F - 1/F)`.
         NeoHookean = "neo_hookean",
@@ -147,7 +145,7 @@ named! {
 }
 
 impl BarLaw {
-    /// The law of this name, if the bar has it.
+    /// The law with this name, if it exists.
     pub fn find(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|law| law.name() == name)
     }

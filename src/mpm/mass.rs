@@ -1,4 +1,4 @@
-//! Mass matrices: the family. A member is one line below and its type.
+//! The family of mass matrices. A member is one registration line below and its type.
 
 use super::boundary::Boundary;
 use super::foundation::algebra::Vector;
@@ -14,19 +14,19 @@ use nalgebra_sparse::pattern::SparsityPattern;
 objects! {
     /// Names of the mass matrices that suites may choose for MPM.
     pub enum MassName;
-    /// Makes the mass matrix that a suite names.
+    /// Creates the mass matrix with this name.
     pub fn mass_matrix -> MassMatrix;
     "lumped" => Lumped: Lumped,
     "consistent" => Consistent: Consistent::default(),
 }
 
-/// Turns nodal momenta into velocities, and forces into accelerations.
+/// Converts nodal momenta to velocities, and forces to accelerations.
 pub trait MassMatrix<const D: usize>: Send + Sync {
-    /// Assembles the matrix for new positions of the particles; `grid.mass` is up to date. Returns
-    /// the passes over particles that it took.
+    /// Assembles the matrix for new particle positions; `grid.mass` must be up to date. Returns the
+    /// number of passes over the particles.
     ///
     /// # Errors
-    /// [`Failure::Solve`] if there is no inverse.
+    /// [`Failure::Solve`] if the matrix is singular.
     fn assemble(
         &mut self,
         kernel: &dyn Kernel<D>,
@@ -35,11 +35,12 @@ pub trait MassMatrix<const D: usize>: Send + Sync {
         boundary: &[Box<dyn Boundary<D>>],
     ) -> Result<u64, Failure>;
 
-    /// Divides `field` (kg m/s, or N) by the matrix. Values on fixed nodes are undefined.
+    /// Solves for `field` in place: momenta (kg m/s) become velocities, and forces (N)
+    /// accelerations. Values on fixed nodes are undefined.
     fn solve(&self, grid: &Grid<D>, field: &mut [Vector<D>]);
 }
 
-/// The mass matrix of the original MPM.
+/// The lumped mass matrix, as in the original MPM.
 #[derive(Debug, Clone, Copy)]
 pub struct Lumped;
 
@@ -67,15 +68,15 @@ pub struct Consistent {
     entries: MassEntries,
 }
 
-/// Entries of the matrix, one for each pair of nodes in the support of a particle, before
-/// constraints.
+/// Entries of the matrix without constraints, one for each pair of nodes in the support of a
+/// particle.
 #[derive(Default)]
 struct MassEntries {
-    /// Nodes of each.
+    /// Nodes of each entry.
     pairs: Vec<(usize, usize)>,
-    /// Mass of each (kg).
+    /// Mass of each entry (kg).
     masses: Vec<f64>,
-    /// Whether the pairs differ from those of the previous step.
+    /// Whether the pairs have changed since the previous step.
     have_moved: bool,
 }
 
@@ -105,9 +106,9 @@ impl MassEntries {
     }
 }
 
-/// The matrix of the nodes that are free along an axis.
+/// The factorised matrix of the nodes that are free along one axis.
 struct Factor {
-    /// Row of each node; `None` if it has none.
+    /// Matrix row of each node; `None` for a node without a row.
     row: Vec<Option<usize>>,
     rows: usize,
     assembly: Assembly,
@@ -160,8 +161,8 @@ impl Factor {
         Ok(Self { row, rows, assembly, values, cholesky })
     }
 
-    /// Refactors for other masses with the same pattern: the operations, and so the bits, are those
-    /// of a new factorisation.
+    /// Refactors the matrix for other masses with the same pattern. The result is bit-identical to
+    /// a new factorisation.
     fn refactored(mut self, entries: &MassEntries) -> Result<Self, CholeskyError> {
         self.assembly.add_up(&entries.masses, &mut self.values);
         self.cholesky.refactor(&self.values).map(|()| self)
@@ -181,7 +182,7 @@ impl Factor {
     }
 }
 
-/// Nodes with mass that are not fixed: one if a component is free, zero otherwise.
+/// One for each free component of a node with mass, and zero otherwise.
 fn free<const D: usize>(grid: &Grid<D>, boundary: &[Box<dyn Boundary<D>>]) -> Vec<Vector<D>> {
     let has_mass = |m: &f64| Vector::from_element(f64::from(u8::from(*m > 0.0)));
     let mut free: Vec<Vector<D>> = grid.mass.iter().map(has_mass).collect();
@@ -220,22 +221,22 @@ impl<const D: usize> MassMatrix<D> for Consistent {
     }
 }
 
-/// Where the entries of a matrix go.
+/// Maps the entries of particles to places in a matrix.
 struct Assembly {
-    /// Where the matrix is not zero.
+    /// Non-zero places of the matrix.
     pattern: SparsityPattern,
-    /// Indices of the entries, grouped by place in the matrix.
+    /// Indices of the entries, grouped by matrix place.
     order: Vec<usize>,
-    /// Where in `order` the entries of each place end.
+    /// End of the entries of each place in `order`.
     ends: Vec<usize>,
 }
 
 impl Assembly {
-    /// For a matrix of `size` rows with entries at `places`, row and column; entries without a
-    /// place are ignored.
+    /// Assembly for a matrix with `size` rows and entries at `places` (row and column). Entries
+    /// without a place are ignored.
     ///
-    /// Entries of a place are added in the order of an unstable but deterministic sort: that of
-    /// `nalgebra_sparse` for a `CooMatrix`, so that the bits agree.
+    /// The entries of a place are added in the order of an unstable but deterministic sort.
+    /// `nalgebra_sparse` uses the same order for a `CooMatrix`, so the sums are bit-identical.
     fn new(size: usize, places: impl Iterator<Item = Option<(usize, usize)>>) -> Self {
         let mut columns = vec![Vec::new(); size];
         let mut row = Vec::new();
@@ -261,7 +262,7 @@ impl Assembly {
         Self { pattern, order, ends }
     }
 
-    /// The values of the matrix, column by column, from the values of all entries.
+    /// Computes the matrix values, column by column, from the values of all entries.
     fn add_up(&self, entries: &[f64], values: &mut Vec<f64>) {
         values.clear();
         let mut start = 0;
@@ -280,7 +281,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Columns with few entries and with many: sorting takes other ways for short lists.
+        /// Columns with few and with many entries: the sort uses another algorithm for short lists.
         #[test]
         fn the_bits_are_those_of_the_library(
             entries in proptest::collection::vec((0..6_usize, 0..6_usize, 1e-3..1.0_f64), 0..900),

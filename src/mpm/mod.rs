@@ -1,18 +1,18 @@
-//! The reference Material Point Method: the "original MPM" of Sulsky, Chen & Schreyer (1994) as
-//! Wobbes & Tielen (2015) use it, for any number of dimensions.
+//! The reference Material Point Method: the "original MPM" of Sulsky, Chen & Schreyer (1994) in the
+//! form of Wobbes & Tielen (2015), in 1-D, 2-D and 3-D.
 //!
-//! A scheme is a list of named stages ([`SchemeName::stages`]), which the schedule fuses into
-//! passes over particles or nodes once, at set-up; a step is a loop over these passes. Only the
-//! basis is used inside loops over particles and nodes, so that only dimension and basis are type
-//! parameters, hidden behind the object-safe [`Kernel`]. [`Transfer`], [`MassMatrix`] and
-//! [`Effect`] use the passes of the kernel; these and [`Material`] are called between stages and
-//! are trait objects. Only the effects that a scene lists exist.
+//! A scheme is a list of named stages ([`SchemeName::stages`]). The set-up fuses the stages into
+//! passes over particles or nodes, and a step runs these passes. Only dimension and basis are type
+//! parameters, because only the basis is used inside loops over particles and nodes. The
+//! object-safe [`Kernel`] hides both parameters. [`Transfer`], [`MassMatrix`] and [`Effect`] use
+//! the passes of the kernel. They and [`Material`] are trait objects that are called between
+//! stages. A solver has only the effects that the scene lists.
 //!
 //! ```text
 //! particles --P2G--> mass, momentum, force --solve--> acceleration --G2P--> velocity, strain, x
 //! ```
 //!
-//! The layers; each imports only those above it:
+//! Each layer imports only those above it:
 //!
 //! ```text
 //! foundation    vectors, registers, threads, grid, particles

@@ -1,7 +1,7 @@
 //! Time schemes: the named stages of a step, and their order.
 //!
-//! All three schemes are Euler-Cromer (semi-implicit Euler); they differ in which velocity updates
-//! the stress, and when (Bardenhagen 2002, J. Comput. Phys. 180).
+//! All three schemes are Euler-Cromer (semi-implicit Euler). They differ in the velocity that
+//! updates the stress, and in the time of this update (Bardenhagen 2002, J. Comput. Phys. 180).
 
 use crate::named::named;
 use Stage::{
@@ -23,8 +23,8 @@ named! {
 }
 
 impl SchemeName {
-    /// The stages of one step. MUSL needs the grid's velocity before the particles' only if the
-    /// transfer or a wall reads it.
+    /// Stages of one step. MUSL computes the grid velocity before the particle velocity only if the
+    /// transfer or a wall reads the grid velocity.
     pub fn stages(self, reads_grid_velocity: bool) -> &'static [Stage] {
         match self {
             Self::Musl if reads_grid_velocity => &[
@@ -65,7 +65,7 @@ impl SchemeName {
     }
 }
 
-/// One stage of a step. The formulas are those of Wobbes & Tielen (2015), steps 1-5.
+/// A stage of a step. The formulas are from Wobbes & Tielen (2015), steps 1-5.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Stage {
     /// P2G: `m_i = sum_p m_p N_i`.
@@ -87,7 +87,7 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// The quantity that the stage gives, as reports name it.
+    /// Name in reports of the quantity that the stage computes.
     pub fn name(self) -> &'static str {
         match self {
             Self::Mass => "mass",

@@ -1,8 +1,8 @@
-//! The state of a subject during a run as bytes, recorded and restored bit for bit.
+//! State of a subject during a run as bytes, recorded and restored bit for bit.
 //!
-//! One visit does both ([`Memory::visit`]), so that every number that is written is also read.
-//! Numbers have eight bytes in little-endian order on any machine, and no names. So the bytes are
-//! valid only for the same program and the same set-up, which the caller must ensure.
+//! [`Memory::visit`] both records and restores, so every number that is written is also read.
+//! Numbers are stored as eight bytes in little-endian order on any machine, without names. The
+//! bytes are therefore valid only for the same program and set-up, which the caller must ensure.
 
 use super::{Samples, Totals};
 
@@ -31,7 +31,7 @@ enum Way<'a> {
     Out(Vec<u8>),
     /// Bytes that remain to be read.
     In(&'a [u8]),
-    /// Reading has failed: nothing more is replaced.
+    /// Reading has failed; later visits replace nothing.
     Misfit,
 }
 
@@ -54,7 +54,7 @@ impl<'a> Checkpoint<'a> {
         }
     }
 
-    /// Whether all bytes were read and matched. Otherwise the visited state is invalid.
+    /// Whether all bytes were read and were valid. Otherwise the visited state is invalid.
     pub fn is_used_up(&self) -> bool {
         matches!(self.0, Way::In([]))
     }
@@ -64,7 +64,7 @@ impl<'a> Checkpoint<'a> {
         memory.visit(self);
     }
 
-    /// Records a number that the set-up determines: it must be equal when the state is restored.
+    /// Records a number that the set-up determines. Restoring fails if the number differs.
     pub fn same(&mut self, number: usize) {
         let mut found = number as u64;
         self.visit(&mut found);
@@ -73,7 +73,7 @@ impl<'a> Checkpoint<'a> {
         }
     }
 
-    /// Refuses the value that has just been read.
+    /// Marks the value that has just been read as invalid.
     pub fn refuse(&mut self) {
         self.0 = Way::Misfit;
     }
@@ -112,7 +112,7 @@ impl Memory for f64 {
         *self = Self::from_bits(checkpoint.word(self.to_bits()));
     }
 
-    /// All entries in one call: analyses restore a state before each of their many steps.
+    /// Visits all entries in one call, because analyses restore a state before each of many steps.
     fn visit_each(entries: &mut [Self], checkpoint: &mut Checkpoint<'_>) {
         match &mut checkpoint.0 {
             Way::Out(bytes) => bytes.extend(entries.iter().flat_map(|entry| entry.to_le_bytes())),
@@ -139,7 +139,7 @@ impl Memory for bool {
     }
 }
 
-/// The length is fixed.
+/// Slices have a fixed length.
 impl<T: Memory> Memory for [T] {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.same(self.len());
@@ -155,7 +155,7 @@ impl<T: Memory, const N: usize> Memory for [T; N] {
     }
 }
 
-/// The length is stored, for vectors that grow during a run. Every entry must take at least one
+/// The length is stored, because vectors may grow during a run. Every entry must take at least one
 /// byte.
 impl<T: Memory + Default> Memory for Vec<T> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
@@ -257,7 +257,7 @@ mod tests {
         checkpoint.into_bytes()
     }
 
-    /// Whether it fitted.
+    /// Restores `memory` from `bytes`, and returns whether they fitted.
     fn taken_back(memory: &mut (impl Memory + ?Sized), bytes: &[u8]) -> bool {
         let mut checkpoint = Checkpoint::from_bytes(bytes);
         checkpoint.visit(memory);
@@ -286,7 +286,7 @@ mod tests {
             prop_assert_eq!(written(&mut back), bytes);
         }
 
-        /// A visit of any bytes ends, and reports bytes that do not fit.
+        /// A visit ends for any bytes, and reports bytes that do not fit.
         #[test]
         fn bytes_of_anything_are_no_state(mut bytes in prop::collection::vec(any::<u8>(), 0..400)) {
             bytes.push(0);

@@ -1,7 +1,7 @@
-//! Columns of the state of a subject: their size in memory and their numbers, and the cost of a
-//! step: its passes, the particles that they visit, and its columns.
+//! Columns of the state of a subject, with their size in memory and their numbers. The cost of a
+//! step: its passes, the visited particles and the columns.
 
-/// Owner of an entry of a column.
+/// Owner of the entries of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Holder {
     /// Particles.
@@ -12,7 +12,7 @@ pub enum Holder {
 
 /// Entry of a column: a number, a vector, a tensor, or an entry without numbers.
 pub trait Entry {
-    /// Appends its numbers; a tensor row after row.
+    /// Appends the numbers of the entry; a tensor row by row.
     fn write(&self, _numbers: &mut Vec<f64>) {}
 }
 
@@ -26,14 +26,14 @@ impl Entry for usize {}
 impl<T> Entry for (usize, T) {}
 impl<T, const N: usize> Entry for [T; N] {}
 
-/// Size of a column: memory for each particle or node, or for some of them.
+/// Size of a column, which has an entry for each particle or node, or for some of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ColumnSize {
     /// Name of the field in the column.
     pub name: &'static str,
-    /// Owner of an entry.
+    /// Owner of the entries.
     pub holder: Holder,
-    /// Entries.
+    /// Number of entries.
     pub entries: usize,
     /// Bytes of one entry.
     pub bytes: usize,
@@ -46,7 +46,7 @@ pub struct Column<'a> {
     write: WriteNumbers<'a>,
 }
 
-/// Appends the numbers of all entries.
+/// Function that appends the numbers of all entries.
 type WriteNumbers<'a> = Box<dyn Fn(&mut Vec<f64>) + 'a>;
 
 impl<'a> Column<'a> {
@@ -83,16 +83,16 @@ impl<'a> Column<'a> {
 pub struct StateField {
     /// Name.
     pub name: String,
-    /// Numbers of one entry: 1 of a scalar, D of a vector, `D * D` of a tensor, row after row.
+    /// Numbers per entry: 1 for a scalar, D for a vector, `D * D` for a tensor, row by row.
     pub components: usize,
     /// All numbers.
     pub numbers: Vec<f64>,
 }
 
-/// Fields of one body.
+/// Particle and node fields of one body.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BodyFields {
-    /// Number of its particles.
+    /// Number of particles.
     pub particles: usize,
     /// Fields with an entry for each particle.
     pub of_particles: Vec<StateField>,
@@ -100,7 +100,7 @@ pub struct BodyFields {
     pub origin: Vec<f64>,
     /// Cell size (m).
     pub h: f64,
-    /// Nodes along each axis; they are counted along the first axis first.
+    /// Nodes along each axis; the first axis varies fastest.
     pub counts: Vec<usize>,
     /// Fields with an entry for each node.
     pub of_nodes: Vec<StateField>,
@@ -109,23 +109,23 @@ pub struct BodyFields {
 /// Cost of one step of a subject: its passes and its memory.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Profile {
-    /// The effects that are active, in their order.
+    /// Active effects, in order.
     pub effects: Vec<&'static str>,
-    /// Particles.
+    /// Number of particles.
     pub particles: usize,
-    /// Nodes of the grid.
+    /// Number of grid nodes.
     pub nodes: usize,
-    /// Memory; no column is empty.
+    /// Memory, without empty columns.
     pub columns: Vec<ColumnSize>,
-    /// Passes of one step in their order, from [`Subject::passes`](super::Subject::passes).
+    /// Passes of one step in order, from [`Subject::passes`](super::Subject::passes).
     pub passes: Vec<String>,
-    /// Parts of the passes of one step, and the particles that each visits. A part that is computed
-    /// twice counts twice.
+    /// Names of the parts of the passes of one step, with the number of particles that each visits.
+    /// A part that is computed twice counts twice.
     pub visits: Vec<(&'static str, u64)>,
 }
 
 impl Profile {
-    /// Number of holders of entries.
+    /// Number of particles or nodes.
     pub fn holders(&self, holder: Holder) -> usize {
         match holder {
             Holder::Particle => self.particles,

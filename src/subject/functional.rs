@@ -47,11 +47,11 @@ pub enum Functional {
 }
 
 impl Functional {
-    /// Names of the functionals, as suites and messages spell them.
+    /// Names of the functionals in suites and messages.
     pub const NAMES: [&'static str; 4] =
         ["mean_displacement", "mean_square_displacement", "kinetic_energy", "position_of"];
 
-    /// The name as suites and messages spell it.
+    /// Name in suites and messages.
     pub fn name(self) -> &'static str {
         let index = match self {
             Self::MeanDisplacement { .. } => 0,
@@ -68,7 +68,7 @@ impl Functional {
 pub struct FunctionalValue {
     /// The value.
     pub value: f64,
-    /// Size of its rounding, in units of the rounding of a number.
+    /// Magnitude of the rounding error, in units of the machine epsilon.
     pub scale: f64,
 }
 

@@ -1,11 +1,11 @@
 //! Interface between the judge and a solver.
 //!
-//! A [`Subject`] is a solver at one level of a refinement plan, whose errors are measured: the MPM
-//! and FEM of this crate, or another solver. The trait is object-safe and flat (`f64` slices, no
-//! linear-algebra types of this crate), so that it can wrap a solver in another language.
+//! A [`Subject`] is a solver at one refinement level, whose errors are measured: the MPM or FEM
+//! solver of this crate, or an external solver. The trait is object-safe and uses only `f64`
+//! slices, no linear-algebra types, so that it can wrap a solver in another language.
 //!
-//! The module also defines sums over a body, reactions of walls, the identity of a solver (name and
-//! claimed order), and the state across the plane of a two-dimensional body.
+//! The module also defines conserved sums of a body, wall reactions, the identity of a solver (name
+//! and claimed order), and the out-of-plane state of a two-dimensional body.
 
 mod checkpoint;
 mod column;
@@ -23,70 +23,71 @@ pub trait Subject {
     /// Advances the state by one step of length `dt` (s).
     ///
     /// # Errors
-    /// [`Failure`] names the failure and its place. After a failure the subject must not be stepped
-    /// again.
+    /// [`Failure`] names the failure and its location. After a failure the subject must not be
+    /// stepped again.
     fn step(&mut self, dt: f64) -> Result<(), Failure>;
 
-    /// Writes the present state at the reference labels of the subject into `samples`. The labels
-    /// and their order do not change during a run.
+    /// Writes the current state at the reference labels of the subject into `samples`. The labels
+    /// and their order must not change during a run.
     fn sample(&self, samples: &mut Samples);
 
     /// Counters of the run so far.
     fn counters(&self) -> RunCounters;
 
-    /// Passes of a step in their order, as in reports (`P2G(mass, momentum)`); empty by default.
+    /// Names of the passes of a step in order, for reports (`P2G(mass, momentum)`); empty by
+    /// default.
     fn passes(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// Fields of each body, for files for viewers; empty if the subject has no fields except its
-    /// samples.
+    /// Fields of each body, for viewer files; empty if the subject has only its samples.
     fn fields(&self) -> Vec<BodyFields> {
         Vec::new()
     }
 
-    /// The conserved sums over the body; `None` by default.
+    /// Conserved sums over the body; `None` by default.
     fn totals(&self) -> Option<Totals> {
         None
     }
 
-    /// Reaction of all fixed walls, or of that on one face (axis of the normal, and whether it is
-    /// the high end); `None` by default, and before the first step.
+    /// Reaction of all fixed walls, or of one face. A face is given by the axis of its normal and
+    /// whether it is at the high end. `None` by default, and before the first step.
     fn reaction(&self, _face: Option<(usize, bool)>) -> Option<Reaction> {
         None
     }
 
-    /// Passes to `checkpoint` the complete state that later steps depend on and that the set-up
-    /// does not restore. A subject with an equal set-up can then be resumed, and gives the same
-    /// bits. Returns false if the subject does not support this.
+    /// Passes to `checkpoint` all state that later steps depend on and that the set-up does not
+    /// restore. A subject with an equal set-up can then resume with identical bits. Returns false
+    /// if the subject does not support checkpoints.
     fn checkpoint(&mut self, _checkpoint: &mut Checkpoint<'_>) -> bool {
         false
     }
 
     /// Kinetic energy (J) of the part of the velocities that the discretisation does not resolve:
-    /// for particles, the part in the null space of the map to the grid. It may cost as much as
-    /// some tens of steps, and is computed only if a figure needs it; `None` by default.
+    /// for particles, the part in the null space of the map to the grid. The computation may cost
+    /// as much as tens of steps, so callers request this energy only for reports. `None` by
+    /// default.
     fn null_space_energy(&self) -> Option<f64> {
         None
     }
 }
 
-/// A subject whose step is a map from state to state on a fixed configuration, as a linear
-/// stability analysis needs.
+/// A subject with a step that maps a state to a state on a fixed configuration, for linear
+/// stability analysis.
 pub trait Perturbable: Subject {
-    /// Fixes the configuration (positions and domains) in all later steps; all other quantities
-    /// advance as before.
+    /// Fixes the configuration (positions and domains) in all later steps. All other quantities
+    /// continue to advance.
     fn fix_configuration(&mut self);
 
-    /// Writes all numbers that a step reads and changes, without the configuration, to `state`.
-    /// Their number and order do not change.
+    /// Writes all numbers that a step reads and changes to `state`, except the configuration. Their
+    /// number and order do not change.
     fn state(&self, state: &mut Vec<f64>);
 
     /// Sets the state from numbers in the order of [`Perturbable::state`].
     fn set_state(&mut self, state: &[f64]);
 
-    /// Writes a natural scale of each number of the state to `sizes`, for velocities of scale
-    /// `speed` (m/s) and stresses of scale `modulus` (Pa).
+    /// Writes a natural scale of each state number to `sizes`, for velocities of scale `speed`
+    /// (m/s) and stresses of scale `modulus` (Pa).
     fn sizes(&self, speed: f64, modulus: f64, sizes: &mut Vec<f64>);
 }
 
@@ -104,8 +105,9 @@ named! {
     }
 }
 
-/// A state at reference labels: `n` labels in `dimension` dimensions, point after point. A subject
-/// without stress, F or temperature leaves that column empty, and cannot be judged by it.
+/// State at reference labels: `n` labels in `dimension` dimensions, one point after another. A
+/// subject without stress, F or temperature leaves that column empty, and this quantity is not
+/// judged.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Samples {
@@ -121,9 +123,9 @@ pub struct Samples {
     pub weight: Vec<f64>,
     /// Mass of each label, `n` numbers (kg): the weight in `mass_l2`; may be empty.
     pub mass: Vec<f64>,
-    /// Cauchy stresses, `n * D * D` numbers, row after row (Pa); may be empty.
+    /// Cauchy stresses, `n * D * D` numbers, row by row (Pa); may be empty.
     pub stress: Vec<f64>,
-    /// Deformation gradients F, `n * D * D` numbers, row after row; may be empty.
+    /// Deformation gradients F, `n * D * D` numbers, row by row; may be empty.
     pub deformation_gradient: Vec<f64>,
     /// Temperatures, `n` numbers (K); may be empty.
     pub temperature: Vec<f64>,
@@ -147,7 +149,7 @@ impl Samples {
     }
 
     /// Adds a point: reference position (m), displacement (m) and velocity (m/s), D numbers each,
-    /// and its reference volume (m^D).
+    /// and reference volume (m^D).
     pub fn push(&mut self, label: &[f64], displacement: &[f64], velocity: &[f64], weight: f64) {
         self.dimension = label.len();
         self.label.extend_from_slice(label);
@@ -169,33 +171,33 @@ impl Samples {
     }
 }
 
-/// Deterministic figures of a run: its cost, and figures that explain its error. `None` if the
-/// subject does not have a figure.
+/// Deterministic counts and values of a run that describe its cost and explain its error. `None` if
+/// the subject does not have a value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunCounters {
-    /// Particles (MPM).
+    /// Number of particles (MPM).
     pub particles: Option<u64>,
-    /// Particle-node pairs visited by P2G and G2P so far; for FEM, pairs of quadrature point and
-    /// node.
+    /// Number of particle-node pairs that P2G and G2P have visited so far; for FEM, pairs of a
+    /// quadrature point and a node.
     pub transfers: u64,
     /// Number of cell changes of particles so far (MPM).
     pub crossings: Option<u64>,
-    /// Particles outside the grid now (MPM).
+    /// Number of particles that are now outside the grid (MPM).
     pub left_domain: Option<u64>,
-    /// Smallest J = det F so far; NaN if it is unknown.
+    /// Smallest J = det F so far; NaN if unknown.
     pub min_j: f64,
 }
 
 impl RunCounters {
-    /// Counters of a subject that only counts `transfers`.
+    /// Counters of a subject that counts only `transfers`.
     pub fn new(transfers: u64) -> Self {
         let (particles, crossings, left_domain) = (None, None, None);
         Self { particles, transfers, crossings, left_domain, min_j: f64::NAN }
     }
 }
 
-/// Place of a failure.
+/// Location of a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Site {
@@ -210,7 +212,7 @@ pub enum Site {
     Node(usize),
 }
 
-/// Reason why a subject failed.
+/// Reason for the failure of a subject.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Failure {
@@ -219,26 +221,26 @@ pub enum Failure {
     NonFinite {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Place of the failure.
+        /// Location of the failure.
         site: Site,
     },
     /// The deformation gradient lost its orientation.
     #[error("{site} is inverted, J = {j:.3e}")]
     Inverted {
-        /// Place of the failure.
+        /// Location of the failure.
         site: Site,
-        /// The determinant that was met.
+        /// The determinant of the deformation gradient.
         j: f64,
     },
-    /// A body starts deformed, and its law does not define the stress there.
+    /// A body starts deformed, and its law does not define a stress for the initial deformation.
     #[error("the law has no stress for a body that starts deformed")]
     NotOfDeformation,
-    /// A particle has no cell any more.
+    /// A particle is outside all cells.
     #[error("{site} left the domain at x = {position:?}")]
     LeftDomain {
-        /// Which particle.
+        /// The particle.
         site: Site,
-        /// Its position, D numbers (m).
+        /// Position of the particle, D numbers (m).
         position: Vec<f64>,
     },
     /// Newton's method did not converge in a load step.
@@ -247,9 +249,9 @@ pub enum Failure {
          node {node}"
     )]
     NotConverged {
-        /// Largest residual of a node, over the norm of the load.
+        /// Largest nodal residual, divided by the norm of the load.
         residual: f64,
-        /// Number of the node.
+        /// Index of the node with this residual.
         node: usize,
     },
     /// A linear system could not be solved.
@@ -260,11 +262,11 @@ pub enum Failure {
     External(String),
 }
 
-/// Reason why a problem has no run.
+/// Reason why a problem cannot be run.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SubjectError {
-    /// The solver does not support the problem, or there is no such problem: one line with the
+    /// The solver does not support the problem, or the problem does not exist: one line with the
     /// reason.
     #[error("{0}")]
     Unsupported(String),
@@ -285,24 +287,24 @@ impl From<&str> for SubjectError {
     }
 }
 
-/// Sums over the particles p that are conserved in a motion without external forces; components
-/// beyond the dimension are zero.
+/// Sums over the particles p that a motion without external forces conserves. Components beyond the
+/// dimension are zero.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Totals {
     /// `sum m_p` (kg).
     pub mass: f64,
     /// `sum m_p v_p` (kg m/s).
     pub momentum: [f64; 3],
-    /// `sum m_p |v_p|`, against which a change of the momentum is small or not (kg m/s).
+    /// `sum m_p |v_p|`, the scale for changes of the momentum (kg m/s).
     pub momentum_size: f64,
     /// `sum m_p x_p x v_p` about the origin, plus the angular momentum within particles (kg m2/s).
-    /// In 2-D the third component only; zero in 1-D.
+    /// In 2-D only the third component is non-zero; in 1-D all are zero.
     pub angular_momentum: [f64; 3],
-    /// The sum of the magnitudes of the terms of the angular momentum (kg m2/s).
+    /// Sum of the magnitudes of the terms of the angular momentum (kg m2/s).
     pub angular_momentum_size: f64,
     /// `sum m_p v_p^2 / 2` (J).
     pub kinetic_energy: f64,
-    /// Stored energy of the material (J); `None` if its law has no energy.
+    /// Stored energy of the material (J); `None` if the law defines no energy.
     pub strain_energy: Option<f64>,
     /// `sum m_p x_p^2` for each axis (kg m2).
     pub second_moment: [f64; 3],
@@ -311,7 +313,7 @@ pub struct Totals {
 }
 
 impl Totals {
-    /// Adds a particle of this mass (kg), velocity (m/s) and angular momentum (kg m2/s).
+    /// Adds a particle with this mass (kg), velocity (m/s) and angular momentum (kg m2/s).
     pub fn add(&mut self, mass: f64, velocity: [f64; 3], spin: [f64; 3]) {
         let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
         self.mass += mass;
@@ -324,7 +326,7 @@ impl Totals {
         }
     }
 
-    /// Adds the second moments of a particle of this mass (kg), at the position `x` with the
+    /// Adds the second moments of a particle with this mass (kg) at the position `x` with the
     /// reference position `label` (m).
     pub fn add_second_moments(&mut self, mass: f64, x: &[f64], label: &[f64]) {
         for (sums, place) in
@@ -341,7 +343,7 @@ impl Totals {
         self.strain_energy.map(|stored| self.kinetic_energy + stored)
     }
 
-    /// The sums over two bodies.
+    /// Sums of two bodies together.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|i| a[i] + b[i]);
@@ -362,8 +364,8 @@ impl Totals {
     }
 }
 
-/// Force of walls on the body at the beginning of the last step: the forces at its end are computed
-/// by the next step.
+/// Force of walls on the body at the beginning of the last step. The forces at its end are computed
+/// only in the next step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reaction {
     /// Time of the force (s).
@@ -372,13 +374,13 @@ pub struct Reaction {
     pub force: [f64; 3],
 }
 
-/// Maximum length of the name of a solver (bytes).
+/// Maximum length of a solver name (bytes).
 pub(crate) const LONGEST_NAME: usize = 64;
 
 /// Maximum order that a solver may claim.
 pub(crate) const HIGHEST_ORDER: f64 = 20.0;
 
-/// Whether `name` is a valid name of a solver: it becomes part of the names of cases and files.
+/// Whether `name` is a valid solver name: it becomes part of case and file names.
 pub(crate) fn is_solver_name(name: &str) -> bool {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
     !name.is_empty() && name.len() <= LONGEST_NAME && name.chars().all(plain)

@@ -12,7 +12,7 @@ fn element() -> impl Strategy<Value = Element> {
     prop_oneof![Just(Element::Linear), Just(Element::Quadratic)]
 }
 
-/// A polynomial of the degree of the element.
+/// A polynomial of the element degree.
 fn polynomial(element: Element, x: f64) -> f64 {
     match element {
         Element::Linear => 0.3 - 1.7 * x,
@@ -73,7 +73,8 @@ fn gauss_points_are_exact_to_their_degree(#[case] element: Element, #[case] degr
     }
 }
 
-/// Hughes 2000, section 7.3.2; the factors are those of an element of unit length and density.
+/// Matrices from Hughes 2000, section 7.3.2; the factors apply to an element of unit length and
+/// density.
 #[rstest]
 #[case(Element::Linear, 6.0, &[2.0, 1.0, 1.0, 2.0])]
 #[case(Element::Quadratic, 30.0, &[4.0, 2.0, -1.0, 2.0, 16.0, 2.0, -1.0, 2.0, 4.0])]

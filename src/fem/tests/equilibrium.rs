@@ -1,4 +1,4 @@
-//! Forces that cancel, forces that add up, reported figures, and set-ups that are refused.
+//! Balanced forces, sums of forces, reported values, and invalid set-ups.
 
 use super::{bar_at_rest, run};
 use crate::fem::setup::MOST_CELLS;
@@ -13,7 +13,7 @@ fn neo_hookean(def_grad: f64) -> f64 {
     50.0 * (def_grad - 1.0 / def_grad)
 }
 
-/// The patch test: a uniform strain, in equilibrium with its own stress, is in the discrete space.
+/// Patch test: the discrete space contains a uniform strain, and its stress is in equilibrium.
 #[rstest]
 fn a_uniform_stretch_stays(
     #[values(Element::Linear, Element::Quadratic)] element: Element,
@@ -87,7 +87,8 @@ fn samples_cover_the_bar(
     }
 }
 
-/// Eight elements of two points and two nodes, visited by the strain and by the forces.
+/// Eight elements with two points and two nodes, visited once for the strain and once for the
+/// forces.
 #[test]
 fn every_visit_is_counted() {
     let mut bar = Bar::new(bar_at_rest(2.0, 100.0, 1.0)).unwrap();
@@ -134,7 +135,7 @@ fn an_inverted_start_is_refused() {
     assert_eq!(Bar::new(setup).err(), Some(SetupError::Initial(inverted)));
 }
 
-/// Half of the bar is at rest; element 4 of 8 is run over within the step.
+/// Half of the bar is at rest, and the moving half inverts element 4 of 8 within the step.
 #[test]
 fn an_inversion_names_its_element_in_the_step_that_makes_it() {
     let initial_velocity = Box::new(|x| if x > 0.5 { -10.0 } else { 0.0 });
@@ -145,7 +146,7 @@ fn an_inversion_names_its_element_in_the_step_that_makes_it() {
     assert!(bar.counters().min_j <= j);
 }
 
-/// The first node is fixed, and the traction fails at the last one.
+/// The first node is fixed. The traction fails at the last node.
 #[rstest]
 #[case::law(BarSetup { law: Box::new(|_| f64::NAN), ..start() }, 1)]
 #[case::body_force(BarSetup { body_force: Some(pointwise(|_, t| 1.0 / t)), ..start() }, 1)]
@@ -168,7 +169,7 @@ fn a_step_without_length_in_numbers_is_a_failure() {
     assert_eq!(bar.step(f64::NAN), Err(Failure::NonFinite { quantity, site }));
 }
 
-/// No node can move, and nothing fails: both ends of the only element are fixed.
+/// Both ends of the only element are fixed: no node can move, and the step succeeds.
 #[test]
 fn a_bar_without_free_nodes_stands() {
     let mut bar = Bar::new(BarSetup {

@@ -45,7 +45,7 @@ fn run(setup: BarSetup, until: f64, dt: f64) -> Bar {
     bar
 }
 
-/// Root of the mean square of `u - exact`.
+/// Root mean square of `u - exact`.
 fn rms(bar: &Bar, sampling: Sampling, exact: impl Fn(f64) -> f64) -> f64 {
     let mut samples = Samples::default();
     bar.sample_as(sampling, &mut samples);
@@ -54,7 +54,7 @@ fn rms(bar: &Bar, sampling: Sampling, exact: impl Fn(f64) -> f64) -> f64 {
     libm::sqrt(square / samples.weight.iter().sum::<f64>())
 }
 
-/// Orders between neighbouring levels; h or dt is halved from each to the next.
+/// Orders between neighbouring levels; each level halves h or dt.
 fn orders(errors: &[f64]) -> Vec<f64> {
     errors.windows(2).map(|pair| libm::log2(pair[0] / pair[1])).collect()
 }

@@ -1,19 +1,18 @@
 //! Dispersion and damping of one MPM step in closed form.
 //!
-//! The setting is a periodic row of cells with a linear elastic law and particles that do not
-//! move. The grid retains two numbers of each Fourier mode: the nodal velocity `w` before the
-//! update and the acceleration `f`. With the symbols of [`WaveSymbols`] a step of FLIP with a
-//! lumped mass matrix is
+//! The setting is a periodic row of cells with a linear elastic law and fixed particles. On the
+//! grid, two numbers describe each Fourier mode: the nodal velocity `w` before the update and the
+//! acceleration `f`. With the symbols of [`WaveSymbols`], a FLIP step with a lumped mass matrix is
 //!
 //! ```text
 //! w_new = w + s dt f
 //! f_new = f - kappa (c/h)^2 dt g,   g = w + dt f (USL) or g = w_new (MUSL, USF)
 //! ```
 //!
-//! This 2 x 2 matrix has the eigenvalues `l^2 - tr l + det = 0`. Every transfer has the form
+//! The eigenvalues of this 2 x 2 matrix satisfy `l^2 - tr l + det = 0`. For every transfer,
 //! `tr = 1 + b - p C^2` and `det = b - q C^2` with the Courant number `C = c dt/h`. All other
 //! eigenvalues of the particle matrix are 1, 0, or the FLIP share of a blend, and do not affect the
-//! grid. Amplitudes change by `sqrt(det)` in each step while the eigenvalues are complex.
+//! grid. While the eigenvalues are complex, each step multiplies the amplitude by `sqrt(det)`.
 //!
 //! Sources: von Neumann's analysis of the schemes of Bardenhagen (2002, J. Comput. Phys. 180), of
 //! APIC (Jiang, Schroeder & Teran 2017, J. Comput. Phys. 338), XPIC (Hammerquist & Nairn 2017,
@@ -25,10 +24,10 @@ use crate::mpm::scheme::SchemeName;
 use crate::mpm::transfer::{TransferChoice, TransferName, WithParameter};
 use std::f64::consts::{PI, TAU};
 
-/// Number of wave numbers at which a stability limit is computed before the least is refined.
+/// Number of wave numbers in the search for the minimum of the stability limit.
 const WAVES: u32 = 720;
 
-/// Rounds of the golden-section search around the least of them.
+/// Number of iterations of the golden-section search around this minimum.
 const ROUNDS: u32 = 60;
 
 /// Maximum wavelength in a search for a phase error (cells).
@@ -40,7 +39,7 @@ const RATIO: f64 = 1.002;
 /// Amount by which the amplitude factor of a step may exceed one because of rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Transfers whose step has a closed form.
+/// Transfers with a closed form of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum WaveTransfer {
     /// FLIP with a lumped mass matrix.
@@ -60,8 +59,7 @@ pub enum WaveTransfer {
 }
 
 impl WaveTransfer {
-    /// The transfer of the solver with this name and this mass matrix; `None` if its step has no
-    /// closed form.
+    /// The transfer with this name and mass matrix; `None` if the step has no closed form.
     pub fn of(transfer: TransferChoice, mass: MassName) -> Option<Self> {
         use TransferChoice::{Named, With};
         match (transfer, mass) {
@@ -85,17 +83,17 @@ impl WaveTransfer {
             TransferName::Xpic5 => Some(Self::Xpic(5)),
             TransferName::Fmpm2 => Some(Self::Fmpm(2)),
             TransferName::Fmpm4 => Some(Self::Fmpm(4)),
-            // Their particles have further numbers, or their gradients come from a fit.
+            // Particles of these transfers have additional variables, or gradients from a fit.
             TransferName::Mls | TransferName::Tpic | TransferName::Tls => None,
         }
     }
 }
 
-/// One step of a wave: trace and determinant are linear in the squared Courant number.
+/// One step of a wave. Trace and determinant are linear in the squared Courant number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveStep {
     theta: f64,
-    /// Determinant of a step without stress, b.
+    /// Determinant b of a step without stress.
     kept: f64,
     /// Coefficient p of the trace.
     stiffness: f64,
@@ -108,7 +106,7 @@ impl WaveStep {
     pub fn new(transfer: WaveTransfer, scheme: SchemeName, symbols: &WaveSymbols) -> Self {
         let WaveSymbols { theta, stiffness: kappa, mass: s, affine: a } = *symbols;
         let uses_grid_velocity = scheme == SchemeName::Usl;
-        // A transfer that adds `dt S f` to velocities, and multiplies the grid part of the old
+        // Transfers that add `dt S f` to velocities and multiply the grid part of the old
         // velocities by `kept`.
         let adding = |kept: f64| {
             if uses_grid_velocity {
@@ -117,7 +115,7 @@ impl WaveStep {
                 Self { theta, kept, stiffness: kappa * s, loss: 0.0 }
             }
         };
-        // A transfer that replaces velocities by grid velocities times `series`.
+        // Transfers that replace velocities by grid velocities times `series`.
         let replacing = |kept: f64, series: f64| {
             let passed = if uses_grid_velocity { 1.0 } else { kept };
             Self { theta, kept, stiffness: kappa * series * passed, loss: 0.0 }
@@ -157,15 +155,15 @@ impl WaveStep {
         2.0 * (1.0 + self.kept) * self.stiffness - 4.0 * self.loss
     }
 
-    /// Range of Courant numbers with complex eigenvalues. Outside the range the wave is overdamped
-    /// or unstable and has no phase. `None` if there is no such range.
+    /// Range of Courant numbers with complex eigenvalues; `None` if the range is empty. Outside the
+    /// range the wave is overdamped or unstable and has no phase.
     pub fn complex_range(&self) -> Option<(f64, f64)> {
         let lost = (1.0 - self.kept) * (1.0 - self.kept);
         let square = self.stiffness * self.stiffness;
         let slope = self.slope();
         let root = (slope * slope - 4.0 * square * lost).sqrt();
         let end = (slope + root) / (2.0 * square);
-        // The product of both roots is lost/square; the difference would cancel.
+        // The product of both roots is lost/square; a difference would cancel.
         let start = lost / (square * end);
         (start < end && end.is_finite()).then(|| (start.sqrt(), end.sqrt()))
     }
@@ -178,7 +176,7 @@ impl WaveStep {
         (discriminant > 0.0).then(|| angle / (self.theta * courant) - 1.0)
     }
 
-    /// Largest modulus of an eigenvalue: the factor of the amplitude in one step.
+    /// Largest modulus of the eigenvalues: the amplitude factor of one step.
     pub fn largest_modulus(&self, courant: f64) -> f64 {
         let discriminant = self.discriminant(courant);
         if discriminant > 0.0 {
@@ -187,7 +185,7 @@ impl WaveStep {
         0.5 * (self.trace(courant).abs() + (-discriminant).sqrt())
     }
 
-    /// Factor of the amplitude in one exact period, `2 pi h/(theta c)`.
+    /// Amplitude factor over one exact period, `2 pi h/(theta c)`.
     pub fn kept_per_period(&self, courant: f64) -> f64 {
         libm::pow(self.largest_modulus(courant), TAU / (self.theta * courant))
     }
@@ -203,12 +201,12 @@ impl WaveStep {
     }
 }
 
-/// Sum of `(1 - s)^j` for j below `terms`, which tends to 1/s.
+/// Sum of `(1 - s)^j` for j below `terms`; its limit is 1/s.
 fn neumann(s: f64, terms: u32) -> f64 {
     (0..terms).fold(0.0, |sum, _| 1.0 + (1.0 - s) * sum)
 }
 
-/// A method on regular particles, for waves of any length.
+/// A method with regularly spaced particles, for waves of any length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveMethod {
     /// Basis functions.
@@ -219,7 +217,8 @@ pub struct WaveMethod {
     pub shift: f64,
     /// Transfer and mass matrix.
     pub transfer: WaveTransfer,
-    /// Time scheme. USF has the eigenvalues of MUSL: its step starts at another stage.
+    /// Time scheme. USF has the eigenvalues of MUSL, because only the first stage of the step
+    /// differs.
     pub scheme: SchemeName,
 }
 
@@ -235,9 +234,9 @@ impl WaveMethod {
         WaveSymbols::new(self.spline, theta, &positions)
     }
 
-    /// Number of cells per wavelength from which on the phase error stays below `tolerance`. A
-    /// wave without a phase counts as beyond the tolerance. `None` if the error of waves of 1e4
-    /// cells is not below the tolerance, or if all waves of two cells or more are within it.
+    /// Number of cells per wavelength above which the phase error stays below `tolerance`. A wave
+    /// without a phase counts as outside the tolerance. `None` if the error is not below the
+    /// tolerance at 1e4 cells, or if it is below the tolerance for all waves of two cells or more.
     pub fn cells_for_phase_error(&self, courant: f64, tolerance: f64) -> Option<f64> {
         let is_within = |cells: f64| {
             let error = self.step(TAU / cells).phase_error(courant);
@@ -279,7 +278,7 @@ impl WaveMethod {
                 least = (value, theta);
             }
         }
-        // Golden-section search between the neighbours of the least.
+        // Golden-section search between the neighbours of the minimum.
         let share = 0.5 * (5.0_f64.sqrt() - 1.0);
         let (mut low, mut high) =
             ((least.1 - spacing).max(0.5 * spacing), (least.1 + spacing).min(PI));

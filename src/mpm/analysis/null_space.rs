@@ -1,12 +1,12 @@
-//! Null space of the map to the grid: the part of the particles' velocities without nodal momentum.
+//! Null space of the map to the grid: the part of the particle velocities without nodal momentum.
 //!
 //! With N the map from nodes to particles and M the particle masses, velocities split uniquely into
-//! `v = N w + v0`, where v0 gives no momentum to any node, `N^T M v0 = 0`: v0 lies in the null
-//! space of the map to the grid, and no force acts against it (Brackbill 1988; Gritton & Berzins
-//! 2017, Comp. Part. Mech. 4). w is the least-squares fit `N^T M N w = N^T M v`, whose matrix is
-//! the consistent mass matrix. It may be singular, which conjugate gradients allow. The
-//! preconditioner is the lumped mass matrix, so that each iteration applies the map to the grid and
-//! back, the operator of PIC and XPIC, once.
+//! `v = N w + v0`, where v0 gives no momentum to any node, `N^T M v0 = 0`. No force acts against
+//! v0, which is in the null space of the map to the grid (Brackbill 1988; Gritton & Berzins 2017,
+//! Comp. Part. Mech. 4). The nodal velocity w is the least-squares fit `N^T M N w = N^T M v`, whose
+//! matrix is the consistent mass matrix. This matrix may be singular, which conjugate gradients
+//! allow. The preconditioner is the lumped mass matrix, so each iteration maps to the grid and back
+//! once, like PIC and XPIC.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
@@ -14,27 +14,28 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{Kernel, ParticleField};
 use crate::mpm::step::solver::Solver;
 
-/// Energy of the residual, as a share of the whole, that counts as rounding.
+/// Energy of the residual that counts as rounding, as a share of the initial energy.
 const ROUNDING: f64 = 1e-26;
 
-/// Rounds at most. A mode that PIC multiplies by l is found in about `1/sqrt(l)` of them.
+/// Maximum number of iterations. A mode that PIC multiplies by l needs about `1/sqrt(l)`
+/// iterations.
 const MOST: usize = 200;
 
 impl<const D: usize> Solver<D> {
-    /// Kinetic energy (J) of the part of the particle velocities in the null space of the map to
-    /// the grid, at the current positions. Walls do not matter: they fix nodes, and this part has
-    /// no effect on nodes.
+    /// Kinetic energy (J) of the null-space part of the particle velocities, at the current
+    /// positions. Walls have no influence, because they fix nodes, and this part has no effect on
+    /// nodes.
     pub fn null_space_energy(&self) -> f64 {
         0.5 * square(&self.setup.particles, &self.null_space_velocity())
     }
 
-    /// That part of the velocities (m/s).
+    /// Null-space part of the particle velocities (m/s).
     pub fn null_space_velocity(&self) -> Vec<Vector<D>> {
         null_part(self.setup.kernel.as_ref(), &self.setup.grid, &self.setup.particles)
     }
 }
 
-/// The part v0 of the velocities (m/s), by conjugate gradients.
+/// Computes the null-space part v0 of the velocities (m/s) by conjugate gradients.
 fn null_part<const D: usize>(
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,
@@ -51,7 +52,7 @@ fn null_part<const D: usize>(
     for _ in 0..MOST {
         to_nodes(&rest, &mut momentum);
         let seen = seen(&masses, &momentum);
-        // A comparison that NaN fails, so that it ends the loop and stays in the residual.
+        // Written so that NaN ends the loop and stays in the residual.
         if !(seen > ROUNDING * size) {
             break;
         }
@@ -69,8 +70,8 @@ fn null_part<const D: usize>(
     rest
 }
 
-/// Nodal masses (kg) at the current positions of the particles; those of the grid are from before
-/// the last motion.
+/// Nodal masses (kg) at the current particle positions; the masses of the grid are older than the
+/// last move.
 fn masses<const D: usize>(
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,

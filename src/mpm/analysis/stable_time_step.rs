@@ -1,21 +1,21 @@
-//! Stable time step, by power iteration with the passes of the solver itself.
+//! Stable time step, computed by power iteration with the passes of the solver.
 //!
-//! Nodal velocities strain the particles, the stresses give forces, and these accelerate the nodes:
-//! `L = M^-1 K`, applied by running the stages of a step on a small velocity. Its largest
-//! eigenvalue, the square of the highest frequency, is found by power iteration. With it an
-//! explicit step is stable up to `dt^2 L = 4/((2 - a) l)` under USL, where a, between 0 and 1, is
-//! the share of a velocity that the particles return to the grid; so `dt = sqrt(2/L)` is stable for
-//! every mode. Under USF and MUSL the strain comes from grid velocities that were mapped to
-//! particles and back: `L = P N M^-1 K` with the maps N to particles and P to nodes, which stays
-//! bounded where a node has little mass. The analysis assumes nothing about basis, mass matrix,
-//! particle positions or law: it runs the passes of the solver with those of the run.
+//! Nodal velocities strain the particles, the stresses give forces, and the forces accelerate the
+//! nodes. This operator, `L = M^-1 K`, is applied by running the stages of a step on a small
+//! velocity. Power iteration gives the largest eigenvalue of L, the square of the highest
+//! frequency. Under USL an explicit step is stable up to `dt^2 L = 4/((2 - a) l)`, where a, between
+//! 0 and 1, is the share of a velocity that the particles return to the grid. So `dt = sqrt(2/L)`
+//! is stable for every mode. Under USF and MUSL the strain comes from grid velocities that were
+//! mapped to particles and back. With the maps N to particles and P to nodes, `L = P N M^-1 K`.
+//! This operator stays bounded if a node has little mass. The analysis needs no assumption about
+//! basis, mass matrix, particle positions or law, because it runs the passes of the solver.
 //!
-//! A load that depends on the displacement holds each particle with a stiffness k per unit mass.
-//! The maps to nodes and back average, so that the load adds at most k to the square of a
-//! frequency.
+//! A load that depends on the displacement adds a stiffness k per unit mass to each particle. The
+//! maps to nodes and back are averages, so the load increases the square of a frequency by at most
+//! k.
 //!
-//! Sources: von Neumann's analysis (the suite `courant-limit` has the closed forms); for the
-//! dependence on the place of particles also Ni & Zhang (2020), IJNME 121.
+//! Sources: von Neumann's analysis (the suite `courant-limit` has the closed forms); Ni & Zhang
+//! (2020), IJNME 121, for the dependence on particle positions.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::scheme::{SchemeName, Stage};
@@ -25,16 +25,16 @@ use crate::mpm::step::solver::Solver;
 use crate::mpm::transfer::{TransferChoice, TransferKind, TransferName, kick};
 use crate::subject::{Checkpoint, Failure};
 
-/// Largest velocity in the iteration, over `h/longest`. Its strains must be much larger than the
-/// rounding error, 1e-16, and much smaller than one. It is also so small that a quadratic viscosity
-/// is negligible.
+/// Largest velocity in the iteration, divided by `h/longest`. Its strains are much larger than the
+/// rounding error, 1e-16, and much smaller than one. A quadratic viscosity is negligible at this
+/// velocity.
 const SPEED: f64 = 1e-7;
 
-/// Maximum number of repetitions, each with the step that the previous one gave: if stresses depend
-/// on rates, the frequency depends on the step.
+/// Maximum number of repetitions. If stresses depend on rates, the frequency depends on the step,
+/// so each repetition uses the step that the previous one computed.
 const REPEATS: u32 = 12;
 
-/// Rounds of each repetition after the first, which starts from the mode of the previous one.
+/// Iterations of each repetition after the first, which starts from the mode of the previous one.
 const AGAIN: u32 = 4;
 
 /// Shift of all eigenvalues, as a share of the largest estimate so far. It almost doubles the rate
@@ -46,11 +46,11 @@ const SHIFT: f64 = 0.45;
 const SETTLED: f64 = 1e-3;
 
 impl<const D: usize> Solver<D> {
-    /// Maximum stable step (s) in the present state of the body, at most `longest`. Includes the
-    /// stiffness of loads, the damping of the law and artificial viscosity; excludes the loads
-    /// themselves, other damping and the friction of walls. Each of the `rounds` of the power
-    /// iteration costs as much as a step. The result is an upper bound, too large by a few percent
-    /// after about twenty rounds.
+    /// Maximum stable step (s) in the current state of the body, at most `longest`. Includes the
+    /// stiffness of loads, the damping of the law and artificial viscosity. Excludes the loads
+    /// themselves, other damping and wall friction. Each of the `rounds` of the power iteration
+    /// costs as much as a step. The result is an upper bound, a few percent too large after about
+    /// twenty rounds.
     ///
     /// # Errors
     /// Failures of the passes; [`Failure::Solve`] if there is no highest frequency.
@@ -80,8 +80,8 @@ impl<const D: usize> Solver<D> {
         Ok(dt)
     }
 
-    /// Power iteration: the largest ratio of the norm of `L mode` to that of `mode`, in the norm of
-    /// the nodal masses, in which the matrix is symmetric.
+    /// Power iteration: returns the largest ratio of the norm of `L mode` to the norm of `mode`.
+    /// The norm is weighted by the nodal masses; in this norm the matrix is symmetric.
     fn square_of_frequency(
         &mut self,
         start: &[u8],
@@ -118,7 +118,7 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Response of the nodes to a motion with `velocity` (m/s) for `dt` (s): their accelerations
-    /// (m/s2), or the velocities that P2G gives after a kick by these over 1 s.
+    /// (m/s2), or the velocities that P2G gives after these accelerations have acted for 1 s.
     fn response(
         &mut self,
         start: &[u8],
@@ -166,17 +166,17 @@ impl<const D: usize> Solver<D> {
     }
 }
 
-/// Whether velocities pass through particles before they strain them. For affine fields and series
-/// the loss in that passage is neglected.
+/// Whether velocities are mapped to particles and back before they strain the particles. For affine
+/// fields and series the loss in this mapping is neglected.
 fn strains_by_mapped_velocity(scheme: SchemeName, kind: TransferKind) -> bool {
     scheme != SchemeName::Usl && kind == TransferKind::Velocity
 }
 
-/// The simplest scheme and transfer with the same stable time step, to the last bit, so that it is
-/// computed once for all methods that share it. A response contains no P2G of momentum and no G2P
-/// of velocities, unless velocities pass through particles, and then only this passage. Forces and
-/// velocity gradients are those of the basis for all transfers except fits, and accelerations are
-/// those of the basis for all except series and cells.
+/// The simplest scheme and transfer with the same stable time step, to the last bit. The step is
+/// therefore computed once for all methods that share it. A response contains P2G of momentum and
+/// G2P of velocities only if velocities are mapped to particles and back, and then only in this
+/// mapping. All transfers except fits take forces and velocity gradients from the basis. All except
+/// series and cells take accelerations from the basis.
 pub fn simplest_with_same_response(
     scheme: SchemeName,
     transfer: TransferChoice,
@@ -190,7 +190,7 @@ pub fn simplest_with_same_response(
     }
 }
 
-/// A number from -1 to 1 without any pattern (splitmix64, Steele, Lea & Flood 2014).
+/// A pseudo-random number from -1 to 1 (splitmix64, Steele, Lea & Flood 2014).
 fn scattered(k: u64) -> f64 {
     let mut z = k.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -1,21 +1,21 @@
 //! Symbols of stiffness, mass and APIC: one Fourier mode of the maps between particles and grid.
 //!
-//! A periodic row of cells with the same particles in each cell is invariant under translation by
-//! a cell. A nodal field `exp(i theta x_i)` is therefore an eigenvector of every map from the grid
-//! to the particles and back, and its eigenvalue is the *symbol* of the map (von Neumann's
-//! analysis; Strang 2007, Computational Science and Engineering, section 4.1). Lengths are in units
-//! of the cell size h, so symbols have no dimension.
+//! A periodic row of cells with the same particles in each cell is invariant under translation by a
+//! cell. A nodal field `exp(i theta x_i)` is therefore an eigenvector of every map from the grid to
+//! the particles and back. The *symbol* of the map is the eigenvalue (von Neumann's analysis;
+//! Strang 2007, Computational Science and Engineering, section 4.1). Lengths are in units of the
+//! cell size h, so symbols are dimensionless.
 //!
-//! The B-splines are written out here (de Boor 2001, A Practical Guide to Splines, chapter 9).
-//! Nothing is taken from the basis functions of the solver, which tests compare with these symbols.
+//! The B-splines are implemented here (de Boor 2001, A Practical Guide to Splines, chapter 9),
+//! independently of the basis functions of the solver. Tests compare both.
 
 use crate::mpm::basis::BasisName;
 
 /// Smallest APIC inertia, in squared cell sizes, that counts as different from zero.
 const SMALLEST_INERTIA: f64 = 1e-12;
 
-/// Uniform B-spline basis functions of one axis, with knots at the cell corners, and means of the
-/// linear ones over the domain of a particle.
+/// Basis functions of one axis: uniform B-splines with knots at the cell corners, and averages of
+/// linear functions over the domain of a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spline {
     /// Piecewise linear functions, centred at cell corners.
@@ -24,11 +24,11 @@ pub enum Spline {
     Quadratic,
     /// Cubic B-splines, centred at cell corners.
     Cubic,
-    /// GIMP with this number of particles per cell: means of linear functions over the domain of a
+    /// GIMP with this number of particles per cell: linear functions averaged over the domain of a
     /// particle (Bardenhagen & Kober 2004, CMES 5).
     Gimp(u32),
-    /// CPDI with this number of particles per cell: means of linear functions over both ends of the
-    /// domain of a particle (Sadeghirad, Brannon & Burghardt 2011, IJNME 86).
+    /// CPDI with this number of particles per cell: mean of the linear functions at both ends of
+    /// the domain of a particle (Sadeghirad, Brannon & Burghardt 2011, IJNME 86).
     Cpdi(u32),
 }
 
@@ -43,7 +43,7 @@ impl Spline {
     }
 
     /// The functions of the solver with this name, for `ppc` particles per cell. Small motions do
-    /// not change the domains of particles, so that contiguous and uniform GIMP are one method.
+    /// not change the domains of particles, so contiguous and uniform GIMP are identical.
     pub fn of(basis: BasisName, ppc: u32) -> Self {
         match basis {
             BasisName::Linear => Self::Linear,
@@ -55,7 +55,7 @@ impl Spline {
     }
 
     /// Value and derivative (per cell) at the distance `x` (in cells) from the centre of the
-    /// function. At a knot the derivative is that of the cell on the right.
+    /// function. At a knot the derivative is taken in the cell on the right.
     fn at(self, x: f64) -> (f64, f64) {
         let (r, sign) = (x.abs(), if x < 0.0 { -1.0 } else { 1.0 });
         let (value, slope) = match self {
@@ -105,13 +105,14 @@ pub struct WaveSymbols {
     /// after the map to the particles and back with a lumped mass matrix.
     pub mass: f64,
     /// APIC, `a = s + mean |sum N_i (x_i - xi) exp(i theta x_i)|^2/D` with
-    /// `D = sum N_i (x_i - xi)^2`: the part that remains if particles have an affine field.
+    /// `D = sum N_i (x_i - xi)^2`: the part of a nodal velocity that remains if particles have an
+    /// affine field.
     pub affine: f64,
 }
 
 impl WaveSymbols {
     /// Symbols of a wave with `theta` (rad) for particles of equal mass and volume at `positions`,
-    /// from 0 to 1 in each cell. A particle with D = 0 adds no affine part. NaN without particles.
+    /// from 0 to 1 in each cell. A particle with D = 0 has no affine part. NaN without particles.
     pub fn new(spline: Spline, theta: f64, positions: &[f64]) -> Self {
         let [mut stiffness, mut mass, mut affine] = [0.0; 3];
         for xi in positions {
@@ -139,14 +140,14 @@ impl WaveSymbols {
         Self { theta, stiffness: stiffness / count, mass, affine: mass + affine / count }
     }
 
-    /// Positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell, in cells, from 0 to 1 after
-    /// a translation by `shift` cells.
+    /// Positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell (cells), translated by
+    /// `shift` cells and wrapped to 0 to 1.
     pub fn shifted_positions(ppc: u32, shift: f64) -> Vec<f64> {
         let all = Self::regular_positions(ppc).into_iter().map(|xi| xi + shift);
         all.map(|xi| xi - libm::floor(xi)).collect()
     }
 
-    /// Positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell, in cells.
+    /// Positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell (cells).
     pub fn regular_positions(ppc: u32) -> Vec<f64> {
         (0..ppc).map(|j| (f64::from(j) + 0.5) / f64::from(ppc)).collect()
     }

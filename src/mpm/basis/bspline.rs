@@ -1,10 +1,9 @@
 //! B-splines of degree 2 and 3: gradients without jumps.
 //!
-//! At walls the knots are open (repeated), so that the functions conform to the wall: the first
-//! function is 1 there, and prescribing its coefficient prescribes the boundary value (Steffen,
-//! Kirby & Berzins 2008, IJNME 76, section 4; Tielen, Wobbes, Moeller & Beuth 2017). On a periodic
-//! axis the knots are uniform. The functions are evaluated by the recursion of Cox and de Boor
-//! (Piegl & Tiller, The NURBS Book, algorithm A2.2).
+//! At walls the knots are open (repeated), so the first function is 1 there, and prescribing its
+//! coefficient prescribes the boundary value (Steffen, Kirby & Berzins 2008, IJNME 76, section 4;
+//! Tielen, Wobbes, Moeller & Beuth 2017). On a periodic axis the knots are uniform. The functions
+//! are evaluated by the Cox-de Boor recursion (Piegl & Tiller, The NURBS Book, algorithm A2.2).
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain, FourLanes};
@@ -23,7 +22,7 @@ pub struct QuadraticBSpline;
 #[derive(Debug, Clone, Copy)]
 pub struct CubicBSpline;
 
-/// Knot k of an axis of `cells` cells for degree `p`, in cells: open at walls, else uniform.
+/// Knot k of an axis of `cells` cells for degree `p` (in cells): open at walls, otherwise uniform.
 fn knot(k: usize, p: usize, cells: usize, periodic: bool) -> f64 {
     let uniform = k as f64 - p as f64;
     if periodic { uniform } else { uniform.clamp(0.0, cells as f64) }
@@ -43,14 +42,14 @@ fn mean(knots: &[f64]) -> f64 {
 /// Maximum number of knots around a cell: twice the largest degree.
 const MOST_KNOTS: usize = 6;
 
-/// The 2p knots around a cell of an axis with walls for degree `p`: p up to its low side, and p
-/// from its high side on. The rest of the array is not used.
+/// The 2p knots around a cell for degree `p`, on an axis with walls: p knots up to the low side of
+/// the cell, and p knots from its high side. The rest of the array is not used.
 fn knots_around(cell: usize, p: usize, cells: usize) -> [f64; MOST_KNOTS] {
     array(0.0, |k| knot(cell + 1 + k, p, cells, false))
 }
 
-/// The K = p + 1 functions of an axis with walls at `s` (in cells) within a cell that has these
-/// [`knots_around`] it, with derivatives per cell.
+/// The K = p + 1 functions and their derivatives (per cell) at `s` (in cells) on an axis with
+/// walls, in a cell with the knots [`knots_around`].
 #[inline(always)]
 fn functions<const K: usize>(s: f64, around: &[f64; MOST_KNOTS]) -> ([f64; K], [f64; K]) {
     let p = K - 1;
@@ -76,8 +75,8 @@ fn functions<const K: usize>(s: f64, around: &[f64; MOST_KNOTS]) -> ([f64; K], [
     (value, slope)
 }
 
-/// The K functions and their derivatives per cell for uniform knots (all spans are 1), at `xi` from
-/// 0 to 1 within the cell.
+/// The K functions and their derivatives (per cell) for uniform knots with unit spacing, at `xi`
+/// from 0 to 1 within the cell.
 #[inline(always)]
 fn uniform<S: Simd, const K: usize>(simd: S, xi: S::F64x4) -> ([S::F64x4; K], [S::F64x4; K]) {
     let zero = simd.splat(0.0);
@@ -100,7 +99,7 @@ fn uniform<S: Simd, const K: usize>(simd: S, xi: S::F64x4) -> ([S::F64x4; K], [S
     (value, slope)
 }
 
-/// The functions along an axis away from walls, at `xi` from 0 to 1 within a cell.
+/// Functions along an axis away from walls, at `xi` from 0 to 1 within a cell.
 #[inline(always)]
 fn along<S: Simd, const K: usize>(
     simd: S,
@@ -114,7 +113,7 @@ fn along<S: Simd, const K: usize>(
         weight,
         slope: array(xi, |r| slope[r] * inverse_h),
         offset: array(xi, |r| (first + r as f64) * h),
-        // A sum of p + 1 boxes has p + 1 times the variance 1/12 of one.
+        // A convolution of p + 1 boxes has p + 1 times the variance 1/12 of one box.
         variance: simd.splat(K as f64 / 12.0 * (h * h)),
     }
 }
@@ -124,7 +123,7 @@ fn uniform_cells(degree: usize, cells: f64, periodic: bool) -> (f64, f64) {
     if periodic { (0.0, cells) } else { (degree as f64 - 1.0, cells - degree as f64 + 1.0) }
 }
 
-/// The functions where knots may be repeated.
+/// Functions along an axis near walls, where knots may be repeated.
 #[cold]
 #[inline(never)]
 fn along_wall<const D: usize, const K: usize>(
@@ -147,7 +146,7 @@ fn along_wall<const D: usize, const K: usize>(
     }
 }
 
-/// Recomputes the functions of those of four particles that are near a wall.
+/// Recomputes the functions of the particles near a wall, among four particles.
 #[cold]
 #[inline(never)]
 fn put_right<const D: usize, const K: usize>(
@@ -166,7 +165,8 @@ fn put_right<const D: usize, const K: usize>(
     }
 }
 
-/// Values, slopes per cell and places (in cells, from the particle) where knots may be repeated.
+/// Values, slopes (per cell) and offsets from the particle (in cells) near walls, where knots may
+/// be repeated.
 fn at_wall<const K: usize>(cells: usize, cell: usize, xi: f64) -> [[f64; K]; 3] {
     let (p, s) = (K - 1, cell as f64 + xi);
     let around = knots_around(cell, p, cells);

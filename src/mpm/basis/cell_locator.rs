@@ -14,7 +14,7 @@ pub struct WeightNeeds {
     pub(in crate::mpm) offsets: bool,
 }
 
-/// Figures of the grid that a pass keeps in registers.
+/// Data of the grid that a pass holds in registers.
 #[derive(Debug, Clone, Copy)]
 pub struct CellLocator<const D: usize> {
     pub(super) h: f64,
@@ -35,15 +35,15 @@ pub(super) struct CellPositions<F, const D: usize> {
     pub(super) cell: [F; D],
     /// Position in the cell, from 0 to 1.
     pub(super) xi: [F; D],
-    /// Mask of particles that exist and are inside the grid: bit k for particle k.
+    /// Mask of valid particles inside the grid: bit k for particle k.
     pub(super) inside: u32,
 }
 
-/// Mask of four particles inside.
+/// Mask for four particles inside the grid.
 const ALL: u32 = (1 << LANES) - 1;
 
 impl<const D: usize> CellLocator<D> {
-    /// Locator of `grid`, with fields of this layout, for a pass with these needs.
+    /// Creates a locator for `grid`, fields with this layout and a pass with these needs.
     pub(in crate::mpm) fn new(grid: &Grid<D>, layout: Layout, needs: WeightNeeds) -> Self {
         Self {
             h: grid.h,
@@ -56,7 +56,7 @@ impl<const D: usize> CellLocator<D> {
         }
     }
 
-    /// Finds the cells of the particles from `first` on, as [`Grid::locate`] does.
+    /// Finds the cells of four particles starting at `first`, like [`Grid::locate`].
     #[inline(always)]
     pub(super) fn locate<S: Simd>(
         &self,
@@ -89,27 +89,28 @@ impl<const D: usize> CellLocator<D> {
         places
     }
 
-    /// Position of the first node of these cells in a packed field.
+    /// Index of the first node of these cells in a packed field.
     #[inline(always)]
     pub(super) fn starts<F: F64x4>(&self, cell: &[F; D]) -> [u32; LANES] {
         let mut start = cell[0];
         for axis in 1..D {
             start += cell[axis] * self.layout.strides[axis] as f64;
         }
-        // For numbers from 2^52 on, the last bits are the excess over 2^52 as an integer.
+        // From 2^52 on, the last bits of a number are its excess over 2^52 as an integer.
         let whole: [f64; LANES] = (start + (WHOLE - self.layout.before as f64)).into();
         array(0, |lane| whole[lane].to_bits() as u32)
     }
 }
 
-/// Positions of the last particles, NaN beyond them.
+/// Positions of the last particles; NaN for missing ones.
 #[cold]
 #[inline(never)]
 fn last<const D: usize>(x: &[Vector<D>]) -> [Vector<D>; LANES] {
     array(Vector::zeros(), |k| x.get(k).copied().unwrap_or(Vector::from_element(f64::NAN)))
 }
 
-/// Cells and positions at `s` (in cells) along an axis, some of them at its end, beyond it, or NaN.
+/// Cells and positions within them, for `s` (in cells) along an axis. Some `s` are at the end of
+/// the axis, outside the axis, or NaN.
 #[cold]
 #[inline(never)]
 fn at_ends<const D: usize>(

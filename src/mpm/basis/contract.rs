@@ -1,5 +1,5 @@
-//! Contract of a basis with the loops: the basis, the patch of nodes of a particle, and a batch of
-//! patches.
+//! Interface between a basis and the loops: the basis, the patch of nodes of a particle, and a
+//! batch of patches.
 
 use super::cell_locator::CellLocator;
 use crate::mpm::foundation::algebra::Vector;
@@ -24,7 +24,7 @@ pub enum Domain {
     Follows,
 }
 
-/// Four neighbouring particles and the lanes of a batch that take their patches.
+/// Four neighbouring particles, and the batch lanes of their patches.
 #[derive(Debug, Clone, Copy)]
 pub struct FourLanes {
     /// Index of the first particle.
@@ -41,27 +41,28 @@ pub trait Basis: Sized + Sync + Send + 'static {
     /// Particle domain that the basis needs.
     const DOMAIN: Domain;
 
-    /// Whether grad N_i is the derivative of N_i by the position of the particle; false for CPDI,
-    /// where it is the average of a gradient over the domain.
+    /// Whether grad N_i is the derivative of N_i with respect to the particle position. False for
+    /// CPDI, where it is a gradient averaged over the domain.
     const GRADIENT_OF_WEIGHT: bool = true;
 
-    /// Whether one patch has all nodes of a particle, at any position.
+    /// Whether a single patch contains all nodes of a particle at any position.
     const ONE_PATCH: bool = true;
 
-    /// Nodes of a particle with the functions there: products of one-dimensional functions
+    /// Nodes of a particle with the functions there, as products of one-dimensional functions
     /// ([`Product`](super::Product)).
     type Patch<const D: usize>: Patch<D>;
 
-    /// Number of functions along an axis of `cells` cells.
+    /// Number of functions along an axis with `cells` cells.
     fn count(cells: usize, periodic: bool) -> usize;
 
-    /// Position of function `index` along an axis of `cells` cells, in cells from the wall, such
+    /// Position of function `index` along an axis with `cells` cells (in cells from the wall), such
     /// that sum N_i x_i = x (Greville abscissa).
     fn abscissa(index: usize, cells: usize, periodic: bool) -> f64;
 
     /// Calls `visit` for every patch of particle `p`. A node may be in several patches: its weight
-    /// and gradient are the sums. A particle outside the grid has no patch: the solver reports it
-    /// when it moves particles. Must be `#[inline(always)]`: part of the hot loop.
+    /// and gradient are then sums. A particle outside the grid has no patch; the solver reports
+    /// such particles when it moves them. Must be `#[inline(always)]`, because this function is
+    /// part of the hot loop.
     fn patches<const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
@@ -69,10 +70,10 @@ pub trait Basis: Sized + Sync + Send + 'static {
         visit: impl FnMut(&Self::Patch<D>),
     );
 
-    /// Stores the patches of the four particles of `lanes`. Returns a mask, bit k for particle
-    /// `lanes.particle + k`, of particles with a single patch, which is stored; the others must use
-    /// [`Basis::patches`], which has the same bits. A basis overrides this to compute the weights
-    /// of four particles at once.
+    /// Stores the patches of the four particles of `lanes`. Returns a mask with bit k for particle
+    /// `lanes.particle + k`. A bit is set if the particle has a single patch, which is then stored.
+    /// For other particles, use [`Basis::patches`]; its results are bit-identical. A basis
+    /// overrides this method to compute the weights of four particles at once.
     #[inline(always)]
     fn patches_x4<S: Simd, const D: usize>(
         _width: S,
@@ -107,15 +108,15 @@ pub trait Basis: Sized + Sync + Send + 'static {
         Self::patches(grid, particles, p, |patch| patch.visit(grid, &mut visit));
     }
 
-    /// Runs a loop over this basis. It is a method of the basis, so that the loops of each file of
-    /// bases are a separate code-generation unit: they take most of the compile time, and a change
-    /// of one file does not recompile the loops of other files.
+    /// Runs a loop over this basis. As a method of the basis, the loops of each basis file are a
+    /// separate code-generation unit. The loops take most of the compile time, and a change of one
+    /// file does not recompile the loops of other files.
     fn run<P: SimdPass>(level: Level, pass: P) {
         simd::run(level, pass);
     }
 
-    /// Largest number of nodes of a particle, counted once for each patch: the unit of the work
-    /// counter.
+    /// Maximum number of nodes of a particle, counted once for each patch. The work counter uses
+    /// this number.
     fn support(dimension: usize) -> u64;
 }
 
@@ -128,38 +129,37 @@ pub struct NodeWeight<'a, const D: usize> {
     pub weight: f64,
     /// grad N_i at the particle (1/m).
     pub gradient: &'a Vector<D>,
-    /// Position of the function ([`Basis::abscissa`]) from the particle,
-    /// x_i - x_p (m).
+    /// Position of the function ([`Basis::abscissa`]) relative to the particle, x_i - x_p (m).
     pub offset: Vector<D>,
 }
 
-/// Nodes of a particle and its weights there.
+/// Nodes of a particle, with the weights there.
 pub trait Patch<const D: usize>: Copy {
     /// Patches of a batch of particles.
     type Batch: PatchBatch<D>;
 
-    /// Stores this as patch `lane` of a batch.
+    /// Stores this patch in lane `lane` of a batch.
     fn put(&self, lane: usize, layout: &Layout, patches: &mut Self::Batch);
 
     /// Moments of the weights.
     fn weight_moments(&self) -> WeightMoments<D>;
 
-    /// Mean of `x_i - x_p` (m) and variance about it (m^2) along each axis, for the only patch of a
-    /// particle. Functions are products, so that the covariance is zero.
+    /// Mean (m) and variance (m^2) of `x_i - x_p` along each axis, for the only patch of a
+    /// particle. The covariance is zero, because functions are products.
     fn variance(&self) -> ([f64; D], [f64; D]);
 
     /// Calls `visit` for every node.
     fn visit(&self, grid: &Grid<D>, visit: impl FnMut(NodeWeight<'_, D>));
 }
 
-/// Contribution of a particle to each of its nodes,
-/// `(value + sum_a slope_a (x_i - x_p - mean)_a) N_i + sum_a flux_a dN_i/dx_a`, for all components
-/// of a node at once. Absent parts have no cost.
+/// Contribution of a particle to each of its nodes, for all components of a node at once:
+/// `(value + sum_a slope_a (x_i - x_p - mean)_a) N_i + sum_a flux_a dN_i/dx_a`. Absent terms have
+/// no cost.
 #[derive(Debug, Clone, Copy)]
 pub struct NodeTerm<F, const D: usize> {
     /// Constant part.
     pub value: Option<F>,
-    /// Affine part; needs a value, which may be zero.
+    /// Affine part. Requires a value, which may be zero.
     pub slope: Option<[F; D]>,
     /// Part along the gradient.
     pub flux: Option<[F; D]>,
@@ -170,8 +170,8 @@ impl<F: Register, const D: usize> NodeTerm<F, D> {
     pub(in crate::mpm) const NONE: Self = Self { value: None, slope: None, flux: None };
 }
 
-/// Patches of a batch of particles. Weights are computed for four particles at once; the loops over
-/// nodes process one patch after another, four components of a node at once.
+/// Patches of a batch of particles. Weights are computed for four particles at once. The loops over
+/// nodes process one patch after another, with four components of a node at once.
 pub trait PatchBatch<const D: usize>: Debug {
     /// Empty batch.
     fn none() -> Self;
@@ -180,8 +180,8 @@ pub trait PatchBatch<const D: usize>: Debug {
     fn compute_row_weights<S: Simd>(&mut self, simd: S, lanes: &Range<usize>);
 
     /// Computes offsets `x_i - x_p - mean` (m) and the inverse of the inertia tensor (1/m^2), for
-    /// cells of size `h` (m). Without `mean`, that of the nodes of each patch is used, which then
-    /// must be the only patch of its particle.
+    /// cells of size `h` (m). Without `mean`, the mean over the nodes of each patch is used; its
+    /// particle must then have no other patch.
     fn compute_offsets<S: Simd>(
         &mut self,
         simd: S,
@@ -190,7 +190,7 @@ pub trait PatchBatch<const D: usize>: Debug {
         mean: Option<&Vector<D>>,
     );
 
-    /// The matrix with these columns, times the inverse inertia tensor of patch `lane`.
+    /// Product of the matrix with these columns and the inverse inertia tensor of patch `lane`.
     fn divide<S: Simd>(&self, lane: usize, columns: &[S::F64x4; D]) -> [S::F64x4; D];
 
     /// Adds the terms of particles, each with its lane, to their nodes in `field`.
@@ -202,10 +202,11 @@ pub trait PatchBatch<const D: usize>: Debug {
         term: impl Fn(usize, T) -> NodeTerm<N::Lanes<S>, D>,
     );
 
-    /// `sum_i field_i N_i`.
+    /// Sum `sum_i field_i N_i`.
     fn gather<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4;
 
-    /// `sum_i field_i N_i` and, for each axis, `sum_i field_i (x_i - x_p - mean)_a N_i`.
+    /// Sum `sum_i field_i N_i`, and the moments `sum_i field_i (x_i - x_p - mean)_a N_i` for each
+    /// axis.
     fn gather_moment<S: Simd>(
         &self,
         simd: S,
@@ -213,7 +214,7 @@ pub trait PatchBatch<const D: usize>: Debug {
         field: &FieldView<'_>,
     ) -> (S::F64x4, [S::F64x4; D]);
 
-    /// `sum_i field_i N_i` and, for each axis, `sum_i field_i dN_i/dx_a`.
+    /// Sum `sum_i field_i N_i`, and the gradient `sum_i field_i dN_i/dx_a` for each axis.
     fn gather_gradient<S: Simd>(
         &self,
         simd: S,

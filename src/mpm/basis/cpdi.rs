@@ -2,26 +2,26 @@
 //! 1435-1456).
 //!
 //! The domain of a particle is the segment, parallelogram or parallelepiped `x + R xi`,
-//! `-1 <= xi_a <= 1`, with the columns `r_a = F r_a0` of R. On the domain the hat functions `S_i`
-//! of the grid are replaced by their multilinear interpolation between the corners
-//! `x_c = x + R s_c`, `s_c = (+-1, ...)`: `sum_c M_c(xi) S_i(x_c)`,
-//! `M_c = prod_a (1 + s_ca xi_a)/2`. Over the domain the average of `M_c` is `1/2^D`, and that of
-//! `d M_c/d xi_a` is `s_ca/2^D`; by the chain rule `grad = R^-T d/d xi`. So
+//! `-1 <= xi_a <= 1`. The columns of R are `r_a = F r_a0`. On the domain the hat functions `S_i` of
+//! the grid are replaced by their multilinear interpolation between the corners `x_c = x + R s_c`,
+//! `s_c = (+-1, ...)`: `sum_c M_c(xi) S_i(x_c)`, `M_c = prod_a (1 + s_ca xi_a)/2`. Over the domain,
+//! the average of `M_c` is `1/2^D`, and the average of `d M_c/d xi_a` is `s_ca/2^D`. With the chain
+//! rule `grad = R^-T d/d xi`,
 //!
 //! ```text
 //! N_i      = 2^-D sum_c S_i(x_c)
 //! grad N_i = 2^-D sum_c S_i(x_c) R^-T s_c
 //! ```
 //!
-//! which in 2-D are those of the paper, and in 1-D `(S_i(x + l) + S_i(x - l))/2` and
+//! In 2-D these are the formulas of the paper. In 1-D they are `(S_i(x + l) + S_i(x - l))/2` and
 //! `(S_i(x + l) - S_i(x - l))/(2l)`: the gradient of contiguous-particle GIMP with another weight.
 //! `grad N_i` is the average of a gradient, not the gradient of the average `N_i`. Both reproduce
 //! linear fields: `sum_i x_i N_i = x`,
 //! `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
 //!
-//! At walls the domain is compressed along the axis until it ends there, like the cut-off domain of
-//! GIMP: the map of the whole domain is affine, so that the sign of det R does not change. Moving
-//! single corners to the wall could change it.
+//! A domain that extends beyond a wall is compressed along the axis until it ends at the wall,
+//! similar to the truncated domain of GIMP. The map of the whole domain is affine, so the sign of
+//! det R does not change. Moving single corners to the wall could change it.
 
 use super::contract::{Basis, Domain, NodeWeight, Patch};
 use super::product::{Product, ProductBatch};
@@ -36,11 +36,11 @@ use crate::mpm::foundation::particles::Particles;
 #[derive(Debug, Clone, Copy)]
 pub struct Cpdi;
 
-/// Maximum extent of a domain on a periodic axis (cells): corners further away would lose their
-/// position within a cell to rounding.
+/// Maximum extent of a domain on a periodic axis (cells). Rounding would destroy the position of
+/// more distant corners within their cells.
 const FAR: f64 = 1e6;
 
-/// Centre and domain vectors of a particle, in cells, within the walls.
+/// Centre and domain vectors of a particle (in cells), compressed to fit between the walls.
 fn within<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,
@@ -65,7 +65,7 @@ fn within<const D: usize>(
     (centre, domain)
 }
 
-/// Hats at a corner, times the share of the corner; gradients are proportional to weights.
+/// Hat functions at a corner, times the share of the corner. Gradients are proportional to weights.
 #[derive(Debug, Clone, Copy)]
 pub struct Corner<const D: usize> {
     hats: Product<D, 2>,
@@ -73,7 +73,8 @@ pub struct Corner<const D: usize> {
     outward: Vector<D>,
 }
 
-/// The hats at `s` (in cells) along `axis`. Corners outside the grid by round-off are on the wall.
+/// Hat functions at `s` (in cells) along `axis`. Corners that are outside the grid by round-off are
+/// moved to the wall.
 #[inline(always)]
 fn hats<const D: usize>(grid: &Grid<D>, s: f64, own: f64, axis: usize) -> Weights1d<2> {
     let (first, cell, xi) = if grid.periodic[axis] {
@@ -154,7 +155,7 @@ impl Basis for Cpdi {
         }
     }
 
-    /// Nodes of the cells of all corners; a node of two corners counts twice.
+    /// Nodes of the cells of all corners; a node shared by two corners counts twice.
     fn support(dimension: usize) -> u64 {
         4_u64.pow(dimension as u32)
     }
@@ -182,7 +183,7 @@ mod tests {
         particles
     }
 
-    /// Weight and gradient of every node, and their number of visits.
+    /// Weight and gradient of every node, summed over its visits.
     fn seen<B: Basis, const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
@@ -195,8 +196,9 @@ mod tests {
         seen
     }
 
-    /// The interpolated hats and their slopes along the domain vectors, `dN/dxi_a = r_a . grad N`,
-    /// averaged by two Gauss points an axis (exact: they are multilinear in xi).
+    /// Interpolated hat functions and their slopes along the domain vectors,
+    /// `dN/dxi_a = r_a . grad N`. They are averaged with two Gauss points per axis, which is exact
+    /// for functions multilinear in xi.
     fn averages<const D: usize>(periodic: bool) {
         let grid = grid::<D>(periodic);
         let x = Vector::from_fn(|axis, _| 1.4 + 0.07 * axis as f64);
@@ -235,8 +237,8 @@ mod tests {
         averages::<3>(periodic);
     }
 
-    /// Corners at 0.8 and 1.4 cells. The slopes of the middle hat there cancel, and so does the
-    /// derivative of its weight; its gradient does not.
+    /// The corners are at 0.8 and 1.4 cells. The slopes of the middle hat function cancel there,
+    /// and so does the derivative of its weight, but not its gradient.
     #[test]
     fn the_gradient_is_not_that_of_the_weight() {
         let (x, domain) = (Vector::<1>::new(0.55), Matrix::<1>::new(0.15));
@@ -249,8 +251,8 @@ mod tests {
         }
     }
 
-    /// The largest nodal force due to a uniform unit stress well inside a sheared and rotated body
-    /// that fills the middle of the grid, `|sum_p V_p grad N_i| / h`.
+    /// Largest nodal force of a uniform unit stress inside a sheared and rotated body in the middle
+    /// of the grid, `|sum_p V_p grad N_i| / h`.
     fn push<B: Basis>() -> f64 {
         let (from, to) = (Vector::<2>::from_element(-1.0), Vector::from_element(1.0));
         let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 0.5, 3);
@@ -269,14 +271,14 @@ mod tests {
         (0..grid.nodes()).filter(|&i| is_inside(i)).map(|i| total[i].norm()).fold(0.0, f64::max)
     }
 
-    /// Parallelograms tile a sheared body, boxes do not.
+    /// Parallelograms tile a sheared body; boxes do not.
     #[test]
     fn a_uniform_stress_does_not_push_a_sheared_body() {
         assert_abs_diff_eq!(push::<Cpdi>(), 0.0, epsilon = 1e-14);
         assert!(push::<crate::mpm::basis::ContiguousGimp>() > 1e-3);
     }
 
-    /// In 2-D, where F rotates, shears and stretches without bound.
+    /// Domains in 2-D with rotation, shear and unlimited stretch.
     #[rstest]
     #[case::longer_than_the_grid(20.0)]
     #[case::far_longer(1e8)]

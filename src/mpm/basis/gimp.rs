@@ -2,15 +2,13 @@
 //! eqs 30-32).
 //!
 //! `N_i = 1/(2l) int hat_i` over `[x - l, x + l]`, `N_i' = (hat_i(x + l) - hat_i(x - l))/(2l)`. In
-//! several dimensions the domain stays aligned with the axes. uGIMP uses the reference size; in the
-//! contiguous-particle form (Wallstedt & Guilkey 2008) the half-length on an axis follows the
-//! diagonal of F, so that domains neither separate nor overlap. At walls the domain is cut off.
+//! several dimensions the domain stays aligned with the axes. uGIMP uses the reference size. In
+//! contiguous-particle GIMP (Wallstedt & Guilkey 2008) the half-length along an axis follows the
+//! diagonal of F, so that domains neither separate nor overlap. At walls the domain is truncated.
 //!
-//! Domains of GIMP along one axis, and the functions there: hats averaged over a domain from `low`
-//! to `high`.
-//!
-//! Four particles at a time while their domains have at most three nodes; otherwise one particle at
-//! a time, in groups of three nodes.
+//! The functions are computed separately for each axis, as hats averaged over a domain from `low`
+//! to `high`. Four particles are processed at a time if their domains have at most three nodes.
+//! Otherwise the loop processes one particle at a time, in groups of three nodes.
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain, FourLanes};
@@ -63,7 +61,7 @@ fn patches<const D: usize>(
     }
 }
 
-/// Patches of four particles; the mask marks those with one group of functions along each axis.
+/// Patches of four particles. The mask marks particles with one group of functions along each axis.
 #[inline(always)]
 fn patches_x4<S: Simd, const D: usize>(
     simd: S,
@@ -102,21 +100,21 @@ fn patches_x4<S: Simd, const D: usize>(
     one
 }
 
-/// Half-lengths of the last domains.
+/// Half-lengths of the domains of the last particles.
 #[cold]
 #[inline(never)]
 fn last<const D: usize>(particles: &Particles<D>, first: usize, axis: usize) -> [f64; LANES] {
     array(0.0, |k| half(particles, first + k, axis, true))
 }
 
-/// First nodes of domains, some of them before the first node of a periodic axis.
+/// First nodes of domains, some before the first node of a periodic axis.
 #[cold]
 #[inline(never)]
 fn beyond_seam<const D: usize>(grid: &Grid<D>, axis: usize, first: [f64; LANES]) -> [f64; LANES] {
     first.map(|first| grid.wrap_signed(first, axis) as f64)
 }
 
-/// Mask of lanes that are not below zero.
+/// Mask of non-negative lanes.
 #[cold]
 #[inline(never)]
 fn not_below_zero(four: [f64; LANES]) -> u32 {
@@ -164,7 +162,7 @@ macro_rules! gimp {
                 patches_x4(simd, grid, locator, particles, lanes, follows, patches)
             }
 
-            /// Three nodes along an axis while the domain is not longer than a cell.
+            /// Three nodes along an axis if the domain is at most one cell long.
             fn support(dimension: usize) -> u64 {
                 3_u64.pow(dimension as u32)
             }
@@ -175,18 +173,19 @@ macro_rules! gimp {
 gimp!(UniformGimp, Fixed);
 gimp!(ContiguousGimp, Follows);
 
-/// Functions of a group: all functions along an axis while the domain is not longer than a cell.
+/// Number of functions in a group: all functions along an axis if the domain is at most one cell
+/// long.
 pub(in crate::mpm) const AT_ONCE: usize = 3;
 
-/// Largest half-length of a domain, in cells; longer domains are cut to it.
+/// Maximum half-length of a domain (cells); longer domains are truncated.
 const LONGEST: f64 = 2.5;
 
-/// The hat of a node at distance z, in cells.
+/// Hat function of a node at distance z (cells).
 fn hat(z: f64) -> f64 {
     (1.0 - z.abs()).max(0.0)
 }
 
-/// Its integral from minus infinity.
+/// Integral of the hat function from minus infinity to z.
 fn integral(z: f64) -> f64 {
     let z = z.clamp(-1.0, 1.0);
     if z < 0.0 { 0.5 * (1.0 + z) * (1.0 + z) } else { 0.5 + z - 0.5 * z * z }
@@ -195,7 +194,7 @@ fn integral(z: f64) -> f64 {
 /// Domains of four particles along one axis, in cells.
 #[derive(Clone, Copy)]
 pub(in crate::mpm) struct Domain1dSimd<S: Simd> {
-    /// The particle and the ends of its domain.
+    /// Positions of the particles. `low` and `high` are the ends of their domains.
     at: S::F64x4,
     low: S::F64x4,
     high: S::F64x4,
@@ -204,7 +203,8 @@ pub(in crate::mpm) struct Domain1dSimd<S: Simd> {
 }
 
 impl<S: Simd> Domain1dSimd<S> {
-    /// The domain at `at`, cut off at walls: at the first node and at `last`, if there are walls.
+    /// Domains centred at `at`. If there are walls, domains are truncated at node 0 and at node
+    /// `last`.
     #[inline(always)]
     pub(in crate::mpm) fn new(at: S::F64x4, half: S::F64x4, last: Option<f64>) -> Self {
         let half = half.abs().at_most(LONGEST);
@@ -215,15 +215,15 @@ impl<S: Simd> Domain1dSimd<S> {
         Self { at, low, high, first: low.floor() }
     }
 
-    /// Distance of the last of [`AT_ONCE`] nodes beyond the domain, negative if there are more
-    /// nodes.
+    /// Distance of the last of [`AT_ONCE`] nodes beyond the end of the domain; negative if the
+    /// domain has more nodes.
     #[inline(always)]
     pub(in crate::mpm) fn spare(&self) -> S::F64x4 {
         self.first + (AT_ONCE - 1) as f64 - self.high
     }
 
     /// Functions of domains that end before the third node. The branches of [`integral`] and
-    /// [`hat`] are known there; results have the same bits.
+    /// [`hat`] are known there, and the results are bit-identical.
     #[inline(always)]
     pub(in crate::mpm) fn along(&self, simd: S, h: f64, inverse_h: f64) -> WeightsSimd<S, AT_ONCE> {
         let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
@@ -251,7 +251,7 @@ impl<S: Simd> Domain1dSimd<S> {
             mean += weight[k] * offset[k];
             second += weight[k] * offset[k] * offset[k];
         }
-        // A domain that is cut off is not centred on its particle.
+        // A truncated domain is not centred at its particle.
         WeightsSimd { weight, slope, offset, variance: second - mean * mean }
     }
 }
@@ -260,7 +260,7 @@ impl<S: Simd> Domain1dSimd<S> {
 #[derive(Clone, Copy)]
 pub(in crate::mpm) struct Domain1d {
     extent: Domain1dSimd<Plain>,
-    /// Groups of [`AT_ONCE`] nodes.
+    /// Number of groups of [`AT_ONCE`] nodes.
     pub(in crate::mpm) groups: usize,
 }
 
@@ -279,7 +279,7 @@ impl Domain1d {
         Self { extent, groups }
     }
 
-    /// The functions of a group.
+    /// Functions of one group.
     #[inline(always)]
     pub(in crate::mpm) fn along<const D: usize>(
         &self,
@@ -295,7 +295,7 @@ impl Domain1d {
         along.take(0, grid.wrap_signed(first, axis))
     }
 
-    /// Functions of a group of a domain of any length, zero beyond the domain and beyond a wall.
+    /// Functions of one group for a domain of any length; zero beyond the domain and beyond a wall.
     #[inline(always)]
     fn one_of_many<const D: usize>(
         &self,
@@ -325,7 +325,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// The functions of a short domain have the same bits by both ways.
+        /// For a short domain, both code paths give bit-identical functions.
         #[test]
         fn a_short_domain_has_the_functions_of_any(
             at in 0.0..=5.0_f64,

@@ -1,4 +1,5 @@
-//! Laws of every registered basis, in 1-D, 2-D and 3-D: inside, at walls, and on periodic axes.
+//! Properties that every registered basis must satisfy in 1-D, 2-D and 3-D: inside the grid, at
+//! walls, and on periodic axes.
 
 use super::{
     Basis, BasisName, CellLocator, Domain, FourLanes, Patch, PatchBatch, WeightNeeds, contract,
@@ -12,7 +13,7 @@ use crate::mpm::foundation::simd::{LANES, Plain};
 use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
-/// The basis that `docs/exercises/basis.md` adds.
+/// The basis added by `docs/exercises/basis.md`.
 #[allow(unreachable_pub)] // public where the page puts it
 #[path = "../../../tests/exercises/quadratic_bernstein.rs"]
 pub(in crate::mpm) mod exercise;
@@ -24,7 +25,7 @@ fn grid<B: Basis, const D: usize>(periodic: bool) -> Grid<D> {
     Grid::new(Vector::from_element(-0.3), 0.25, [CELLS; D], [periodic; D], counts)
 }
 
-/// Half the extent of the particle's domain along any axis, in cells.
+/// Half the extent of the particle domain along any axis (cells).
 const REACH: f64 = 0.3;
 
 /// One particle at `x`, with a domain of half a cell, slightly stretched and rotated.
@@ -52,13 +53,13 @@ fn points<const D: usize>(grid: &Grid<D>) -> Vec<Vector<D>> {
         .collect()
 }
 
-/// Whether the particle's domain ends at no wall: there it is cut off, and centred elsewhere.
+/// Whether the particle domain does not cross a wall. Domains that cross a wall are truncated.
 fn is_whole<B: Basis, const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> bool {
     let inside = REACH - 1e-12..=CELLS as f64 - REACH + 1e-12;
     B::DOMAIN == Domain::Point || (0..D).all(|axis| inside.contains(&grid.local(x, axis)))
 }
 
-/// Functions of one node at the particle.
+/// Functions of one node for the particle.
 struct NodeWeights<const D: usize> {
     node: usize,
     weight: f64,
@@ -66,7 +67,7 @@ struct NodeWeights<const D: usize> {
     offset: Vector<D>,
 }
 
-/// Nodes of the only particle. All laws share one copy of this loop, which is long.
+/// Nodes of the only particle. All tests share one copy of this long loop.
 #[inline(never)]
 fn node_weights<B: Basis, const D: usize>(
     grid: &Grid<D>,
@@ -115,8 +116,8 @@ fn hold<B: Basis, const D: usize>(periodic: bool) {
     }
 }
 
-/// grad N against central differences, at points whose stencil does not reach over a node; for
-/// the bases that claim it.
+/// Compares grad N with central differences, for bases with `GRADIENT_OF_WEIGHT`. Points with a
+/// node inside the stencil are excluded.
 fn differentiate<B: Basis, const D: usize>(periodic: bool) {
     if !B::GRADIENT_OF_WEIGHT {
         return;
@@ -140,7 +141,8 @@ fn differentiate<B: Basis, const D: usize>(periodic: bool) {
     }
 }
 
-/// Patches that are computed for four particles at once have the bits of single ones.
+/// Compares patches computed for four particles at once with patches of single particles, bit for
+/// bit.
 fn fill<B: Basis, const D: usize>(periodic: bool) {
     let grid = grid::<B, D>(periodic);
     let layout = Layout::new(&grid);
@@ -188,7 +190,7 @@ fn every_basis_obeys_its_laws(#[values(false, true)] periodic: bool) {
     obey::<exercise::QuadraticBernstein>(periodic);
 }
 
-/// The functions of the original MPM at the walls of a cell, by hand.
+/// Known values of functions in a cell at a wall.
 #[rstest]
 #[case("linear", 0.25, &[0.75, 0.25])]
 #[case("quadratic_bspline", 0.0, &[1.0, 0.0, 0.0])]

@@ -1,8 +1,8 @@
 //! Piecewise linear ("hat") functions: the basis of the original MPM.
 //!
 //! `N_i(x) = 1 - |x - x_i|/h` within one cell of node i (Sulsky, Chen & Schreyer 1994, eq. 2.10).
-//! The gradient jumps at nodes: a particle that changes its cell changes the force there and then
-//! (grid crossing).
+//! The gradient jumps at nodes, so the force changes abruptly when a particle crosses into another
+//! cell (grid crossing).
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain, FourLanes};
@@ -13,7 +13,7 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{LANES, Plain, Simd};
 
-/// The hats along an axis, at `xi` from 0 to 1 within a cell.
+/// Hat functions along an axis, at `xi` from 0 to 1 within a cell.
 #[inline(always)]
 fn along<S: Simd>(simd: S, xi: S::F64x4, h: f64, inverse_h: f64) -> WeightsSimd<S, 2> {
     let rest = simd.splat(1.0) - xi;
@@ -25,7 +25,7 @@ fn along<S: Simd>(simd: S, xi: S::F64x4, h: f64, inverse_h: f64) -> WeightsSimd<
     }
 }
 
-/// Piecewise linear basis functions, tensor products of hats.
+/// Piecewise linear basis functions: tensor products of hats.
 #[derive(Debug, Clone, Copy)]
 pub struct Linear;
 

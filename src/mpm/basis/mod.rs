@@ -1,4 +1,4 @@
-//! Basis functions. A member is one file, one line of registration and one `mod` line.
+//! The family of basis functions. A member is one file, one registration line and one `mod` line.
 
 mod bspline;
 mod cell_locator;
@@ -38,7 +38,7 @@ impl BasisName {
         with_basis!(self, B => f64::from(B::DEGREE) + 1.0)
     }
 
-    /// Position of function `node` of `grid` (m): its Greville abscissa on every axis.
+    /// Position of function `node` of `grid` (m): the Greville abscissa on every axis.
     pub fn place<const D: usize>(self, grid: &Grid<D>, node: usize) -> Vector<D> {
         let along = |axis: usize| {
             let index = grid.index_on_axis(node, axis);

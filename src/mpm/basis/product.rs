@@ -1,8 +1,8 @@
-//! Products of one-dimensional functions, the patch of most bases: one particle, a batch, and the
-//! loops of P2G and G2P over the nodes of a batch.
+//! Products of one-dimensional functions, the patch type of most bases: one particle, a batch, and
+//! the P2G and G2P loops over the nodes of a batch.
 //!
-//! Sums of G2P are factorised by axes: a node costs a product and a sum for each function, not for
-//! each axis.
+//! G2P sums are factorised by axis. A node needs one product and one sum per function, not per
+//! axis.
 
 use super::contract::{NodeTerm, NodeWeight, Patch, PatchBatch};
 use super::weights_1d::{Weights1d, Weights1dBatch, lane_functions, product};
@@ -13,7 +13,7 @@ use crate::mpm::foundation::packed_grid::{FieldView, FieldViewMut, Layout, Node4
 use crate::mpm::foundation::simd::{BATCH, F64Batch, LANES, Register, Simd, registers_of};
 use std::ops::Range;
 
-/// All products of K functions along each axis, K at most 4.
+/// All products of K functions along each axis, with K at most 4.
 #[derive(Debug, Clone, Copy)]
 pub struct Product<const D: usize, const K: usize>(pub [Weights1d<K>; D]);
 
@@ -64,7 +64,7 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
 
     #[inline(always)]
     fn visit(&self, grid: &Grid<D>, mut visit: impl FnMut(NodeWeight<'_, D>)) {
-        // Wrapped once for an axis, not once for a node.
+        // Indices are wrapped once per axis, not once per node.
         let nodes: [[usize; K]; D] =
             array([0; K], |axis| array(0, |k| grid.wrap(self.0[axis].first + k, axis)));
         for n in 0..K.pow(D as u32) {
@@ -96,9 +96,9 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
     }
 }
 
-/// Batch of [`Product`]s. With `OUTWARD = 1` the gradient of a function is its
-/// weight times a vector of the patch, as for the corners of [CPDI](super::Cpdi); with 0 it is the
-/// derivative.
+/// Batch of [`Product`]s. With `OUTWARD = 1` the gradient of a function is its weight times a
+/// vector of the patch, as for the corners of [CPDI](super::Cpdi). With `OUTWARD = 0` the gradient
+/// is the derivative.
 #[derive(Debug)]
 pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0> {
     /// Index of the first node of each patch in a packed field.
@@ -107,11 +107,11 @@ pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0
     pub(in crate::mpm) axes: [Weights1dBatch<K>; D],
     /// Vectors that convert weights to gradients (1/m).
     pub(in crate::mpm) outward: [[Vector<D>; BATCH]; OUTWARD],
-    /// Weights of the rows of a plane times those of the planes.
+    /// Products of the row weights of a plane and the plane weights.
     row_weights: [[F64Batch; K]; K],
 }
 
-/// `sum + a b`, or `a b` without a sum.
+/// `sum + a b`, or `a b` if there is no sum.
 #[inline(always)]
 fn plus_product<F: Register>(sum: Option<F>, a: F, b: f64) -> F {
     match sum {
@@ -121,7 +121,7 @@ fn plus_product<F: Register>(sum: Option<F>, a: F, b: f64) -> F {
 }
 
 impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
-    /// Rows of a plane, and planes: one if there is no such axis.
+    /// Number of rows in a plane, and number of planes; one for a missing axis.
     pub(in crate::mpm) const ROWS: usize = if D > 1 { K } else { 1 };
     pub(in crate::mpm) const PLANES: usize = if D > 2 { K } else { 1 };
 
@@ -136,7 +136,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         self.start[lane % BATCH] as usize
     }
 
-    /// Weight of function `k` along `axis`, one if there is no such axis.
+    /// Weight of function `k` along `axis`; one for a missing axis.
     #[inline(always)]
     pub(in crate::mpm) fn weight(&self, lane: usize, axis: usize, k: usize) -> f64 {
         if axis < D { self.axes[axis].weight[k].get(lane) } else { 1.0 }
@@ -148,7 +148,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         if D > 2 { self.row_weights[k][j].get(lane) } else { self.weight(lane, 1, j) }
     }
 
-    /// Adds `flux . grad` of row `j` in plane `k` without its part along the first axis.
+    /// Adds the part of `flux . grad` across the first axis, for row `j` in plane `k`.
     #[inline(always)]
     fn flux_across<F: Register>(
         &self,
@@ -166,7 +166,8 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         sum.plus_product(flux[2], self.axes[2].slope[k].get(lane) * self.weight(lane, 1, j))
     }
 
-    /// The flux as a part of the value, where gradients are weights times a vector.
+    /// Converts the flux to a part of the value, for patches with gradients that are weights times
+    /// a vector.
     #[inline(always)]
     fn fold_flux<F: Register>(&self, lane: usize, term: NodeTerm<F, D>) -> NodeTerm<F, D> {
         let (Some(outward), Some(flux)) = (self.outward.first(), term.flux) else { return term };
@@ -181,8 +182,9 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         NodeTerm { value: Some(value), flux: None, ..term }
     }
 
-    /// Adds the term of particle `lane` to its nodes. Node (i, j, k) takes
-    /// `first_i weight_jk + row_jk weight_i`: a product and a sum twice, not for each axis.
+    /// Adds the term of particle `lane` to its nodes. Node (i, j, k) receives
+    /// `first_i weight_jk + row_jk weight_i`: two products and two sums, independent of the number
+    /// of axes.
     #[inline(always)]
     fn add<S: Simd, N: PackedNode>(
         &self,
@@ -193,7 +195,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         let NodeTerm { value, slope, flux } = self.fold_flux(lane, term);
         let (start, x, weights) =
             (self.start(lane), &self.axes[0], lane_functions(&self.axes[0].weight, lane));
-        // Loops, as closures are not always inlined.
+        // Loops, because closures are not always inlined.
         let (mut first, mut rise) = ([None; K], [None; K]);
         for i in 0..K {
             if let Some(slope) = &slope {
@@ -233,8 +235,8 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
                     |i, node| {
                         let Some(first) = first[i] else {
                             return match of_row {
-                                // In 1-D a sum waits for that of the previous particle: a separate
-                                // product runs at the same time.
+                                // In 1-D a sum waits for the sum of the previous particle; a
+                                // separate product runs in parallel.
                                 Some(row) if D == 1 => node + row * weights[i],
                                 Some(row) => node.plus_product(row, weights[i]),
                                 None => node,
@@ -358,15 +360,15 @@ fn dot<S: Simd, const K: usize>(simd: S, row: &[Node4], factors: &[f64; K]) -> S
     sum
 }
 
-/// Adds term `k` of a sum, which begins with term 0.
+/// Adds term `k` of a sum, whose first term is term 0.
 #[inline(always)]
 fn put<F: Register>(sum: &mut F, k: usize, a: F, b: f64) {
     *sum = if k == 0 { a * b } else { sum.plus_product(a, b) };
 }
 
 impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
-    /// `sum_i field_i N_i`, and for each axis this sum with the functions along the axis replaced
-    /// by `others`.
+    /// `sum_i field_i N_i`, and for each axis the sum in which `others` replace the functions along
+    /// the axis.
     #[inline(always)]
     pub(super) fn sums<S: Simd>(
         &self,
@@ -406,17 +408,17 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
     }
 }
 
-/// Field that receives the sums, with those of K consecutive nodes in registers.
+/// Field that receives the sums. The sums of K consecutive nodes are in registers.
 #[derive(Debug)]
 pub(super) struct NodeAccumulator<'a, S: Simd, N: PackedNode, const K: usize> {
     pub(in crate::mpm) simd: S,
     pub(in crate::mpm) field: FieldViewMut<'a, N>,
-    /// First of the nodes whose sums are in registers, or [`NONE`].
+    /// First node whose sums are in registers, or [`NONE`].
     start: usize,
     sums: [N::Lanes<S>; K],
 }
 
-/// No node.
+/// Marker for no node.
 const NONE: usize = usize::MAX;
 
 impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {
@@ -425,8 +427,8 @@ impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {
         Self { simd, field, start: NONE, sums: [N::zero(simd); K] }
     }
 
-    /// Adds to row `j` of plane `k` of the box of nodes from `start` on, in D dimensions.
-    /// [`flush`](Self::flush) must follow the last call.
+    /// Adds to row `j` in plane `k` of the box of nodes that starts at `start`, in D dimensions.
+    /// Call [`flush`](Self::flush) after the last addition.
     #[inline(always)]
     pub(in crate::mpm) fn add<const D: usize>(
         &mut self,
@@ -461,7 +463,7 @@ impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {
         }
     }
 
-    /// Stores the sums in registers to their nodes.
+    /// Writes the sums from registers to their nodes.
     #[inline(always)]
     pub(in crate::mpm) fn flush(&mut self) {
         if self.start != NONE {

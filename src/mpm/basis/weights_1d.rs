@@ -1,4 +1,4 @@
-//! Weights along one axis, of one particle and of a batch of particles.
+//! Weights along one axis, for one particle and for a batch of particles.
 
 use super::cell_locator::WeightNeeds;
 use crate::mpm::foundation::algebra::array;
@@ -8,17 +8,17 @@ use crate::mpm::foundation::simd::{F64Batch, F64x4, Simd};
 /// K neighbouring functions along one axis.
 #[derive(Debug, Clone, Copy)]
 pub struct Weights1d<const K: usize> {
-    /// Index of the first. On a periodic axis the first function follows the last one; beyond a
-    /// wall indices belong to functions of weight zero.
+    /// Index of the first function. On a periodic axis the index wraps around. Indices beyond a
+    /// wall belong to functions with weight zero.
     pub first: usize,
     /// Values.
     pub weight: [f64; K],
     /// Derivatives (1/m).
     pub slope: [f64; K],
-    /// Positions from the particle (m).
+    /// Positions relative to the particle (m).
     pub offset: [f64; K],
-    /// `sum weight offset^2` (m^2), about the mean if the particle has no other functions along
-    /// this axis.
+    /// `sum weight offset^2` (m^2). The sum is taken about the mean if the particle has no other
+    /// functions along this axis.
     pub variance: f64,
 }
 
@@ -27,7 +27,7 @@ impl<const K: usize> Weights1d<K> {
     pub const NONE: Self =
         Self { first: 0, weight: [0.0; K], slope: [0.0; K], offset: [0.0; K], variance: 0.0 };
 
-    /// Functions with their variance computed as a sum. A closed form, if there is one, is faster.
+    /// Functions with the variance computed as a sum. A closed form, if available, is faster.
     #[inline(always)]
     pub fn new(first: usize, weight: [f64; K], slope: [f64; K], offset: [f64; K]) -> Self {
         let mut variance = 0.0;
@@ -52,7 +52,7 @@ impl<const K: usize> Weights1d<K> {
     }
 }
 
-/// The product over all axes of the moments of these orders.
+/// Product over all axes of the moments of these orders.
 #[inline(always)]
 pub(in crate::mpm) fn product<const D: usize>(
     moments: &[[f64; 3]; D],
@@ -65,16 +65,16 @@ pub(in crate::mpm) fn product<const D: usize>(
     product
 }
 
-/// K neighbouring functions of four particles, in registers.
+/// K neighbouring functions of four particles in registers.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct WeightsSimd<S: Simd, const K: usize> {
     /// Values.
     pub(in crate::mpm) weight: [S::F64x4; K],
     /// Derivatives (1/m).
     pub(in crate::mpm) slope: [S::F64x4; K],
-    /// Positions from the particle (m).
+    /// Positions relative to the particle (m).
     pub(in crate::mpm) offset: [S::F64x4; K],
-    /// `sum weight offset^2` (m^2), about their mean.
+    /// `sum weight offset^2` (m^2) about the mean.
     pub(in crate::mpm) variance: S::F64x4,
 }
 
@@ -103,7 +103,7 @@ impl<S: Simd, const K: usize> WeightsSimd<S, K> {
         }
     }
 
-    /// Functions of one particle.
+    /// Extracts the functions of one particle.
     #[inline(always)]
     pub(in crate::mpm) fn take(&self, lane: usize, first: usize) -> Weights1d<K> {
         let of = |functions: &[S::F64x4; K]| array(0.0, |k| functions[k].into()[lane]);
@@ -117,22 +117,22 @@ impl<S: Simd, const K: usize> WeightsSimd<S, K> {
     }
 }
 
-/// K neighbouring functions of a batch of particles, in memory.
+/// K neighbouring functions of a batch of particles in memory.
 #[derive(Debug, Clone, Copy)]
 pub struct Weights1dBatch<const K: usize> {
     /// Values.
     pub(in crate::mpm) weight: [F64Batch; K],
     /// Derivatives (1/m).
     pub(in crate::mpm) slope: [F64Batch; K],
-    /// Positions from the particle (m).
+    /// Positions relative to the particle (m).
     pub(in crate::mpm) offset: [F64Batch; K],
     /// `sum weight offset^2` (m^2), about the mean if a particle has no other functions.
     pub(in crate::mpm) variance: F64Batch,
     /// Offset from a mean (m).
     pub(in crate::mpm) offset_from_mean: [F64Batch; K],
-    /// Offset from the mean times weight (m).
+    /// Offset from the mean, times the weight (m).
     pub(in crate::mpm) weighted_offset: [F64Batch; K],
-    /// The inverse of the variance (1/m^2), zero if the variance is zero.
+    /// Inverse of the variance (1/m^2); zero if the variance is zero.
     pub(in crate::mpm) inverse: F64Batch,
 }
 
@@ -160,8 +160,9 @@ impl<const K: usize> Weights1dBatch<K> {
     }
 
     /// Computes offsets from `mean` (m), or from the mean of the functions of each particle, and
-    /// the inverse of the variance. Offsets are multiplied by weights before any sum: near a wall
-    /// the offset is small and the weight is not, and rounding must not affect the inertia tensor.
+    /// the inverse of the variance. Offsets are multiplied by weights before any sum. Near a wall
+    /// the offset is small and the weight is not, so rounding would otherwise affect the inertia
+    /// tensor.
     #[inline(always)]
     pub(in crate::mpm) fn center_offsets<S: Simd>(
         &mut self,

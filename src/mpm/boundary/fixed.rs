@@ -1,11 +1,11 @@
-//! A wall to which the body sticks: v = 0.
+//! A no-slip wall, to which the body sticks: v = 0.
 
 use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::subject::Column;
 
-/// A face of the grid whose nodes do not move.
+/// A face of the grid with fixed nodes.
 #[derive(Debug, Clone)]
 pub struct Fixed {
     nodes: Vec<usize>,
@@ -13,7 +13,7 @@ pub struct Fixed {
 }
 
 impl Fixed {
-    /// The nodes of `grid` on one face.
+    /// Fixes the nodes of `grid` on one face.
     pub fn face<const D: usize>(grid: &Grid<D>, axis: usize, side: Side) -> Self {
         Self { nodes: nodes(grid, axis, side), face: (axis, side) }
     }

@@ -1,17 +1,16 @@
-//! A wall that presses, cannot pull, and resists sliding: Coulomb's law, `|t| <= mu N`.
+//! A wall with unilateral contact and Coulomb friction, `|t| <= mu N`. The wall cannot pull.
 //!
-//! At every node of the wall the step is first tried without the wall, `v* = v + dt a`. If the node
+//! At every node of the wall, a trial step without the wall gives `v* = v + dt a`. If the node
 //! would enter the wall (or, for a node already in contact, press on it), it stays on the wall,
 //! `v . n = a . n = 0`, as with a roller. The required impulse, `I = m |v* . n|`, limits the
-//! friction. If an impulse of at most `mu I` stops `v*` along the wall the node sticks,
-//! `v = a = 0`, as on a fixed wall; otherwise it slides, and `mu I` against `v*` is subtracted from
-//! its acceleration. If the wall would have to pull, the node is free. (Bardenhagen, Brackbill &
-//! Sulsky 2000, CMAME 187, section 3, with a fixed wall as the other body.)
+//! friction. If an impulse of at most `mu I` stops the tangential part of `v*`, the node sticks,
+//! `v = a = 0`, as on a fixed wall. Otherwise the node slides, and the impulse `mu I` against `v*`
+//! is subtracted from its acceleration. If the wall would have to pull, the node is free.
+//! (Bardenhagen, Brackbill & Sulsky 2000, CMAME 187, section 3, with a fixed wall as the other
+//! body.)
 //!
-//! Nodes store their contact state between two advances, which is applied to velocities mapped in
-//! between.
-//!
-//! Contact state under Coulomb friction, for a node at a wall or for two bodies at a node.
+//! Nodes store their contact state between two advances. This state is applied to velocities mapped
+//! in between. The same contact state is used for two bodies at a node.
 
 use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::foundation::algebra::Vector;
@@ -23,14 +22,14 @@ use crate::subject::{Checkpoint, Column, Entry, Memory};
 pub struct Friction {
     nodes: Vec<(usize, ContactState)>,
     axis: usize,
-    /// 1 if the wall is at the low end of the axis, and pushes upwards; -1 at the other end.
+    /// 1 if the wall is at the low end of the axis and pushes upwards; -1 at the high end.
     inwards: f64,
     coefficient: f64,
 }
 
 impl Friction {
-    /// The nodes of `grid` on one face, with the coefficient of friction mu. They are free until
-    /// the body presses on them.
+    /// Applies friction with coefficient mu to the nodes of `grid` on one face. The nodes are free
+    /// until the body presses on them.
     pub fn face<const D: usize>(grid: &Grid<D>, axis: usize, side: Side, coefficient: f64) -> Self {
         let inwards = match side {
             Side::Low => 1.0,
@@ -106,14 +105,14 @@ impl<const D: usize> Boundary<D> for Friction {
     }
 }
 
-/// State of a contact by Coulomb's law.
+/// State of a contact with Coulomb friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::mpm) enum ContactState {
-    /// They do not touch.
+    /// The bodies do not touch.
     Separated,
-    /// They slide along each other.
+    /// The bodies slide along each other.
     Slip,
-    /// They move as one.
+    /// The bodies move together.
     Stick,
 }
 
@@ -140,7 +139,7 @@ mod tests {
 
     const ADVANCE: Advance = Advance { from: 0.0, to: 0.5, dt: 0.5 };
 
-    /// One node of the wall after an advance from v with a, and both afterwards.
+    /// Velocity, acceleration and wall after one node of the wall has advanced from v with a.
     fn advanced(side: Side, v: [f64; 2], a: [f64; 2]) -> (Vector<2>, Vector<2>, Friction) {
         let grid = Grid::new(Vector::zeros(), 1.0, [1; 2], [false; 2], [2; 2]);
         let mut wall = Friction::face(&grid, 1, side, 0.25);
@@ -175,7 +174,7 @@ mod tests {
         assert_relative_eq!(acceleration, mirrored(held_a).into());
     }
 
-    /// Velocities mapped after the advance follow its contact state.
+    /// Velocities mapped after the advance follow the contact state of the advance.
     #[rstest]
     #[case::free([3.0, 5.0], [0.7, 0.2])]
     #[case::slides([3.0, -1.0], [0.7, 0.0])]

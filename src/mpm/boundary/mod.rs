@@ -1,10 +1,10 @@
-//! Boundary conditions on the grid: the family. A member is one file and one line below.
+//! The family of boundary conditions on the grid. A member is one file and one registration line
+//! below.
 //!
 //! A face without a condition is free. A periodic axis needs no condition. With the bases of this
-//! crate the functions of index 0 and of the last index on an axis are the only ones that do not
-//! vanish on its walls (open knots, Steffen, Kirby & Berzins 2008), so prescribing their
-//! coefficients prescribes the values on the wall. If faces meet, a later condition of the list
-//! overrides an earlier one.
+//! crate, only the first and last functions on an axis are non-zero on its walls (open knots,
+//! Steffen, Kirby & Berzins 2008). Prescribing their coefficients therefore prescribes the values
+//! on the wall. Where faces meet, a later condition of the list overrides an earlier one.
 
 mod contract;
 mod fixed;

@@ -1,8 +1,8 @@
-//! A wall with a prescribed velocity, and the body with it: v = v(x, t).
+//! A wall with a prescribed velocity, to which the body sticks: v = v(x, t).
 //!
-//! The nodes take the velocity at their own place. The grid does not follow the wall: the face of
-//! the grid is where the wall is, so a wall may slide along itself as far as it likes, but move
-//! along its normal only by a small part of a cell.
+//! The nodes have the wall velocity at their own positions. The grid does not follow the wall,
+//! which stays at the face of the grid. A wall may therefore slide any distance along itself, but
+//! move along its normal only by a small part of a cell.
 
 use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::basis::BasisName;
@@ -10,10 +10,10 @@ use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::subject::Column;
 
-/// A velocity (m/s) as a function of place and time.
+/// A velocity (m/s) as a function of position and time.
 pub type VelocityField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> Vector<D> + Send>;
 
-/// A face of the grid whose velocity is given.
+/// A face of the grid with a prescribed velocity.
 pub struct Prescribed<const D: usize> {
     /// Nodes and their positions (m).
     nodes: Vec<(usize, Vector<D>)>,
@@ -21,7 +21,7 @@ pub struct Prescribed<const D: usize> {
 }
 
 impl<const D: usize> Prescribed<D> {
-    /// The nodes of `grid`, which has the functions of `basis`, on one face.
+    /// Prescribes the nodes on one face of `grid`, which has the functions of `basis`.
     pub fn face(
         grid: &Grid<D>,
         basis: BasisName,
@@ -34,9 +34,9 @@ impl<const D: usize> Prescribed<D> {
     }
 }
 
-/// `value` at `x` and `t` (s). The formula is not evaluated before the start, where it may be
-/// undefined: there it is extrapolated through its value at the start, `v(-t) = 2 v(0) - v(t)`,
-/// which is exact for a constant acceleration.
+/// `value` at `x` and `t` (s). Before the start the formula may be undefined and is not evaluated.
+/// The velocity is extrapolated through its value at the start, `v(-t) = 2 v(0) - v(t)`, which is
+/// exact for a constant acceleration.
 pub(in crate::mpm) fn continued<const D: usize>(
     value: &VelocityField<D>,
     x: &Vector<D>,

@@ -1,12 +1,12 @@
-//! Artificial viscosity: a pressure against compression that gives shocks a width of some cells.
+//! Artificial viscosity: a pressure that resists compression and spreads shocks over a few cells.
 //!
-//! `q = rho l |tr D| (c1 c + c2 l |tr D|)` if `tr D < 0`, and zero otherwise, with the present
+//! `q = rho l |tr D| (c1 c + c2 l |tr D|)` if `tr D < 0`, and zero otherwise, with the current
 //! density rho, the cell size l and the wave speed c at rest. The quadratic term (von Neumann &
-//! Richtmyer 1950) acts in strong shocks, and is of second order in smooth motion; the linear term
+//! Richtmyer 1950) acts in strong shocks, and is of second order in smooth motion. The linear term
 //! (Landshoff 1955) damps the oscillations behind weak shocks, and is of first order.
 //!
-//! The pressure is a part of the stress only while forces are taken from it: before the material
-//! makes new stresses, which a law in rate form adds to the old ones, it is taken out again.
+//! The pressure is part of the stress only while forces are computed. It is removed before the
+//! material updates the stress, because a law in rate form adds increments to the old stress.
 
 use super::contract::Effect;
 use crate::mpm::foundation::particles::Particles;
@@ -23,7 +23,7 @@ pub struct ArtificialViscosity {
     pub length: f64,
     /// Wave speed c (m/s).
     pub speed: f64,
-    /// The pressure that is in the stress of each particle (Pa); empty before the first step.
+    /// Viscous pressure in the stress of each particle (Pa); empty before the first step.
     pub q: Vec<f64>,
 }
 
@@ -74,7 +74,7 @@ mod tests {
     use crate::mpm::{Block, LinearElastic, Material, Matrix, StressUpdate, Vector};
     use approx::assert_relative_eq;
 
-    /// Two particles: one is compressed and the other stretched, alternately.
+    /// Alternately, one of two particles is compressed and the other one stretched.
     #[test]
     fn compression_is_resisted_and_nothing_of_it_stays() {
         let block = Block { from: Vector::zeros(), to: Vector::<2>::new(2.0, 1.0), density: 3.0 };
@@ -108,7 +108,7 @@ mod tests {
         }
     }
 
-    /// A body that only expands has the bits of one without viscosity.
+    /// For a body that only expands, viscosity changes no bit.
     #[test]
     fn expansion_is_free() {
         let block = Block { from: Vector::zeros(), to: Vector::<1>::new(1.0), density: 3.0 };

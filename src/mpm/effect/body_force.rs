@@ -1,8 +1,8 @@
 //! A body force that depends on the particle: b(X, t), for manufactured solutions, or b(X, t, u),
-//! as that of an elastic foundation, `b = -k u/rho0` (Winkler 1867).
+//! for example the force of an elastic foundation, `b = -k u/rho0` (Winkler 1867).
 //!
-//! `f_ext_i = sum_p m_p b(X_p, t, x_p - X_p) N_i(x_p)`. The displacement is that of the particle at
-//! the start of the step, as is its stress, so that the order of the leapfrog does not change.
+//! `f_ext_i = sum_p m_p b(X_p, t, x_p - X_p) N_i(x_p)`. Displacement and stress are both taken at
+//! the start of the step, so the order of the leapfrog method does not change.
 
 use super::contract::Effect;
 use crate::mpm::foundation::algebra::Vector;
@@ -11,26 +11,26 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::subject::Column;
 
-/// Writes the force per unit mass (m/s2) of every particle at a time (s), from their reference and
-/// their present positions. The particles of a run, their order and their reference positions never
-/// change.
+/// Writes the force per unit mass (m/s2) of every particle at a time (s), from the reference and
+/// current positions of the particles. During a run, the particles, their order and their reference
+/// positions do not change.
 pub type ForceField<const D: usize> = Box<dyn FnMut(f64, &Particles<D>, &mut [Vector<D>]) + Send>;
 
 /// A body force b (m/s2).
 pub struct BodyForce<const D: usize> {
     field: ForceField<D>,
-    /// Body force of every particle at the present time.
+    /// Body force of every particle at the current time (m/s2).
     b: Vec<Vector<D>>,
     stiffness: f64,
 }
 
 impl<const D: usize> BodyForce<D> {
-    /// A body force that `field` gives.
+    /// A body force that `field` computes.
     pub fn new(field: ForceField<D>) -> Self {
         Self { field, b: Vec::new(), stiffness: 0.0 }
     }
 
-    /// A body force that is computed for one particle at a time, from X and t.
+    /// A body force computed for each particle from X and t.
     pub fn pointwise(b: impl Fn(&Vector<D>, f64) -> Vector<D> + Send + 'static) -> Self {
         Self::new(Box::new(move |t, particles, into| {
             for (into, label) in into.iter_mut().zip(&particles.x0) {
@@ -39,7 +39,8 @@ impl<const D: usize> BodyForce<D> {
         }))
     }
 
-    /// With the largest eigenvalue of -db/du (1/s2) among the particles at the start.
+    /// Sets the stiffness: the largest eigenvalue of -db/du (1/s2) among the particles at the
+    /// start.
     #[must_use]
     pub fn with_stiffness(self, stiffness: f64) -> Self {
         Self { stiffness, ..self }

@@ -1,4 +1,5 @@
-//! Contract of an effect with the rest of the solver, and the constitutive update with its hooks.
+//! Interface between an effect and the rest of the solver, and the constitutive update with its
+//! hooks.
 
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
@@ -6,37 +7,38 @@ use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::material::{Material, StressUpdate};
 use crate::subject::{Checkpoint, Column, Failure};
 
-/// An addition to the equations of motion, by hooks between the passes of a step.
+/// An addition to the equations of motion, with hooks between the passes of a step.
 pub trait Effect<const D: usize>: Send {
     /// Name in suites.
     fn name(&self) -> &'static str;
 
-    /// Columns for particles or nodes.
+    /// Columns with entries for particles or nodes.
     fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
     }
 
-    /// Visits the state between two steps.
+    /// Visits the state that persists between steps.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
-    /// Whether it reads F: the column exists only then, or if a basis or a material reads F.
+    /// Whether the effect reads F. The column of F exists only if an effect, a basis or a material
+    /// reads it.
     fn reads_deformation(&self) -> bool {
         false
     }
 
-    /// Whether it takes part in the stresses, so that a stable time step depends on it.
+    /// Whether the effect contributes to the stresses, and therefore affects the stable time step.
     fn makes_stress(&self) -> bool {
         false
     }
 
-    /// Stiffness per unit mass (1/s2) at the start, for loads that depend on the displacement; it
-    /// reduces the stable time step.
+    /// Stiffness per unit mass (1/s2) at the start, for loads that depend on the displacement. A
+    /// stiffness reduces the stable time step.
     fn stiffness(&self) -> f64 {
         0.0
     }
 
     /// Adds external forces at time `t` (s) to `grid.force`; the masses of the grid are up to date.
-    /// Returns the particle-node pairs visited.
+    /// Returns the number of visited particle-node pairs.
     fn add_force(
         &mut self,
         _t: f64,
@@ -47,28 +49,28 @@ pub trait Effect<const D: usize>: Send {
         0
     }
 
-    /// Whether [`Effect::modify_force`] reads the velocities of the grid: schemes map them before
-    /// the forces only then.
+    /// Whether [`Effect::modify_force`] reads the grid velocities. Schemes map velocities before
+    /// forces only in this case.
     fn reads_grid_velocity(&self) -> bool {
         false
     }
 
-    /// Modifies `grid.force`, the sum of all forces, by `grid.velocity`, the mapped velocities
-    /// before they advance. Called after all effects have added their forces.
+    /// Modifies `grid.force`, the sum of all forces. May read `grid.velocity`, the mapped
+    /// velocities before their advance. Called after all effects have added their forces.
     fn modify_force(&self, _grid: &mut Grid<D>) {}
 
-    /// Modifies the velocities of particles, at their time `t` (s) after an advance of `dt` (s).
-    /// Called after G2P of velocities, and at the start of a run with `dt` = 0.
+    /// Modifies the particle velocities, which belong to time `t` (s), after an advance by `dt`
+    /// (s). Called after G2P of velocities, and at the start of a run with `dt` = 0.
     fn modify_velocity(&self, _t: f64, _dt: f64, _particles: &mut Particles<D>) {}
 
-    /// Modifies the positions of particles after the grid has moved them over `dt` (s).
+    /// Modifies the particle positions after the grid has moved the particles over `dt` (s).
     fn modify_position(&mut self, _dt: f64, _particles: &mut Particles<D>) {}
 
     /// Completes the initial state of the particles, after their columns have been created.
     fn start(&mut self, _material: &mut dyn Material<D>, _particles: &mut Particles<D>) {}
 
-    /// Hook before strains, with the velocities of the grid that strain the particles over `dt`
-    /// (s). Returns the particle-node pairs visited.
+    /// Hook before the strain update, with the grid velocities that strain the particles over `dt`
+    /// (s). Returns the number of visited particle-node pairs.
     fn map_velocity(
         &mut self,
         _dt: f64,
@@ -79,23 +81,23 @@ pub trait Effect<const D: usize>: Send {
         0
     }
 
-    /// Hook before the constitutive update, of effects that [make stress](Self::makes_stress).
+    /// Hook before the constitutive update, called if [`Effect::makes_stress`].
     fn before_stress(&mut self, _particles: &mut Particles<D>) {}
 
-    /// Hook after the constitutive update, of effects that [make stress](Self::makes_stress).
+    /// Hook after the constitutive update, called if [`Effect::makes_stress`].
     fn after_stress(&mut self, _particles: &mut Particles<D>) {}
 
-    /// Passes of [`Effect::integrate_state`] in their order, as reports list them.
+    /// Names of the passes of [`Effect::integrate_state`] in order, for reports.
     fn state_passes(&self) -> &'static [&'static str] {
         &[]
     }
 
-    /// Integrates the effect's own state from `t` to `t + dt` (s). Called once a step, with the
-    /// particles at their positions at `t` and the masses of the grid up to date. Returns the
-    /// particle-node pairs visited.
+    /// Integrates the effect's own state from `t` to `t + dt` (s). Called once per step, with
+    /// particle positions at `t` and up-to-date grid masses. Returns the number of visited
+    /// particle-node pairs.
     ///
     /// # Errors
-    /// The failure of the first particle that cannot go on.
+    /// The failure of the first particle whose state cannot be integrated.
     fn integrate_state(
         &mut self,
         _t: f64,
@@ -108,7 +110,7 @@ pub trait Effect<const D: usize>: Send {
     }
 }
 
-/// New stresses; returns [`StressUpdate::least_j`].
+/// Updates the stresses; returns [`StressUpdate::least_j`].
 pub(in crate::mpm) fn strain<const D: usize>(
     effects: &mut [Box<dyn Effect<D>>],
     material: &mut dyn Material<D>,
@@ -118,8 +120,8 @@ pub(in crate::mpm) fn strain<const D: usize>(
         effect.before_stress(body.particles());
     }
     material.update(&mut body);
-    // Hooks are nested: the later hook of an effect sees the particles as its earlier hook left
-    // them. Thermal expansion then restores the volume whose density artificial viscosity uses.
+    // The hooks are nested: the effect that is first before the update is last after it. Thermal
+    // expansion thus restores the volume before artificial viscosity computes the density.
     for effect in effects.iter_mut().rev().filter(|effect| effect.makes_stress()) {
         effect.after_stress(body.particles());
     }
@@ -134,8 +136,8 @@ mod tests {
     };
     use approx::assert_relative_eq;
 
-    /// A hot bar that closes: Hencky's stress of its elastic stretch 1.5/1.2 with E = 50, less
-    /// `q = rho (l D)^2` with l D = 0.3 and the density at the whole stretch, 3/1.5.
+    /// A hot bar in compression. The stress is Hencky's for the elastic stretch 1.5/1.2 and E = 50,
+    /// minus `q = rho (l D)^2` with l D = 0.3 and the density at the total stretch, 3/1.5.
     #[test]
     fn a_viscosity_has_the_density_of_the_expanded_body() {
         let block = Block { from: Vector::zeros(), to: Vector::<1>::new(1.0), density: 3.0 };

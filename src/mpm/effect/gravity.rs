@@ -1,7 +1,7 @@
 //! A uniform acceleration, constant or a function of time.
 //!
-//! `f_ext_i = sum_p m_p b N_i(x_p) = m_i b`: as b does not depend on the particle, the sum is the
-//! nodal mass, and no particle is visited.
+//! `f_ext_i = sum_p m_p b N_i(x_p) = m_i b`. Because b is the same for all particles, the sum is
+//! the nodal mass times b, and no particle is visited.
 
 use super::contract::Effect;
 use crate::mpm::foundation::algebra::Vector;

@@ -11,14 +11,14 @@
 //! T_p   += dt sum_i Q_i/(c m_i) N_i                            as FLIP: increments only
 //! ```
 //!
-//! The published scheme maps T_p only. Row sums then give the mean over a function, which at a wall
-//! differs from the value at the wall: the slope there is a third too small with linear functions,
-//! and a face with heat flux loses the second order. With `g_p`, the slope of the previous step (as
-//! in TPIC), a linear field is reproduced up to the wall.
+//! The published scheme maps only T_p. Row sums then give the mean over a function. At a wall this
+//! mean differs from the wall value. With linear functions the slope at the wall is a third too
+//! small, and the error at a face with heat flux is not of second order. With `g_p`, the slope of
+//! the previous step (as in TPIC), the map reproduces a linear field up to the wall.
 //!
-//! Second order in space, first in time. The sum of `Q_i` is the flow into the body, to round-off.
-//! Neglected: heat from plastic work, viscosity and compression; a conductivity that is not
-//! constant.
+//! The method is of second order in space and of first order in time. The sum of `Q_i` is the heat
+//! flow into the body, to round-off. Neglected: heat from plastic work, viscosity and compression,
+//! and variable conductivity.
 
 use super::contract::Effect;
 use super::thermal_face::ThermalBoundary;
@@ -30,14 +30,14 @@ use crate::subject::{Checkpoint, Column, Failure, Site};
 
 /// Writes the heat per unit mass and time (W/kg) of every particle at a time (s).
 ///
-/// It may depend on T_p at the start of the step, but not on T_i, which would need another pass.
-/// The sum over particles is the integral of s for any such s. A sink s = -r c T adds its rate to
-/// that of conduction: with linear functions and equally spaced particles, forward Euler is stable
-/// for dt < 2/(4 k/(rho c h^2) + r). The stable time step is not predicted; the suite must state
-/// the step.
+/// The heat may depend on T_p at the start of the step, but not on T_i, which would need another
+/// pass. The sum over particles is the integral of s for any such s. A sink s = -r c T adds its
+/// rate to the rate of conduction: with linear functions and equally spaced particles, forward
+/// Euler is stable for dt < 2/(4 k/(rho c h^2) + r). The stable time step is not predicted; the
+/// suite must state the step.
 pub type HeatSource<const D: usize> = Box<dyn FnMut(f64, &Particles<D>, &mut [f64]) + Send>;
 
-/// Conduction of heat in the body.
+/// Heat conduction in the body.
 pub struct Heat<const D: usize> {
     conductivity: f64,
     capacity: f64,
@@ -47,14 +47,14 @@ pub struct Heat<const D: usize> {
     slope: Vec<Vector<D>>,
     /// T_i (K).
     temperature: Vec<f64>,
-    /// Q_i (W), then its rate of change of temperature (K/s).
+    /// Q_i (W), later converted to a temperature rate (K/s).
     flow: Vec<f64>,
 }
 
 impl<const D: usize> Heat<D> {
-    /// Conduction with a conductivity k (W/(m K), per m^(3-D)) and a heat capacity c (J/(kg K)) in
-    /// `particles`. Also sets their temperature (K): `initial` returns it and its gradient with
-    /// respect to X for each reference position.
+    /// Heat conduction in `particles`, with conductivity k (W/(m K), per m^(3-D)) and heat capacity
+    /// c (J/(kg K)). Also sets the particle temperatures (K): `initial` returns the temperature and
+    /// its gradient with respect to X at a reference position.
     pub fn new(
         conductivity: f64,
         capacity: f64,
@@ -65,7 +65,7 @@ impl<const D: usize> Heat<D> {
             particles.x0.iter().map(initial).unzip();
         particles.temperature = temperature;
         for (slope, f) in slope.iter_mut().zip(&particles.def_grad) {
-            // Where F has no inverse, the solver refuses the start.
+            // If F has no inverse, the solver rejects the initial state.
             *slope = f.try_inverse().map_or_else(Vector::zeros, |back| back.transpose() * *slope);
         }
         let (temperature, flow) = (Vec::new(), Vec::new());
@@ -73,26 +73,27 @@ impl<const D: usize> Heat<D> {
         Self { conductivity, capacity, source, faces, slope, temperature, flow }
     }
 
-    /// With heat that arises in the body.
+    /// Adds a heat source in the body.
     #[must_use]
     pub fn with_source(self, source: HeatSource<D>) -> Self {
         let amount = vec![0.0; self.slope.len()];
         Self { source: Some((source, amount)), ..self }
     }
 
-    /// Adds conditions on faces; a face without condition is insulated. If faces meet, a given
-    /// temperature has precedence, and the last of two given temperatures.
+    /// Adds conditions on faces; a face without a condition is insulated. Where faces meet, a
+    /// prescribed temperature has precedence over a flux, and a later prescribed temperature over
+    /// an earlier one.
     #[must_use]
     pub fn with_faces(self, faces: Vec<ThermalBoundary<D>>) -> Self {
         Self { faces, ..self }
     }
 
-    /// T_i (K) and g_p (K/m), as the last step found them.
+    /// T_i (K) and g_p (K/m) of the last step.
     pub fn fields(&self) -> (&[f64], &[Vector<D>]) {
         (&self.temperature, &self.slope)
     }
 
-    /// T_i and g_p at time `t` (s).
+    /// Computes T_i and g_p at time `t` (s).
     fn show(&mut self, t: f64, particles: &Particles<D>, kernel: &dyn Kernel<D>, grid: &Grid<D>) {
         self.temperature.resize(grid.nodes(), 0.0);
         self.flow.resize(grid.nodes(), 0.0);
@@ -107,7 +108,7 @@ impl<const D: usize> Heat<D> {
         kernel.g2p_slope(grid, &self.temperature, particles, &mut self.slope);
     }
 
-    /// Q_i at time `t` (s); returns the particle-node pairs visited.
+    /// Computes Q_i at time `t` (s). Returns the number of visited particle-node pairs.
     fn gather(
         &mut self,
         t: f64,
@@ -153,7 +154,7 @@ impl<const D: usize> Effect<D> for Heat<D> {
         columns
     }
 
-    /// State of the particles; the state of the nodes is recomputed in each step.
+    /// Visits the state of the particles; the state of the nodes is recomputed in each step.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.slope[..]);
     }
@@ -195,8 +196,8 @@ mod tests {
     use crate::mpm::{Block, Matrix};
     use approx::assert_relative_eq;
 
-    /// A body that starts stretched and sheared has the gradient with respect to x of its
-    /// temperature, `F^T grad T = Grad T`.
+    /// A body that starts stretched and sheared has the temperature gradient with respect to x:
+    /// `F^T grad T = Grad T`.
     #[test]
     fn slopes_at_the_start_are_those_of_the_deformed_body() {
         let (from, to) = (Vector::zeros(), Vector::<2>::new(2.0, 1.0));

@@ -1,10 +1,10 @@
-//! Hoops of a body of revolution, in its meridian plane.
+//! Hoop strain and hoop stress of a body of revolution, in its meridian plane.
 //!
-//! `D_tt = sum_i v_i,r N_i(x_p)/r_p` is their strain rate, and their stress acts towards the axis:
-//! `f_i,r -= sum_p V_p sigma_tt N_i(x_p)/r_p` (Sulsky & Schreyer 1996, Comput. Methods Appl. Mech.
-//! Engrg. 139; Nairn & Guilkey 2015, Int. J. Numer. Meth. Engng 101). Masses and volumes are those
-//! of one radian, `V_p = r_p A_p`, so that forces and inertia in the plane need no change. Force
-//! and rate have equal weights, so that the power of the force equals the stress power.
+//! The hoop strain rate is `D_tt = sum_i v_i,r N_i(x_p)/r_p`. The hoop stress acts towards the
+//! axis: `f_i,r -= sum_p V_p sigma_tt N_i(x_p)/r_p` (Sulsky & Schreyer 1996, Comput. Methods Appl.
+//! Mech. Engrg. 139; Nairn & Guilkey 2015, Int. J. Numer. Meth. Engng 101). Masses and volumes are
+//! per radian, `V_p = r_p A_p`, so forces and inertia in the plane need no change. Force and rate
+//! use equal weights, so the power of the force equals the stress power.
 
 use super::contract::Effect;
 use crate::mpm::foundation::algebra::Vector;
@@ -13,10 +13,10 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::subject::Column;
 
-/// The hoops of all particles.
+/// The hoop effect for all particles.
 #[derive(Debug, Clone, Default)]
 pub struct Hoop<const D: usize> {
-    /// Velocities of the grid at the particles (m/s).
+    /// Grid velocities interpolated to the particles (m/s).
     velocity: Vec<Vector<D>>,
 }
 

@@ -1,19 +1,19 @@
-//! Local damping: a force against the motion, proportional to the unbalanced force.
+//! Local damping: a force opposite to the velocity, proportional to the unbalanced force.
 //!
-//! `f_i <- f_i - zeta |f_i| sign(v_i)`, component by component and node by node, once all other
-//! forces are there (Cundall 1987, in Analytical and Computational Methods in Engineering Rock
-//! Mechanics, ch. 4). A body in equilibrium is not damped, for any loads, and the method needs no
-//! frequency: each mode decays by the same factor per half period, `sqrt((1 - zeta)/(1 + zeta))` if
-//! all velocities change sign at the same time.
+//! `f_i <- f_i - zeta |f_i| sign(v_i)` for each component of each node, after all other forces have
+//! been added (Cundall 1987, in Analytical and Computational Methods in Engineering Rock Mechanics,
+//! ch. 4). A body in equilibrium is not damped under any load, and the method needs no frequency.
+//! Each mode decays by the same factor per half period, `sqrt((1 - zeta)/(1 + zeta))`, if all
+//! velocities change sign at the same time.
 //!
-//! The sign is that of the velocity at the start of the step, half a step behind the forces. So the
-//! damping changes its sign up to a step late, and has first order in time. It acts on nodes, and
-//! does not damp the part of FLIP's velocities without nodal momentum.
+//! The sign is taken from the velocity at the start of the step, half a step behind the forces. The
+//! damping therefore changes its sign up to one step late, and is of first order in time. The
+//! damping acts on nodes and does not affect FLIP velocities without nodal momentum.
 
 use super::contract::Effect;
 use crate::mpm::foundation::grid::Grid;
 
-/// The share zeta, 0 <= zeta < 1, of the unbalanced force.
+/// Share zeta of the unbalanced force, 0 <= zeta < 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalDamping(pub f64);
 
@@ -29,8 +29,7 @@ impl<const D: usize> Effect<D> for LocalDamping {
     fn modify_force(&self, grid: &mut Grid<D>) {
         for (force, velocity) in grid.force.iter_mut().zip(&grid.velocity) {
             for (f, v) in force.iter_mut().zip(velocity) {
-                // A node at rest is not damped; neither is one with NaN, which the check of the
-                // particles reports.
+                // A node with zero velocity is not damped. The check of the particles reports NaN.
                 if *v > 0.0 {
                     *f -= self.0 * f.abs();
                 } else if *v < 0.0 {

@@ -1,10 +1,10 @@
-//! Family of the effects. A member is one file and one line of `members`. A solver has a list of
-//! effects; an effect that is not in the list has no cost: no call, no column, no branch.
+//! The family of effects. A member is one file and one line of `members`. A solver has a list of
+//! effects. An effect that is not in the list adds no call, column or branch.
 
 mod contract;
 mod hoop;
 mod rim;
-/// The effect that `docs/exercises/effect.md` adds.
+/// The effect added by `docs/exercises/effect.md`.
 #[cfg(test)]
 #[allow(unreachable_pub)] // public where the page puts it
 #[path = "../../../tests/exercises/spin.rs"]
@@ -25,7 +25,8 @@ pub use traction::TractionField;
 
 use crate::members::each_effect;
 
-/// Declares the family of effects, from the lines of [`each_effect`](crate::members) that have one.
+/// Declares the family of effects, from the lines of [`each_effect`](crate::members) with an
+/// effect.
 macro_rules! effects {
     ($(
         $(#[$meta:meta])*

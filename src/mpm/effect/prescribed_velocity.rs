@@ -1,8 +1,8 @@
 //! A set of particles with a prescribed velocity.
 //!
-//! Their velocity is set after the transfer from the grid, and they move with it instead of the
-//! grid velocity. It affects the rest of the body with the next P2G of velocities: in MUSL within
-//! the same step, in USF and USL in the next.
+//! The particle velocities are set after the transfer from the grid, and the particles move with
+//! them instead of the grid velocity. The next P2G of velocities affects the rest of the body: in
+//! the same step with MUSL, in the next step with USF and USL.
 
 use super::contract::Effect;
 use crate::mpm::boundary::{VelocityField, continued};
@@ -13,12 +13,12 @@ use crate::subject::{Checkpoint, Column};
 /// Prescribed velocity v(X, t) (m/s) of a set of particles.
 pub struct PrescribedVelocity<const D: usize> {
     value: VelocityField<D>,
-    /// Particles and their positions (m).
+    /// Particles and their initial positions (m).
     members: Vec<(usize, Vector<D>)>,
 }
 
 impl<const D: usize> PrescribedVelocity<D> {
-    /// The velocity `value` for the particles `members`.
+    /// Prescribes the velocity `value` for the particles `members`.
     pub fn on(particles: &Particles<D>, members: &[usize], value: VelocityField<D>) -> Self {
         Self { value, members: members.iter().map(|&p| (p, particles.x[p])).collect() }
     }
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
     use crate::mpm::Block;
 
-    /// Half a step before the start, where a leapfrog has its first velocities, the velocity of
+    /// A leapfrog method has its first velocities half a step before the start. There, the velocity
     /// `v = X (1 + 2 t)` is X (1 - dt).
     #[test]
     fn a_velocity_is_continued_before_the_start() {

@@ -1,8 +1,8 @@
-//! A pressure on a face or a round rim of the body, which follows it: `t = -p n` per present area.
+//! A follower pressure on a face or a round rim of the body: `t = -p n` per current area.
 //!
-//! The force per reference area is `P N = -p J F^-T N = -p cof(F) N` (Nanson's formula), so that it
-//! depends on F of the particles of the layer, and changes if the face stretches or rotates. If the
-//! force acts at the surface ([`Placement`]), F is extrapolated to it.
+//! The force per reference area is `P N = -p J F^-T N = -p cof(F) N` (Nanson's formula). The force
+//! depends on F of the particles in the layer, and changes if the face stretches or rotates. If the
+//! force acts at the surface ([`Placement`]), F is extrapolated to the surface.
 
 use super::contract::Effect;
 use super::rim::{Facet, RimCircle, facets, press};
@@ -14,10 +14,10 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::subject::Column;
 
-/// A pressure (Pa) as a function of the place in the reference configuration and of time.
+/// A pressure (Pa) as a function of the reference position and time.
 pub type PressureField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send>;
 
-/// Pressure p(X, t) on one face or rim of the body; below zero it pulls.
+/// Pressure p(X, t) on one face or rim of the body; a negative pressure pulls.
 pub struct Pressure<const D: usize> {
     value: PressureField<D>,
     site: PressedSurface<D>,
@@ -30,7 +30,7 @@ enum PressedSurface<const D: usize> {
 }
 
 impl<const D: usize> Pressure<D> {
-    /// A pressure on the outermost layer of `particles` on `side` of `axis`.
+    /// A pressure on the outermost layer of `particles` on the face `side` of `axis`.
     pub fn at(
         particles: &Particles<D>,
         axis: usize,
@@ -41,7 +41,7 @@ impl<const D: usize> Pressure<D> {
         Self { value, site: PressedSurface::Face(Surface::new(particles, axis, side, placement)) }
     }
 
-    /// A pressure on a circular rim of a body in the plane, filled with `particles`.
+    /// A pressure on a circular rim of a two-dimensional body filled with `particles`.
     pub fn on_rim(particles: &Particles<D>, circle: &RimCircle, value: PressureField<D>) -> Self {
         Self { value, site: PressedSurface::Rim(facets(particles, circle)) }
     }

@@ -1,10 +1,10 @@
-//! A rim of a round body in the plane, cut into facets that carry a surface force.
+//! The rim of a round two-dimensional body, divided into facets that carry a surface force.
 //!
-//! The particles at a rim form a staircase, so their shares of the surface are not those of a face
-//! of a box. The circle is cut into arcs about half a spacing long. The force on an arc acts on the
-//! nearest particle, with its moment: `f_i (x) x_i` of a particle and its arm sum to `f (x) x_s`
-//! wherever linear fields are reproduced. The vectors of area are exact, so that a uniform pressure
-//! has no resultant.
+//! The particles at a rim form a staircase, so their shares of the surface are not equal, unlike on
+//! a face of a box. The circle is divided into arcs about half a spacing long. The force on an arc
+//! acts on the nearest particle, together with its moment. If linear fields are reproduced, the sum
+//! of `f_i (x) x_i` is then `f (x) x_s`, as for a force at the middle x_s of the arc. The area
+//! vectors are exact, so a uniform pressure has no resultant.
 
 use super::surface::put_at_surface;
 use crate::mpm::foundation::algebra::{Vector, cofactor};
@@ -21,33 +21,33 @@ pub struct RimCircle {
     pub centre: [f64; 2],
     /// Radius (m).
     pub radius: f64,
-    /// Sign of the outward normal of the body along the radius.
+    /// Sign of the outward normal along the radius.
     pub outwards: f64,
 }
 
 /// An arc of a rim.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Facet<const D: usize> {
-    /// The particle nearest to the middle of the arc.
+    /// Particle nearest to the middle of the arc.
     pub(super) particle: usize,
-    /// The middle of the arc in the reference configuration (m).
+    /// Middle of the arc in the reference configuration (m).
     pub(super) label: Vector<D>,
-    /// The integral of the outward normal over the arc, in the reference configuration (m^(D-1)).
+    /// Integral of the outward normal over the arc, in the reference configuration (m^(D-1)).
     area: Vector<D>,
 }
 
-/// A column of facets has no numbers to show.
+/// A column of facets has no numbers for reports.
 impl<const D: usize> Entry for Facet<D> {}
 
 /// Arcs per particle spacing along the rim.
 const PER_SPACING: f64 = 2.0;
 
-/// Distance from the rim to the furthest particles that can carry a facet, in spacings: the rim of
-/// a staircase is at most half a diagonal away from a particle.
+/// Maximum distance from the rim of particles that can carry a facet (spacings). A staircase rim is
+/// at most half a diagonal away from a particle.
 const REACH: f64 = 2.0;
 
-/// The facets of `circle`, from the positive first axis on. A body with particles has particles
-/// near each of its rims.
+/// Facets of `circle`, starting at the positive first axis. Every rim of a body has particles
+/// nearby.
 pub(super) fn facets<const D: usize>(
     particles: &Particles<D>,
     circle: &RimCircle,
@@ -72,16 +72,16 @@ pub(super) fn facets<const D: usize>(
         };
         let label: Vector<D> = along(centre, radius);
         let distance = |p: &usize| (particles.x0[*p] - label).norm_squared();
-        // The first of several at the same distance.
+        // The first of several particles at the same distance.
         let nearest = near.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         Some(Facet { particle: nearest, label, area: along([0.0; 2], outwards * length) })
     };
     (0..count as usize).filter_map(facet).collect()
 }
 
-/// Puts a pressure (Pa, per current area) on every facet, a function of its place in the reference
-/// configuration. F at the rim is that of the particle, half a spacing away. Returns the
-/// particle-node pairs visited.
+/// Adds the forces of a pressure (Pa, per current area) on every facet, as a function of its
+/// reference position. F at the rim is taken from the particle, half a spacing away. Returns the
+/// number of visited particle-node pairs.
 pub(super) fn press<const D: usize>(
     facets: &[Facet<D>],
     particles: &Particles<D>,
@@ -105,7 +105,8 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A circle in a square of particles: facets close, and each lies near its particle.
+    /// For a circle in a square of particles, the facets form a closed curve, and each facet is
+    /// near its particle.
     #[rstest]
     #[case::outer(1.0)]
     #[case::inner(-1.0)]
@@ -119,7 +120,7 @@ mod tests {
         assert!(sum.norm() <= 1e-14, "{sum}");
         let length: f64 = facets.iter().map(|facet| facet.area.norm()).sum();
         assert_relative_eq!(length, TAU * 1.3, max_relative = 1e-3);
-        // Twice the area of the polygon by the divergence theorem, negative around a hole.
+        // Twice the area of the polygon by the divergence theorem; negative around a hole.
         let doubled: f64 = facets
             .iter()
             .map(|facet| facet.area.dot(&(facet.label - Vector::from([2.0, 1.9]))))

@@ -1,7 +1,7 @@
 //! A force on a set of particles, shared among them by reference volume.
 //!
-//! `f_ext_i += f(t) sum_p (V0_p/V0) N_i(x_p)` over the set, V0 being its whole volume: a body force
-//! that is uniform in the reference configuration, and follows the particles.
+//! `f_ext_i += f(t) sum_p (V0_p/V0) N_i(x_p)` over the set, with its total reference volume V0.
+//! This is a body force that is uniform in the reference configuration and follows the particles.
 
 use super::contract::Effect;
 use crate::mpm::foundation::algebra::Vector;
@@ -10,15 +10,15 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::subject::Column;
 
-/// A total force f(t) (N, per m^(3-D) of thickness) on a set.
+/// A total force f(t) on a set of particles (N, per m^(3-D) of thickness).
 pub struct SetForce<const D: usize> {
     value: Box<dyn Fn(f64) -> Vector<D> + Send>,
-    /// Particles and their shares, which add up to 1.
+    /// Particles and their shares of the force; the sum of the shares is 1.
     shares: Vec<(usize, f64)>,
 }
 
 impl<const D: usize> SetForce<D> {
-    /// The force `value` on the particles `members`.
+    /// Applies the force `value` to the particles `members`.
     pub fn on(
         particles: &Particles<D>,
         members: &[usize],

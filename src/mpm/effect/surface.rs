@@ -1,21 +1,21 @@
-//! The surface of a body, as the layer of particles that lies at one of its faces.
+//! The surface of a body, represented by the layer of particles at one of its faces.
 //!
-//! Each particle of the layer represents a share A_p of the face, whose middle is
+//! Each particle of the layer represents a share A_p of the face. The middle of the share is
 //! `X_s = X_p + s/2 N` with the spacing s along the normal N. A traction there is mapped to the
 //! grid in one of two ways ([`Placement`]):
 //!
 //! - at the particle, `f_i += f N_i(x_p)`, half a spacing inside, as in the original MPM. The sum
-//!   of the forces is right, their moment is not: forces along the face lack the arm s/2, which
-//!   causes a bending error of order h in the whole body;
+//!   of the forces is exact, but their moment is not. The moment arm of forces along the face is
+//!   s/2 too short, which causes a bending error of order h in the whole body;
 //! - at the surface, `f_i += f N_i(x_p) + (f (x) d) grad N_i(x_p)`, `d = F s/2 N`: the weights of
 //!   the surface point, extrapolated linearly from the particle. Sum and moment are exact,
-//!   `sum_i f_i (x) x_i = f (x) (x_p + d)`, if the basis reproduces linear fields. The weights at
-//!   the surface point itself are not used: just beyond a node they would load a node without mass.
+//!   `sum_i f_i (x) x_i = f (x) (x_p + d)`, if the basis reproduces linear fields. The exact
+//!   weights of the surface point are not used, because just beyond a node they would load a node
+//!   without mass.
 //!
-//! On a face of a mapped box, the layer is the set of particles whose domains end on the face.
-//!
-//! The middles of the outer faces of these domains lie on the face of the body
-//! ([`Particles::fill_mapped`]), also if the rows of particles meet the face at an angle.
+//! On a face of a mapped box, the layer contains the particles whose domains end on the face. The
+//! middles of these domain ends are on the face of the body ([`Particles::fill_mapped`]), even if
+//! the particle rows meet the face at an angle.
 
 use crate::mpm::boundary::Side;
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
@@ -40,24 +40,24 @@ named! {
 /// The outermost layer of particles on one face.
 #[derive(Debug, Clone)]
 pub(super) struct Surface {
-    /// Particles, in their order.
+    /// Particles of the layer, in ascending order.
     pub(super) layer: Vec<usize>,
     pub(super) placement: Placement,
     axis: usize,
     /// Sign of the outward normal along the axis.
     outwards: f64,
-    /// Share of the face of each particle (m^(D-1)).
+    /// Area of the face per particle (m^(D-1)).
     pub(super) area: f64,
     /// Half a spacing along the axis (m); not used for a mapped body.
     depth: f64,
-    /// For a mapped body, the column of the domains that ends on the face, and its sign.
+    /// For a mapped body, the column of the domain matrix whose end is on the face, and its sign.
     column: Option<(usize, f64)>,
-    /// How far the numbers of particles go down from this layer to the one below it.
+    /// Difference between the index of a particle in this layer and the particle below it.
     below: usize,
 }
 
 impl Surface {
-    /// The layer of a box of `particles` on `side` of `axis`.
+    /// The layer of `particles` at the face `side` of `axis`, for a box.
     pub(super) fn new<const D: usize>(
         particles: &Particles<D>,
         axis: usize,
@@ -89,13 +89,13 @@ impl Surface {
         Self { layer, placement, axis, outwards, area, depth, column: None, below }
     }
 
-    /// The outward normal, in the reference configuration.
+    /// Outward normal in the reference configuration.
     pub(super) fn normal<const D: usize>(&self) -> Vector<D> {
         Vector::from_fn(|i, _| if i == self.axis { self.outwards } else { 0.0 })
     }
 
-    /// From particle `p` to the middle of its share of the face, in the reference configuration
-    /// (m).
+    /// Vector from particle `p` to the middle of its share of the face, in the reference
+    /// configuration (m).
     fn to_face<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
         match self.column {
             Some((column, sign)) => particles.domain0[p].column(column) * sign,
@@ -103,7 +103,7 @@ impl Surface {
         }
     }
 
-    /// The middle of the share of the face of particle `p`, X_s (m).
+    /// Middle of the face share of particle `p`, X_s (m).
     pub(super) fn label<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
         particles.x0[p] + self.to_face(particles, p)
     }
@@ -113,13 +113,14 @@ impl Surface {
         self.continued(&particles.def_grad, p)
     }
 
-    /// Stretch across the plane at particle `p`.
+    /// Out-of-plane stretch at the surface above particle `p`.
     pub(super) fn across<const D: usize>(&self, particles: &Particles<D>, p: usize) -> f64 {
         if particles.across.is_empty() { 1.0 } else { self.continued(&particles.across, p) }
     }
 
-    /// A column at the surface above particle `p`: continued from the particle and the one below
-    /// it, along the straight line. The entry of the particle alone is wrong by half a spacing.
+    /// Value of a column at the surface above particle `p`, extrapolated linearly from this
+    /// particle and the particle below it. The value of the particle itself belongs to a point half
+    /// a spacing away.
     fn continued<T>(&self, column: &[T], p: usize) -> T
     where
         T: Copy + Mul<f64, Output = T> + Sub<Output = T>,
@@ -134,15 +135,15 @@ impl Surface {
         here * 1.5 - below * 0.5
     }
 
-    /// Share of the face of particle `p` in the reference configuration (m^(D-1)); in a body of
-    /// revolution per radian, at the radius of the face (m^2/rad).
+    /// Face area of particle `p` in the reference configuration (m^(D-1)). For a body of revolution
+    /// the area is per radian, at the radius of the face (m^2/rad).
     fn area<const D: usize>(&self, particles: &Particles<D>, p: usize) -> f64 {
         let is_revolved = !particles.stress_across.is_empty();
         if is_revolved { self.area * self.label(particles, p)[0] } else { self.area }
     }
 
-    /// Puts a traction (Pa, per reference area) on every particle of the layer; returns the
-    /// particle-node pairs visited.
+    /// Adds the forces of a traction (Pa, per reference area) on every particle of the layer.
+    /// Returns the number of visited particle-node pairs.
     pub(super) fn pull<const D: usize>(
         &self,
         particles: &Particles<D>,
@@ -167,8 +168,8 @@ impl Surface {
     }
 }
 
-/// Puts `force` on particle `p` with its moment, so that it acts at the end of `arm`, from the
-/// particle to the surface in the reference configuration (m).
+/// Adds `force` at particle `p` with a moment, so that it acts at the end of `arm`. The arm is the
+/// vector from the particle to the surface in the reference configuration (m).
 pub(super) fn put_at_surface<const D: usize>(
     particles: &Particles<D>,
     kernel: &dyn Kernel<D>,
@@ -178,7 +179,7 @@ pub(super) fn put_at_surface<const D: usize>(
     arm: Vector<D>,
 ) {
     kernel.p2g_point_force(particles, p, force, grid);
-    // In the configuration of the basis.
+    // The arm in the configuration in which the basis is evaluated.
     let arm = match particles.def_grad.get(p) {
         Some(f) if particles.current_position.is_empty() => f * arm,
         _ => arm,
@@ -186,22 +187,21 @@ pub(super) fn put_at_surface<const D: usize>(
     kernel.p2g_point_moment(particles, p, &dyad(force, &arm), grid);
 }
 
-/// Maximum distance from the face that counts as rounding error, in spacings.
+/// Maximum distance from the face that counts as rounding error (spacings).
 const ROUNDING: f64 = 1e-6;
 
 /// The layer of particles at a plane face.
 pub(super) struct MappedFace {
-    /// Particles, in their order.
+    /// Particles of the layer, in ascending order.
     pub(super) layer: Vec<usize>,
-    /// The column of their domains that ends on the face, and its sign.
+    /// The column of the domain matrix whose end is on the face, and its sign.
     pub(super) column: (usize, f64),
-    /// Share of the face of each particle (m^(D-1)): along a straight side in 2-D, all are
-    /// equal.
+    /// Area of the face per particle (m^(D-1)). Along a straight side in 2-D, all shares are equal.
     pub(super) area: f64,
 }
 
 impl MappedFace {
-    /// The outermost face along `axis`, in the direction `outwards` (1 or -1). `None` for a body
+    /// The outermost face along `axis` in the direction `outwards` (1 or -1). `None` for a body
     /// that is not a mapped box.
     pub(super) fn outermost<const D: usize>(
         particles: &Particles<D>,
@@ -238,10 +238,10 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Sides by axis and direction, with their length and place.
+    /// Sides: axis, direction, length and position of each side.
     type Sides<'a> = &'a [(usize, f64, f64, f64)];
 
-    /// The sides of a panel that are upright or level, however steeply its rows rise.
+    /// Vertical and horizontal sides of a panel are found for any slope of the particle rows.
     #[rstest]
     #[case::slanting(
         [[0.0, 0.0], [3.0, 0.0], [2.0, 2.0], [0.0, 2.0]],

@@ -1,12 +1,12 @@
-//! Thermal expansion: strain that temperature makes, and that causes no stress.
+//! Thermal expansion: strain due to temperature, which by itself causes no stress.
 //!
-//! For a law of the total deformation F is split, `F = theta Fe` with the stretch
+//! For a law of the total deformation, F is split as `F = theta Fe` with the stretch
 //! `theta = 1 + alpha (T - T0)` on every axis, and the law uses Fe (Stojanovic, Djuric & Vujosevic
-//! 1964; Lubarda 2004, Appl. Mech. Rev. 57): a free body expands exactly by theta. For a law in
-//! rate form the thermal strain increment is subtracted, `sigma -= E/(1 - 2 nu) alpha dT I`
+//! 1964; Lubarda 2004, Appl. Mech. Rev. 57). A free body then expands exactly by theta. For a law
+//! in rate form the thermal strain increment is subtracted, `sigma -= E/(1 - 2 nu) alpha dT I`
 //! (Duhamel & Neumann), which is plane strain in 2-D and uniaxial strain in 1-D.
 //!
-//! The split applies to the D dimensions of the scene: with Poisson's ratio zero the other axes
+//! The split applies to the D dimensions of the scene. If Poisson's ratio is zero, the other axes
 //! have no effect. Neglected: heat absorbed by the expansion.
 
 use super::contract::Effect;
@@ -15,30 +15,30 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::{Material, StressUpdate};
 use crate::subject::{Checkpoint, Column};
 
-/// Thermal expansion; the effect that computes temperatures comes before it.
+/// Thermal expansion. The effect that computes temperatures must come earlier in the list.
 pub struct ThermalExpansion<const D: usize> {
     /// alpha (1/K).
     coefficient: f64,
-    /// T0 (K), at which the body is free of stress when it is not deformed.
+    /// T0 (K), at which the undeformed body is free of stress.
     reference: f64,
     law: ExpansionLaw<D>,
 }
 
-/// Form of the expansion, by the kind of law.
+/// Form of the expansion, which depends on the kind of law.
 enum ExpansionLaw<const D: usize> {
-    /// Fe, in the place of F while stresses are computed.
+    /// Fe, which replaces F while stresses are computed.
     OfDeformation { elastic: Vec<Matrix<D>> },
-    /// `E/(1 - 2 nu)` (Pa), and the temperatures of the stresses (K).
+    /// `E/(1 - 2 nu)` (Pa), and the temperatures for which the stresses were computed (K).
     InRateForm { modulus: f64, before: Vec<f64> },
 }
 
 impl<const D: usize> ThermalExpansion<D> {
-    /// With a law of the whole deformation: alpha (1/K) and T0 (K).
+    /// Expansion for a law of the total deformation, with alpha (1/K) and T0 (K).
     pub fn of_deformation(coefficient: f64, reference: f64) -> Self {
         Self { coefficient, reference, law: ExpansionLaw::OfDeformation { elastic: Vec::new() } }
     }
 
-    /// With a law in rate form, of Young's modulus (Pa) and Poisson's ratio.
+    /// Expansion for a law in rate form, with Young's modulus (Pa) and Poisson's ratio.
     pub fn in_rate_form(coefficient: f64, reference: f64, young: f64, poisson: f64) -> Self {
         let modulus = young / (1.0 - 2.0 * poisson);
         Self {
@@ -69,13 +69,13 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
 
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         match &mut self.law {
-            // Overwritten before it is read.
+            // This state is overwritten before it is read.
             ExpansionLaw::OfDeformation { .. } => {}
             ExpansionLaw::InRateForm { before, .. } => checkpoint.visit(&mut before[..]),
         }
     }
 
-    /// The stress of the temperature at the start.
+    /// Computes the stress for the temperature at the start.
     fn start(&mut self, material: &mut dyn Material<D>, particles: &mut Particles<D>) {
         match &mut self.law {
             ExpansionLaw::OfDeformation { elastic } => elastic.clone_from(&particles.def_grad),
@@ -125,7 +125,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// One particle at 30 K, 10 K above the reference.
+    /// One particle at 30 K, which is 10 K above the reference.
     fn warm<const D: usize>() -> Particles<D> {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
         let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
@@ -148,7 +148,7 @@ mod tests {
         assert_relative_eq!(body.vol[0], 1.2 * 1.2 * 1.2, max_relative = 1e-14);
     }
 
-    /// `P_e(1/theta)` of a fixed bar: Hencky's `sigma = E ln(Fe)/Fe`.
+    /// A fixed bar has the stress `P_e(1/theta)`, by Hencky's `sigma = E ln(Fe)/Fe`.
     #[test]
     fn a_bar_that_is_held_has_the_stress_of_its_inverse_stretch() {
         let mut bar = warm::<1>();
@@ -159,7 +159,7 @@ mod tests {
         assert_relative_eq!(bar.vol[0], 1.0, max_relative = 1e-15);
     }
 
-    /// `-E alpha (T - T0)/(1 - 2 nu)`, at the start and after the temperature has changed.
+    /// The stress is `-E alpha (T - T0)/(1 - 2 nu)` at the start and after a temperature change.
     #[test]
     fn a_law_in_rate_form_takes_the_change_off_the_strain() {
         let (mut plate, mut law) = (warm::<2>(), LinearElastic::new(50.0, 0.3));

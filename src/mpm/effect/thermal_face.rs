@@ -1,13 +1,13 @@
 //! Thermal condition on a face of the grid: temperature, heat flux or heat transfer.
 //!
-//! The functions of every basis of this crate conform to the walls of the grid: along the normal
-//! one function is 1 there, and all others are 0. So the nodes of the wall have the temperature of
-//! the face, and `sum_p A_p N_i` over the layer of particles at the face, evaluated along the face
-//! only, is the share of the face of node i. Heat enters at the face itself, not at the particles
-//! half a spacing inside: that would be an error of first order.
+//! Every basis of this crate conforms to the walls of the grid: along the normal, one function is 1
+//! at the wall, and all others are 0. The wall nodes therefore have the temperature of the face.
+//! The face share of node i is `sum_p A_p N_i` over the layer of particles at the face, evaluated
+//! along the face only. Heat enters at the face. If heat entered at the particles half a spacing
+//! inside, the error would be of first order.
 //!
-//! Areas are those of the reference body, as for tractions. The face does not move away from the
-//! end of the grid.
+//! Areas are taken in the reference configuration, as for tractions. The face must stay at the end
+//! of the grid.
 
 use super::surface::{Placement, Surface};
 use crate::mpm::basis::BasisName;
@@ -18,22 +18,22 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::subject::Column;
 
-/// A number as a function of place and time (s).
+/// A number as a function of position and time (s).
 pub type ScalarField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send>;
 
-/// Inflow of heat (W/m^(D-1)) as a function of place, time (s) and the temperature (K) there.
+/// Heat inflow (W/m^(D-1)) as a function of position, time (s) and local temperature (K).
 pub type HeatInflow<const D: usize> = Box<dyn Fn(&Vector<D>, f64, f64) -> f64 + Send>;
 
 /// Condition on a face that is not insulated. A field of second order in space has two kinds of
-/// conditions: a given value, or a given flux, which may depend on the value.
+/// conditions: a prescribed value, or a prescribed flux, which may depend on the value.
 pub enum Thermal<const D: usize> {
-    /// A temperature (K): Dirichlet's condition.
+    /// Temperature (K): Dirichlet condition.
     Temperature(ScalarField<D>),
-    /// Heat that enters: Neumann's condition, or Robin's.
+    /// Heat inflow: Neumann or Robin condition.
     Inflow(HeatInflow<D>),
 }
 
-/// A face of the grid at which the body ends.
+/// A face of the grid at which the body ends, with a thermal condition.
 pub struct ThermalBoundary<const D: usize> {
     condition: Thermal<D>,
     axis: usize,
@@ -49,7 +49,8 @@ pub struct ThermalBoundary<const D: usize> {
 }
 
 impl<const D: usize> ThermalBoundary<D> {
-    /// `condition` on the face `side` of `axis` of `grid`, which has the functions of `basis`.
+    /// Imposes `condition` on the face `side` of `axis` of `grid`, which has the functions of
+    /// `basis`.
     pub fn new(
         grid: &Grid<D>,
         basis: BasisName,
@@ -72,7 +73,7 @@ impl<const D: usize> ThermalBoundary<D> {
         }
     }
 
-    /// Columns for particles and nodes.
+    /// Columns with entries for particles and nodes.
     pub(super) fn columns(&self) -> [Column<'_>; 3] {
         [
             Column::of_particles("face layer", &self.layer),
@@ -81,7 +82,8 @@ impl<const D: usize> ThermalBoundary<D> {
         ]
     }
 
-    /// Sets the `temperature` (K) of the nodes of the face at time `t` (s), if it is prescribed.
+    /// Sets the `temperature` (K) of the face nodes at time `t` (s), if the temperature is
+    /// prescribed.
     pub(super) fn hold_temperature(&self, t: f64, temperature: &mut [f64]) {
         if let Thermal::Temperature(value) = &self.condition {
             for (i, x) in &self.nodes {
@@ -90,7 +92,7 @@ impl<const D: usize> ThermalBoundary<D> {
         }
     }
 
-    /// Sets the temperature `rate` (K/s) of the nodes of the face from `t` to `t + dt` (s), if the
+    /// Sets the temperature `rate` (K/s) of the face nodes from `t` to `t + dt` (s), if the
     /// temperature is prescribed.
     pub(super) fn hold_rate(&self, t: f64, dt: f64, rate: &mut [f64]) {
         if let Thermal::Temperature(value) = &self.condition {
@@ -100,8 +102,8 @@ impl<const D: usize> ThermalBoundary<D> {
         }
     }
 
-    /// Adds the flow through the face at time `t` (s) to the `flow` (W) into each node, whose
-    /// temperatures (K) are given; returns the particle-node pairs visited.
+    /// Adds the flow through the face at time `t` (s) to the `flow` (W) into each node, for the
+    /// given nodal temperatures (K). Returns the number of visited particle-node pairs.
     pub(super) fn let_in(
         &mut self,
         t: f64,
@@ -111,7 +113,7 @@ impl<const D: usize> ThermalBoundary<D> {
         temperature: &[f64],
         flow: &mut [f64],
     ) -> u64 {
-        // A face whose temperature is given has neither a layer nor shares.
+        // A face with a prescribed temperature has neither a layer nor shares.
         self.gather_shares(particles, kernel, grid);
         if let Thermal::Inflow(density) = &self.condition {
             for (i, x) in &self.nodes {
@@ -121,8 +123,8 @@ impl<const D: usize> ThermalBoundary<D> {
         self.layer.len() as u64 * kernel.support()
     }
 
-    /// Computes the share of the face of each of its nodes: contributions of the layer of particles
-    /// to any node are added to the node of the face on the same normal.
+    /// Computes the face share of each face node. The layer of particles may contribute to any
+    /// node; each contribution is added to the face node on the same normal.
     fn gather_shares(&mut self, particles: &Particles<D>, kernel: &dyn Kernel<D>, grid: &Grid<D>) {
         self.share.fill(0.0);
         for &p in &self.layer {

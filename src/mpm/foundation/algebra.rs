@@ -1,7 +1,7 @@
-//! Vectors and matrices of the dimension at hand.
+//! Vectors and matrices in D dimensions.
 //!
-//! `nalgebra` requires trait bounds for determinants of a generic size; these free functions do
-//! not.
+//! The determinant functions of `nalgebra` require trait bounds for generic sizes; the functions of
+//! this module do not.
 
 use crate::dimension::with_dimension;
 use crate::subject::Entry;
@@ -12,7 +12,7 @@ pub type Vector<const D: usize> = nalgebra::SVector<f64, D>;
 /// A D x D matrix.
 pub type Matrix<const D: usize> = nalgebra::SMatrix<f64, D, D>;
 
-/// Row after row; a vector is a matrix of one column.
+/// Numbers are written row by row; a vector is a matrix with one column.
 impl<const R: usize, const C: usize> Entry for nalgebra::SMatrix<f64, R, C> {
     fn write(&self, numbers: &mut Vec<f64>) {
         numbers.extend(self.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<_>>()));
@@ -34,12 +34,12 @@ pub fn det<const D: usize>(m: &Matrix<D>) -> f64 {
     }
 }
 
-/// Determinant of a tensor in `d` dimensions, row after row; d = 1, 2 or 3.
+/// Determinant of a tensor in `d` dimensions, given row by row; d = 1, 2 or 3.
 pub fn det_of_rows(d: usize, rows: &[f64]) -> f64 {
     with_dimension!(d, D => det(&Matrix::<D>::from_row_slice(rows)))
 }
 
-/// The matrix of cofactors, `det(m) m^-T`; D = 1, 2 or 3.
+/// Matrix of cofactors, `det(m) m^-T`; D = 1, 2 or 3.
 ///
 /// # Panics
 /// For any other D.
@@ -49,7 +49,7 @@ pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
         2 if i == j => m[(1 - i, 1 - j)],
         2 => -m[(1 - i, 1 - j)],
         3 => {
-            // The indices that follow in the cycle 0, 1, 2, which has the sign built in.
+            // The next two indices in the cycle 0, 1, 2, which accounts for the sign.
             let ([i1, j1], [i2, j2]) = ([i, j].map(|k| (k + 1) % 3), [i, j].map(|k| (k + 2) % 3));
             m[(i1, j1)] * m[(i2, j2)] - m[(i1, j2)] * m[(i2, j1)]
         }
@@ -57,7 +57,7 @@ pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
     })
 }
 
-/// `a b`, always inlined, as loops over particles need it that are compiled for wider registers.
+/// `a b`, always inlined for particle loops that are compiled for wider registers.
 #[inline(always)]
 pub(in crate::mpm) fn product<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
     let mut product = Matrix::zeros();
@@ -78,8 +78,8 @@ pub fn dyad<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> Matrix<D> {
     a * b.transpose()
 }
 
-/// `[f(0), f(1), ...]`, built from an array of `nothing`. For the hot loop: `std::array::from_fn`
-/// is not always inlined.
+/// `[f(0), f(1), ...]`, built from an array of `nothing`. Used in the hot loop, because
+/// `std::array::from_fn` is not always inlined.
 #[inline(always)]
 pub(in crate::mpm) fn array<const N: usize, T: Copy>(
     nothing: T,
@@ -92,12 +92,12 @@ pub(in crate::mpm) fn array<const N: usize, T: Copy>(
     array
 }
 
-/// 2^52: numbers from here to twice this value are whole, and their last bits are the excess as an
-/// integer.
+/// 2^52. Numbers from here to twice this value are integers, and their last bits are the excess
+/// over 2^52 as an integer.
 pub(in crate::mpm) const WHOLE: f64 = 4_503_599_627_370_496.0;
 
-/// `libm::floor` from -2^51 to 2^51. It is part of the hot loop, where a call would cost more than
-/// all other operations, and a conversion to integers and back as much as the weights.
+/// Equals `libm::floor` from -2^51 to 2^51. In the hot loop, a call would cost more than all other
+/// operations, and a conversion to integers and back would cost as much as the weights.
 #[inline(always)]
 pub(in crate::mpm) fn floor(x: f64) -> f64 {
     const SHIFT: f64 = 1.5 * WHOLE;
@@ -105,7 +105,7 @@ pub(in crate::mpm) fn floor(x: f64) -> f64 {
     nearest - if nearest > x { 1.0 } else { 0.0 }
 }
 
-/// The whole number `x`, from 0 to 2^32, as an integer.
+/// Converts the integral number `x`, from 0 to 2^32, to an integer.
 #[inline(always)]
 pub(in crate::mpm) fn whole(x: f64) -> usize {
     ((x + WHOLE).to_bits() & 0xffff_ffff) as usize

@@ -1,10 +1,10 @@
-//! Registration: one line makes a member known by name.
+//! Registration: one line defines a member and its name.
 
 /// Declares a family of types that suites choose by name.
 ///
 /// `family! { /// docs  pub enum BasisName; with_basis; "linear" => Linear, }` defines the enum of
-/// names and a macro `with_basis!(name, B => expr)`, the one `match` from a name to a type.
-/// `"linear" => linear::Linear` also exports the member from its file.
+/// names and a macro `with_basis!(name, B => expr)`. The macro contains the only `match` from a
+/// name to a type. `"linear" => linear::Linear` also exports the member from its file.
 macro_rules! family {
     (
         $(#[$meta:meta])* pub enum $names:ident; $with:ident;
@@ -52,7 +52,8 @@ pub(in crate::mpm) use family;
 /// Declares a family of objects that suites choose by name.
 ///
 /// `objects! { /// docs  pub enum Names; /// docs  pub fn make -> Trait; "flip" => Flip: Flip, }`
-/// defines the enum of names and a function that builds the object of a name, in any dimension.
+/// defines the enum of names and a function that creates the object with a given name, in any
+/// dimension.
 macro_rules! objects {
     ($(#[$meta:meta])* pub enum $names:ident; $(#[$fn_meta:meta])* pub fn $make:ident -> $contract:ident;
         $($text:literal => $member:ident: $build:expr,)+
@@ -77,8 +78,8 @@ macro_rules! objects {
 }
 pub(in crate::mpm) use objects;
 
-/// Declares a family of objects that suites choose by name and parameter; each type has a constant
-/// `PARAMETER` and is made by `new`.
+/// Declares a family of objects that suites choose by name and parameter. Each type has a constant
+/// `PARAMETER` and a constructor `new`.
 macro_rules! objects_with_parameter {
     ($(#[$meta:meta])* pub enum $names:ident: $parameter:ty;
         $(#[$fn_meta:meta])* fn $make:ident -> $contract:ident;

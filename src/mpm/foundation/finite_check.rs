@@ -1,8 +1,8 @@
-//! Check that the state of the particles is finite.
+//! Checks that the state of the particles is finite.
 //!
 //! A NaN spreads through shared nodes to other particles, or is hidden by a node that is fixed or
-//! has no mass. So each quantity is checked where it is computed, and the failure names the
-//! particle of the first NaN.
+//! has no mass. Each quantity is therefore checked where it is computed, and the failure names the
+//! particle with the first NaN.
 
 use super::particles::Particles;
 use super::simd::{LANES, vectorized};
@@ -11,7 +11,7 @@ use crate::subject::{Failure, Site};
 use nalgebra::SMatrix;
 
 impl<const D: usize> Particles<D> {
-    /// Checks all quantities before the first step; the error names the first particle with a
+    /// Checks all quantities before the first step. The error names the first particle with a
     /// number that is not finite.
     ///
     /// # Errors
@@ -29,7 +29,7 @@ impl<const D: usize> Particles<D> {
         self.stressed_finite()
     }
 
-    /// Checks F after its update from velocity gradients; the error names the first particle with a
+    /// Checks F after its update from velocity gradients. The error names the first particle with a
     /// number that is not finite.
     ///
     /// # Errors
@@ -38,7 +38,7 @@ impl<const D: usize> Particles<D> {
         first_matrix("deformation gradient", &self.def_grad)
     }
 
-    /// Checks stresses; the error names the first particle with a number that is not finite.
+    /// Checks stresses. The error names the first particle with a number that is not finite.
     ///
     /// # Errors
     /// [`Failure::NonFinite`].
@@ -47,7 +47,7 @@ impl<const D: usize> Particles<D> {
         first_matrix("stress", &self.sigma)
     }
 
-    /// Checks velocities at the end of a step; the error names the first particle with a number
+    /// Checks velocities at the end of a step. The error names the first particle with a number
     /// that is not finite.
     ///
     /// # Errors
@@ -87,7 +87,7 @@ pub(in crate::mpm) fn all_finite<const R: usize, const C: usize>(
     ) && rest.iter().all(is_finite)
 }
 
-/// Searches for the particle only if there is an invalid one.
+/// Searches for the first invalid particle only if the column is not finite.
 fn first_matrix<const R: usize, const C: usize>(
     quantity: &'static str,
     column: &[SMatrix<f64, R, C>],

@@ -1,12 +1,12 @@
-//! The background grid: a box of equal cells, and the fields on its nodes.
+//! The background grid: a box of equal cells, and fields on its nodes.
 
 use super::algebra::{Vector, floor, whole};
 use super::simd::vectorized;
 use super::threads::PIECES;
 use crate::subject::Column;
 
-/// A Cartesian grid with cell size `h` on every axis. Nodes are numbered with the first axis
-/// running fastest.
+/// A Cartesian grid with cell size `h` on every axis. The first axis varies fastest in node
+/// indices.
 #[derive(Debug, Clone)]
 pub struct Grid<const D: usize> {
     /// Position of the first node (m).
@@ -15,9 +15,9 @@ pub struct Grid<const D: usize> {
     pub h: f64,
     /// Cells along each axis.
     pub cells: [usize; D],
-    /// Periodic axes.
+    /// Whether each axis is periodic.
     pub periodic: [bool; D],
-    /// Basis functions ("nodes") along each axis.
+    /// Number of basis functions ("nodes") along each axis.
     pub counts: [usize; D],
     /// Nodal mass m_i (kg).
     pub mass: Vec<f64>,
@@ -28,13 +28,13 @@ pub struct Grid<const D: usize> {
     /// Nodal acceleration a_i (m/s2).
     pub acceleration: Vec<Vector<D>>,
     inverse_h: f64,
-    /// Cells along each axis, as numbers that positions are compared with.
+    /// Number of cells along each axis, as `f64` for comparisons with positions.
     ends: [f64; D],
 }
 
 impl<const D: usize> Grid<D> {
-    /// A grid of `cells` cells of size `h` from `origin` on, with `counts` basis functions along
-    /// the axes ([`Basis::count`](crate::mpm::Basis::count)).
+    /// A grid of `cells` cells of size `h` with its lowest corner at `origin`, and `counts` basis
+    /// functions along the axes ([`Basis::count`](crate::mpm::Basis::count)).
     pub fn new(
         origin: Vector<D>,
         h: f64,
@@ -63,7 +63,7 @@ impl<const D: usize> Grid<D> {
         self.mass.len()
     }
 
-    /// The fields on the nodes.
+    /// Columns of the nodal fields.
     pub fn columns(&self) -> [Column<'_>; 4] {
         [
             Column::of_nodes("mass", &self.mass),
@@ -73,7 +73,7 @@ impl<const D: usize> Grid<D> {
         ]
     }
 
-    /// Drops the fields of a motion, for a body at rest.
+    /// Deletes the fields of a motion, for a body at rest.
     pub(in crate::mpm) fn forget_motion(&mut self) {
         (self.velocity, self.force, self.acceleration) = (Vec::new(), Vec::new(), Vec::new());
     }
@@ -83,7 +83,7 @@ impl<const D: usize> Grid<D> {
         (0..D).map(|_| self.h).product()
     }
 
-    /// Divides each value by the mass of its node; zero where no particle gives the node any mass.
+    /// Divides each value by the mass of its node; the result is zero for nodes without mass.
     pub fn divide_by_mass(&self, field: &mut [Vector<D>]) {
         PIECES.each(field, &|k, piece| {
             let mass = &self.mass[k * PIECES.length..];
@@ -92,7 +92,7 @@ impl<const D: usize> Grid<D> {
                 || {
                     for (value, m) in piece.iter_mut().zip(mass) {
                         for axis in 0..D {
-                            // In any case, for a branch costs more.
+                            // Always computed, because a branch would cost more.
                             let ratio = value[axis] / *m;
                             value[axis] = if *m > 0.0 { ratio } else { 0.0 };
                         }
@@ -102,8 +102,8 @@ impl<const D: usize> Grid<D> {
         });
     }
 
-    /// The cell that holds `x`, or `None` outside the grid (or where `x` is not a number). A
-    /// point on the last face belongs to the last cell.
+    /// Cell that contains `x`; `None` outside the grid or if `x` is NaN. A point on the last face
+    /// belongs to the last cell.
     #[inline]
     pub fn cell(&self, x: &Vector<D>) -> Option<[usize; D]> {
         let mut cell = [0; D];
@@ -118,8 +118,8 @@ impl<const D: usize> Grid<D> {
         Some(cell)
     }
 
-    /// The cell that holds `x` and the place in it, from 0 to 1 on each axis, or `None` outside the
-    /// grid.
+    /// Cell that contains `x`, and the position in the cell, from 0 to 1 on each axis; `None`
+    /// outside the grid.
     #[inline(always)]
     pub fn locate(&self, x: &Vector<D>) -> Option<([usize; D], [f64; D])> {
         let (mut cell, mut xi) = ([0; D], [0.0; D]);
@@ -130,8 +130,8 @@ impl<const D: usize> Grid<D> {
         Some((cell, xi))
     }
 
-    /// Cell and place in it, from 0 to 1, along one axis at the position `s` ([`Grid::local`]);
-    /// `None` outside the grid.
+    /// Cell and position in the cell, from 0 to 1, along one axis at the position `s`
+    /// ([`Grid::local`]); `None` outside the grid.
     #[inline(always)]
     pub(in crate::mpm) fn locate_along(&self, s: f64, axis: usize) -> Option<(f64, f64)> {
         let (s, end) = (self.within(s, axis), self.ends[axis]);
@@ -143,7 +143,7 @@ impl<const D: usize> Grid<D> {
         Some((low, s - low))
     }
 
-    /// Position along `axis` in units of h, counted from the first wall.
+    /// Position along `axis` in units of h, measured from the first wall.
     #[inline(always)]
     pub fn local(&self, x: &Vector<D>, axis: usize) -> f64 {
         (x[axis] - self.origin[axis]) * self.inverse_h
@@ -165,18 +165,18 @@ impl<const D: usize> Grid<D> {
         s - n * libm::floor(s / n)
     }
 
-    /// How many periods `x` lies beyond the grid on a periodic axis.
+    /// Number of periods between `x` and the grid on a periodic axis.
     pub fn turns(&self, x: &Vector<D>, axis: usize) -> f64 {
         libm::floor(self.local(x, axis) / self.cells[axis] as f64)
     }
 
-    /// Index of a function on `axis`, brought back into the grid on a periodic axis.
+    /// Index of a function on `axis`, wrapped into the grid on a periodic axis.
     #[inline]
     pub fn wrap(&self, index: usize, axis: usize) -> usize {
         if self.periodic[axis] { index % self.counts[axis] } else { index }
     }
 
-    /// [`Grid::wrap`] for a whole number that may lie before the first wall.
+    /// Like [`Grid::wrap`], for an integral number that may be negative.
     #[inline(always)]
     pub fn wrap_signed(&self, index: f64, axis: usize) -> usize {
         let n = self.counts[axis] as f64;
@@ -191,7 +191,7 @@ impl<const D: usize> Grid<D> {
         self.inverse_h
     }
 
-    /// Number of the node with the given index on each axis.
+    /// Index of the node with the given index on each axis.
     #[inline]
     pub fn node(&self, index: &[usize; D]) -> usize {
         let mut number = 0;

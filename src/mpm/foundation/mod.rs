@@ -1,5 +1,5 @@
-//! Data and arithmetic under all methods: vectors, registers, threads, the grid, the particles, and
-//! the macros that register members of families. Nothing here imports a basis, a kernel or a step.
+//! Data and arithmetic for all methods: vectors, registers, threads, the grid, the particles, and
+//! the macros that register members of families. This module imports no basis, kernel or step.
 
 pub(in crate::mpm) mod algebra;
 pub(in crate::mpm) mod family;

@@ -1,10 +1,10 @@
-//! Moments of the weights of a particle, needed by affine transfers.
+//! Moments of the weights of a particle, for affine transfers.
 
 use super::algebra::{Matrix, Vector, dyad};
 use crate::subject::Column;
 
-/// Smallest second moment, as a share of h^2. Below it is rounding: along that axis all weight is
-/// on one node, as for a particle on a node of the linear basis.
+/// Smallest valid second moment, as a share of h^2. Smaller values are rounding errors: all weight
+/// is on one node along that axis, as for a particle on a node of the linear basis.
 pub(in crate::mpm) const SMALLEST: f64 = 1e-13;
 
 /// Moments of the weights of a patch.
@@ -19,9 +19,9 @@ pub struct WeightMoments<const D: usize> {
 /// Moments of the weights of each particle.
 #[derive(Debug, Clone, Default)]
 pub struct Moments<const D: usize> {
-    /// `sum_i (x_i - x_p) N_i`: the mean of the nodes, from the particle (m).
+    /// `sum_i (x_i - x_p) N_i` (m): weighted mean of the node positions, relative to the particle.
     pub mean: Vec<Vector<D>>,
-    /// `D_p = sum_i (x_i - x_p) (x) (x_i - x_p) N_i`, about that mean (m^2): the inertia tensor of
+    /// `D_p = sum_i (x_i - x_p) (x) (x_i - x_p) N_i`, about the mean (m^2): the inertia tensor of
     /// APIC (Jiang et al. 2015, eq. 8).
     pub second: Vec<Matrix<D>>,
 }
@@ -42,14 +42,14 @@ impl<const D: usize> Moments<D> {
 /// Mean and second moments of the weights of one particle.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct InertiaTensor<const D: usize> {
-    /// The mean of the nodes, from the particle (m).
+    /// Weighted mean of the node positions, relative to the particle (m).
     pub(in crate::mpm) mean: Vector<D>,
     /// D_p (m^2).
     pub(in crate::mpm) second: Matrix<D>,
 }
 
 impl<const D: usize> InertiaTensor<D> {
-    /// Moments of products of one-dimensional functions, from mean and variance along each axis:
+    /// Moments of products of one-dimensional functions, from mean and variance along each axis.
     /// D_p is diagonal.
     #[inline(always)]
     pub(in crate::mpm) fn diagonal(mean: [f64; D], variance: [f64; D]) -> Self {
@@ -74,7 +74,7 @@ impl<const D: usize> InertiaTensor<D> {
     }
 }
 
-/// The inverse on the axes whose second moment exceeds `smallest`, zero on other axes.
+/// Inverse on the axes whose second moment exceeds `smallest`; zero on other axes.
 fn inverse<const D: usize>(mut second: Matrix<D>, smallest: f64) -> Matrix<D> {
     let lost: [bool; D] = std::array::from_fn(|axis| !(second[(axis, axis)] > smallest));
     let drop = |matrix: &mut Matrix<D>, diagonal: f64| {

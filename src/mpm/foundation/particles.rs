@@ -1,19 +1,19 @@
-//! Particles: one column per quantity, and the configuration in which basis functions live.
+//! Particles: one column per quantity, and the configuration in which the basis is evaluated.
 
 use super::algebra::{Matrix, Vector, det};
 use crate::named::named;
 use crate::subject::Column;
 
-/// The material points, structure of arrays. `n` particles; a column exists only if some member
-/// of the solver reads it.
+/// The material points as a structure of arrays with `n` particles. A column exists only if a
+/// member of the solver reads it.
 #[derive(Debug, Clone)]
 pub struct Particles<const D: usize> {
-    /// Reference positions X (m): the labels at which errors are taken.
+    /// Reference positions X (m): the labels at which errors are evaluated.
     pub x0: Vec<Vector<D>>,
-    /// Positions at which the basis is evaluated (m): current positions x, or in the
-    /// total-Lagrangian frame reference positions X.
+    /// Positions at which the basis is evaluated (m): current positions x, or reference positions X
+    /// in the total-Lagrangian frame.
     pub x: Vec<Vector<D>>,
-    /// Current positions (m) in the total-Lagrangian frame; empty in the updated one.
+    /// Current positions (m) in the total-Lagrangian frame; empty in the updated-Lagrangian frame.
     pub current_position: Vec<Vector<D>>,
     /// Velocities (m/s).
     pub v: Vec<Vector<D>>,
@@ -27,29 +27,29 @@ pub struct Particles<const D: usize> {
     pub sigma: Vec<Matrix<D>>,
     /// Deformation gradients F; empty unless a basis or a material reads them.
     pub def_grad: Vec<Matrix<D>>,
-    /// Stretches across the plane of two dimensions, F_33; empty in plane strain, where they are 1.
+    /// Out-of-plane stretches F_33 in two dimensions; empty in plane strain, where they are 1.
     pub across: Vec<f64>,
-    /// Their rates D_33 of the present step (1/s), and stresses sigma_33 (Pa); only used in a body
-    /// of revolution, otherwise empty.
+    /// Out-of-plane strain rates D_33 of the current step (1/s); empty except in a body of
+    /// revolution.
     pub rate_across: Vec<f64>,
-    /// See `rate_across`.
+    /// Out-of-plane stresses sigma_33 (Pa); empty except in a body of revolution.
     pub stress_across: Vec<f64>,
     /// Domains of the particles at the start of the step; empty unless a basis reads them. The
-    /// columns of each matrix are the vectors from the particle to the middles of its domain's
-    /// faces, F diag(spacing)/2 (m). They follow F when positions move, not before: a domain that
-    /// changed within a step would put forces on nodes that have no mass.
+    /// columns of each matrix, F diag(spacing)/2, are the vectors from the particle to the middles
+    /// of the faces of its domain (m). Domains are updated from F only when positions move. If a
+    /// domain changed within a step, nodes without mass could receive forces.
     pub domain: Vec<Matrix<D>>,
-    /// Domains in the reference configuration; empty where all are boxes of the size `spacing`.
+    /// Domains in the reference configuration; empty if all are boxes of the size `spacing`.
     pub domain0: Vec<Matrix<D>>,
-    /// Velocity gradients of the present step (1/s), from the kernel to the material.
+    /// Velocity gradients of the current step (1/s), which the kernel computes for the material.
     pub grad_v: Vec<Matrix<D>>,
-    /// Temperatures (K); empty unless an effect has them.
+    /// Temperatures (K); empty unless an effect uses them.
     pub temperature: Vec<f64>,
-    /// Reference spacing of the particles on each axis (m); the mean if it is not constant.
+    /// Reference particle spacing on each axis (m); the mean spacing if it is not constant.
     pub spacing: Vector<D>,
 }
 
-/// A box-shaped body to be filled with particles.
+/// A box-shaped body, for filling with particles.
 #[derive(Debug, Clone, Copy)]
 pub struct Block<const D: usize> {
     /// Lowest corner (m).
@@ -61,19 +61,19 @@ pub struct Block<const D: usize> {
 }
 
 impl<const D: usize> Block<D> {
-    /// The centres of equal parts, see [`Particles::fill`].
+    /// Centres of equal parts, see [`Particles::fill`].
     pub fn centres(&self, h: f64, per_axis: usize) -> impl Iterator<Item = Vector<D>> {
         let (length, count) = (self.to - self.from, self.counts(h, per_axis));
         (0..count.iter().product()).map(move |p| centre(p, self, &length, &count))
     }
 
-    /// Lengths of a share (m).
+    /// Lengths of a part (m).
     pub fn spacing(&self, h: f64, per_axis: usize) -> Vector<D> {
         let (length, count) = (self.to - self.from, self.counts(h, per_axis));
         Vector::from_fn(|axis, _| length[axis] / count[axis] as f64)
     }
 
-    /// Shares along each axis.
+    /// Number of parts along each axis.
     pub fn counts(&self, h: f64, per_axis: usize) -> [usize; D] {
         std::array::from_fn(|axis| {
             let length = self.to[axis] - self.from[axis];
@@ -83,15 +83,16 @@ impl<const D: usize> Block<D> {
 }
 
 impl<const D: usize> Particles<D> {
-    /// Fills `block` with equally spaced particles, each at the centre of its share, as near to
-    /// `per_axis` particles per cell of size `h` on each axis as the length of the body allows
-    /// (exactly so where the body is a whole number of cells long). At rest and free of stress.
+    /// Fills `block` with equally spaced particles, each at the centre of its part, at rest and
+    /// free of stress. Along each axis, the number of particles per cell of size `h` is as close to
+    /// `per_axis` as the body length allows. The number is exact if the body is a whole number of
+    /// cells long.
     pub fn fill(block: &Block<D>, h: f64, per_axis: usize) -> Self {
         Self::fill_where(block, h, per_axis, |_| true)
     }
 
-    /// Fills `block` and keeps the particles whose reference position is `inside`, each with its
-    /// whole part of the volume.
+    /// Fills `block` and keeps the particles whose reference position is `inside`, each with the
+    /// full volume of its part.
     pub fn fill_where(
         block: &Block<D>,
         h: f64,
@@ -124,8 +125,8 @@ impl<const D: usize> Particles<D> {
         }
     }
 
-    /// Adds a particle at `x0` (m), at rest, with the mass and the volume of the first one. Nothing
-    /// has been prepared for a solver yet.
+    /// Adds a particle at `x0` (m), at rest, with the mass and volume of the first particle. Must
+    /// be called before the particles are prepared for a solver.
     pub fn add(&mut self, x0: Vector<D>) {
         let (Some(mass), Some(vol0)) = (self.mass.first().copied(), self.vol0.first().copied())
         else {
@@ -142,13 +143,13 @@ impl<const D: usize> Particles<D> {
         self.domain0.extend(self.domain0.first().copied());
     }
 
-    /// Adds the column of deformation gradients, F = I, if it is not there yet.
+    /// Adds the column of deformation gradients, with F = I, if it does not exist.
     pub fn track_deformation(&mut self) {
         self.def_grad.resize(self.len(), Matrix::identity());
     }
 
-    /// Starts the body deformed: `state` gives the displacement (m) and F of each particle, by its
-    /// index. Stresses and domains follow when a solver is made of them.
+    /// Sets an initial deformation: `state` returns the displacement (m) and F of the particle with
+    /// a given index. Stresses and domains are computed when the solver is created.
     pub fn deform(&mut self, state: impl Fn(usize) -> (Vector<D>, Matrix<D>)) {
         self.track_deformation();
         for p in 0..self.len() {
@@ -159,12 +160,12 @@ impl<const D: usize> Particles<D> {
         }
     }
 
-    /// Whether any particle starts with another F than the identity, or with NaN.
+    /// Whether any particle has an initial F other than the identity, including NaN.
     pub(in crate::mpm) fn is_deformed(&self) -> bool {
         self.def_grad.iter().any(|f| *f != Matrix::<D>::identity())
     }
 
-    /// Adds the column of domains, or brings it up to date with F.
+    /// Adds the column of domains, or updates it from F.
     pub fn track_domains(&mut self) {
         self.track_deformation();
         self.domain.resize(self.len(), Matrix::zeros());
@@ -192,7 +193,7 @@ impl<const D: usize> Particles<D> {
         if self.current_position.is_empty() { &mut self.x } else { &mut self.current_position }
     }
 
-    /// Drops the columns of a motion, for a body at rest.
+    /// Deletes the columns of a motion, for a body at rest.
     pub(in crate::mpm) fn forget_motion(&mut self) {
         (self.v, self.sigma, self.grad_v) = (Vec::new(), Vec::new(), Vec::new());
         self.def_grad = Vec::new();
@@ -232,7 +233,7 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Centre of share `p`, computed from its own index so that no rounding accumulates.
+/// Centre of part `p`, computed from the index of the part to avoid accumulated rounding.
 fn centre<const D: usize>(
     mut p: usize,
     block: &Block<D>,
@@ -262,7 +263,7 @@ named! {
 }
 
 impl<const D: usize> Particles<D> {
-    /// Enters the total-Lagrangian frame: from now on the basis is evaluated at reference
+    /// Switches to the total-Lagrangian frame, in which the basis is evaluated at reference
     /// positions.
     pub(in crate::mpm) fn stay_in_reference(&mut self) {
         self.track_deformation();
@@ -271,7 +272,7 @@ impl<const D: usize> Particles<D> {
     }
 
     /// Stress times volume (N m) of particle `p`, the factor of basis gradients in the internal
-    /// force: V sigma, in the total-Lagrangian frame V0 P = V sigma F^-T.
+    /// force: V sigma, or V0 P = V sigma F^-T in the total-Lagrangian frame.
     #[inline(always)]
     pub fn flux(&self, p: usize) -> Matrix<D> {
         let flux = self.sigma[p] * self.vol[p];
@@ -280,7 +281,7 @@ impl<const D: usize> Particles<D> {
 
     #[inline(never)]
     fn in_reference(&self, p: usize, flux: &Matrix<D>) -> Matrix<D> {
-        // Without an inverse the particle is inverted, and the next stage reports it.
+        // If F has no inverse, the particle is inverted, and the next stage reports it.
         flux * self.def_grad[p].try_inverse().unwrap_or_else(Matrix::zeros).transpose()
     }
 
@@ -313,7 +314,8 @@ mod tests {
         let block = Block { from, to, density: 1.0 };
         let ring = |x: &Vector<2>| (0.75..=1.25).contains(&x.norm());
         let particles = Particles::fill_where(&block, 0.125, 2, ring);
-        // In half spacings, centres are odd and the radii 24 and 40: exact in whole numbers.
+        // In half spacings, the centres are odd numbers and the radii are 24 and 40, so the test is
+        // exact in integers.
         let odd = || (-63..64_i32).step_by(2);
         let squares = odd().flat_map(|a| odd().map(move |b| a * a + b * b));
         let inside = squares.filter(|square| (24 * 24..=40 * 40).contains(square)).count();

@@ -1,11 +1,11 @@
-//! Recursive halving of work among threads. Every number is computed by one thread from the same
-//! inputs, so that results do not depend on the number of threads.
+//! Recursive halving of work among threads. One thread computes each number from the same inputs,
+//! so results do not depend on the number of threads.
 
 /// Maximum number of particles or nodes that are not split among threads.
 pub(in crate::mpm) const FEW: usize = 1 << 14;
 
-/// Runs both closures, in parallel if there are several threads. With one thread, rayon is
-/// bypassed: it would wake another thread.
+/// Runs both closures, in parallel if there are several threads. With one thread, rayon is not
+/// called, because it would wake another thread.
 pub(in crate::mpm) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     if rayon::current_num_threads() == 1 {
         one();
@@ -22,12 +22,12 @@ fn call_once(work: &mut Option<impl FnOnce()>) {
     }
 }
 
-/// Not generic: `rayon::join` is compiled once, and not for each pair of closures.
+/// Not generic, so that `rayon::join` is compiled once instead of once per pair of closures.
 fn join_any(one: &mut (dyn FnMut() + Send), other: &mut (dyn FnMut() + Send)) {
     rayon::join(one, other);
 }
 
-/// The first `count` entries of a column, if there is one, and the remaining entries.
+/// Splits an optional column into its first `count` entries and the remaining entries.
 pub(in crate::mpm) fn split<T>(
     column: Option<&mut [T]>,
     count: usize,
@@ -35,20 +35,20 @@ pub(in crate::mpm) fn split<T>(
     column.map(|column| column.split_at_mut(count.min(column.len()))).unzip()
 }
 
-/// Pieces of a column that stay in the cache, split among threads.
+/// Pieces of a column that fit the cache, split among threads.
 pub(in crate::mpm) const PIECES: RowChunks = RowChunks { length: FEW / 4, few: FEW };
 
 /// Rows of a field, split among threads.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct RowChunks {
-    /// Entries of a row; the last row may have fewer.
+    /// Number of entries in a row; the last row may have fewer.
     pub(in crate::mpm) length: usize,
     /// Maximum number of entries that are not split among threads.
     pub(in crate::mpm) few: usize,
 }
 
 impl RowChunks {
-    /// Calls `work` with each row of `field` and its number.
+    /// Calls `work` with the index and entries of each row of `field`.
     pub(in crate::mpm) fn each<T: Send>(
         self,
         field: &mut [T],

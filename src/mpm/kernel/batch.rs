@@ -1,5 +1,5 @@
-//! Batches of particles: their patches of nodes, moments of their weights, and their matrices as
-//! columns in registers.
+//! Batches of particles: their patches of nodes, the moments of their weights, and their matrices
+//! as columns in registers.
 
 use crate::mpm::basis::{Basis, CellLocator, FourLanes, Patch, PatchBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::{Matrix, Vector, array};
@@ -18,7 +18,7 @@ pub(in crate::mpm) type Batch<B, const D: usize> = <<B as Basis>::Patch<D> as Pa
 pub(in crate::mpm) const ALL: u32 = (1 << BATCH) - 1;
 
 /// Batches of particles, with the data that locates their patches. The patches are stored
-/// separately: fields of the same struct would be reloaded after every store of a weight.
+/// separately, because the fields of one struct would be reloaded after every store of a weight.
 pub(in crate::mpm) struct ParticleBatches<'a, B: Basis, const D: usize> {
     pub(in crate::mpm) particles: &'a Particles<D>,
     grid: &'a Grid<D>,
@@ -39,10 +39,11 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
         Self { particles, grid, locator, needs, basis: PhantomData }
     }
 
-    /// Calls `visit` for the patches of the batch from particle `first` on, in order, with their
-    /// range of lanes (particle `first + k` is lane k), and the moments of all patches of a
-    /// particle that has several. Returns a mask: for bases with one patch, the lanes of particles
-    /// inside the grid; otherwise [`ALL`]. Particles outside are skipped.
+    /// Calls `visit` for the patches of the batch that starts at particle `first`, in order. The
+    /// arguments are the patches, their range of lanes (particle `first + k` is lane k), and, for a
+    /// particle with several patches, the moments of all its patches. Returns a mask: for bases
+    /// with one patch, the lanes of particles inside the grid; otherwise [`ALL`]. Particles outside
+    /// the grid are skipped.
     #[inline(always)]
     pub(in crate::mpm) fn visit<S: Simd>(
         &self,
@@ -94,7 +95,7 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
     }
 }
 
-/// Mean and second moments of the weights of particle `p`, from all its patches.
+/// Mean and second moments of the weights of particle `p` over all its patches.
 #[inline(always)]
 pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
     grid: &Grid<D>,
@@ -118,7 +119,7 @@ pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
     if B::ONE_PATCH || patches == 1 { one } else { InertiaTensor::full(&all) }
 }
 
-/// Columns of a matrix, each in a register from lane `from` on.
+/// Columns of a matrix, each in a register, starting at lane `from`.
 #[inline(always)]
 pub(super) fn columns<S: Simd, const D: usize>(
     simd: S,
@@ -134,8 +135,8 @@ pub(super) fn columns<S: Simd, const D: usize>(
     })
 }
 
-/// Writes a matrix by its columns from lane `from` on, number by number: store-to-load forwarding
-/// fails for a matrix that is stored as a whole.
+/// Writes the columns of a matrix, which start at lane `from`, number by number. Store-to-load
+/// forwarding fails for a matrix that is stored as a whole.
 #[inline(always)]
 pub(super) fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(
     matrix: &mut Matrix<D>,
@@ -150,8 +151,8 @@ pub(super) fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(
     }
 }
 
-/// Columns of `matrix D_p^-1`, each in a register from lane `from` on. Uses the inertia tensor of
-/// all patches of the particle, or without it that of its only patch.
+/// Columns of `matrix D_p^-1`, each in a register, starting at lane `from`. Uses the inertia tensor
+/// of all patches of the particle if given, otherwise the tensor of its only patch.
 #[inline(always)]
 pub(super) fn divide<B: Basis, S: Simd, const D: usize>(
     simd: S,

@@ -1,8 +1,8 @@
 //! Passes over particles and nodes, the building blocks of transfers, mass matrices and effects.
 //!
-//! [`Kernel`] is object-safe: one virtual call per pass, none per particle. A pass recomputes the
-//! weights of a particle, so that all parts for the same particles and nodes share one pass; each
-//! part has the same bits as in a separate pass.
+//! [`Kernel`] is object-safe: there is one virtual call per pass, none per particle. Each pass
+//! recomputes the weights of a particle. Parts for the same particles and nodes therefore share one
+//! pass, and each part is bit-identical to the result of a separate pass.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::foundation::algebra::{Matrix, Vector};
@@ -16,18 +16,18 @@ use std::sync::atomic::Ordering::Relaxed;
 
 /// Passes of P2G and G2P for one basis.
 pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
-    /// All parts of `request`, from particles to nodes, in one pass.
+    /// Computes all parts of `request`, from particles to nodes, in one pass.
     fn p2g(&self, particles: &Particles<D>, request: &P2gRequest<'_, D>, grid: &mut Grid<D>);
 
-    /// All parts of `request`, from nodes to particles, in one pass.
+    /// Computes all parts of `request`, from nodes to particles, in one pass.
     fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, request: G2pRequest<'_, D>);
 
-    /// `m_i` alone, see [`P2gRequest::mass`].
+    /// Computes only the mass `m_i`, see [`P2gRequest::mass`].
     fn p2g_mass(&self, particles: &Particles<D>, grid: &mut Grid<D>) {
         self.p2g(particles, &P2gRequest { mass: true, ..P2gRequest::default() }, grid);
     }
 
-    /// Momentum alone, see [`P2gRequest::momentum`], into `momentum`.
+    /// Computes only the momentum, see [`P2gRequest::momentum`], and writes it to `momentum`.
     fn p2g_momentum(
         &self,
         particles: &Particles<D>,
@@ -36,7 +36,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         momentum: &mut [Vector<D>],
     );
 
-    /// The force of the gradients of the basis alone, see [`P2gRequest::force`].
+    /// Computes only the internal force from basis gradients, see [`P2gRequest::force`].
     fn p2g_internal_force(&self, particles: &Particles<D>, grid: &mut Grid<D>) {
         let force = Some(Divergence::Gradient);
         self.p2g(particles, &P2gRequest { force, ..P2gRequest::default() }, grid);
@@ -45,7 +45,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
     /// Adds a force per unit mass (m/s2) of each particle, `sum_p m_p b_p N_i`, to `grid.force`.
     fn p2g_body_force(&self, particles: &Particles<D>, b: &[Vector<D>], grid: &mut Grid<D>);
 
-    /// Adds `force` (N), which acts on particle `p`, to the forces of its nodes.
+    /// Adds a `force` (N) on particle `p` to the forces of its nodes.
     fn p2g_point_force(
         &self,
         particles: &Particles<D>,
@@ -54,7 +54,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         grid: &mut Grid<D>,
     );
 
-    /// `value_p <- keep value_p + factor sum_i field_i N_i(x_p)`.
+    /// Computes `value_p <- keep value_p + factor sum_i field_i N_i(x_p)`.
     fn g2p(
         &self,
         grid: &Grid<D>,
@@ -64,7 +64,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         value: &mut [Vector<D>],
     );
 
-    /// `gradient_p = sum_i field_i (x) grad N_i(x_p)`.
+    /// Computes `gradient_p = sum_i field_i (x) grad N_i(x_p)`.
     fn g2p_gradient(
         &self,
         grid: &Grid<D>,
@@ -73,7 +73,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         gradient: &mut [Matrix<D>],
     );
 
-    /// `moment_p = sum_i field_i (x) (x_i - mean_p) N_i(x_p)`.
+    /// Computes `moment_p = sum_i field_i (x) (x_i - mean_p) N_i(x_p)`.
     fn g2p_moment(
         &self,
         grid: &Grid<D>,
@@ -82,11 +82,11 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         moment: &mut [Matrix<D>],
     );
 
-    /// Moments of the weights of each particle.
+    /// Computes the moments of the weights of each particle.
     fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>);
 
     /// Calls `entry` with i, j and `m_p N_i(x_p) N_j(x_p)` (kg) for every particle and every pair
-    /// of its nodes: the consistent mass matrix.
+    /// of its nodes. The consistent mass matrix is the sum of these entries.
     fn mass_entries(
         &self,
         grid: &Grid<D>,
@@ -95,7 +95,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
     );
 
     /// Calls `entry` with the node, the weight N_i and the gradient (1/m) of every function at
-    /// particle `p`. A node may appear several times: its function is the sum.
+    /// particle `p`. If a node appears several times, its function is the sum.
     fn functions(
         &self,
         grid: &Grid<D>,
@@ -104,8 +104,9 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         entry: &mut dyn FnMut(usize, f64, &Vector<D>),
     );
 
-    /// Adds the forces of a moment, `moment grad N_i(x_p)`, to the nodes of particle `p`. Their sum
-    /// is zero: `moment = f (x) d` (N m) moves the force f from the particle by d (m).
+    /// Adds the forces of a moment, `moment grad N_i(x_p)`, to the nodes of particle `p`. The sum
+    /// of these forces is zero: `moment = f (x) d` (N m) moves the force f from the particle by d
+    /// (m).
     fn p2g_point_moment(
         &self,
         particles: &Particles<D>,
@@ -114,8 +115,8 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         grid: &mut Grid<D>,
     );
 
-    /// `sum_p m_p grad N_i(x_p)` (kg/m) into `gradient`: points out of the body where its mass
-    /// ends.
+    /// Writes `sum_p m_p grad N_i(x_p)` (kg/m) to `gradient`. At the surface of the body this
+    /// vector points outwards.
     fn p2g_mass_gradient(
         &self,
         particles: &Particles<D>,
@@ -123,10 +124,10 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         gradient: &mut [Vector<D>],
     );
 
-    /// Visits of particles by the passes.
+    /// Number of particles visited by each part of the passes.
     fn tally(&self) -> &Tally;
 
-    /// Largest number of nodes of a particle.
+    /// Maximum number of nodes of a particle.
     fn support(&self) -> u64;
 
     /// Kind of particle domain that the basis needs.
@@ -136,9 +137,10 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
     fn grid(&self, origin: Vector<D>, h: f64, cells: [usize; D], periodic: [bool; D]) -> Grid<D>;
 }
 
-/// Passes of P2G and G2P for scalars, of one basis.
+/// Passes of P2G and G2P for scalars and one basis.
 pub trait Scalars<const D: usize> {
-    /// `column_i = sum_p m_p (value_p + slope_p . (x_i - x_p)) N_i(x_p)`: a scalar with its slope.
+    /// Computes `column_i = sum_p m_p (value_p + slope_p . (x_i - x_p)) N_i(x_p)`: P2G of a scalar
+    /// and its gradient.
     fn p2g_scalar(
         &self,
         particles: &Particles<D>,
@@ -148,7 +150,8 @@ pub trait Scalars<const D: usize> {
         column: &mut [f64],
     );
 
-    /// `column_i = factor sum_p V_p slope_p . grad N_i(x_p)`: flow to the nodes along a slope.
+    /// Computes `column_i = factor sum_p V_p slope_p . grad N_i(x_p)`: the flow into the nodes due
+    /// to a gradient.
     fn p2g_flow(
         &self,
         particles: &Particles<D>,
@@ -168,7 +171,7 @@ pub trait Scalars<const D: usize> {
         column: &mut [f64],
     );
 
-    /// `s_p += factor sum_i field_i N_i(x_p)`.
+    /// Computes `s_p += factor sum_i field_i N_i(x_p)`.
     fn g2p_scalar(
         &self,
         grid: &Grid<D>,
@@ -178,7 +181,7 @@ pub trait Scalars<const D: usize> {
         value: &mut [f64],
     );
 
-    /// `slope_p = sum_i field_i grad N_i(x_p)`.
+    /// Computes `slope_p = sum_i field_i grad N_i(x_p)`.
     fn g2p_slope(
         &self,
         grid: &Grid<D>,
@@ -188,15 +191,15 @@ pub trait Scalars<const D: usize> {
     );
 }
 
-/// Slope of the velocity field around each particle. `mean_p` is the weighted mean of the nodes,
-/// which is the position of the particle unless its domain is cut off by a wall. Relative to it,
-/// the affine part has no momentum.
+/// Gradient of the velocity field around each particle. `mean_p` is the weighted mean of the node
+/// positions, which is the position of the particle unless a wall truncates its domain. The affine
+/// part is taken about `mean_p`, and therefore has no momentum.
 #[derive(Debug, Clone, Copy)]
 pub enum Affine<'a, const D: usize> {
     /// `C_p` (1/s).
     Slope(&'a [Matrix<D>]),
-    /// `C_p = B_p D_p^-1` by the first moment B_p (m^2/s); D_p is that of the weights at the
-    /// particle's position.
+    /// `C_p = B_p D_p^-1` with the first moment B_p (m^2/s). D_p belongs to the weights at the
+    /// particle position.
     Moment(&'a [Matrix<D>]),
 }
 
@@ -207,8 +210,7 @@ impl<'a, const D: usize> Affine<'a, D> {
         state
     }
 
-    /// Natural size of the state for velocities of the size `speed` (m/s) and cells of the size
-    /// `h` (m).
+    /// Natural scale of the state for velocities of scale `speed` (m/s) and cells of size `h` (m).
     pub fn size(self, speed: f64, h: f64) -> f64 {
         match self {
             Self::Slope(_) => speed / h,
@@ -231,12 +233,12 @@ pub struct ParticleField<'a, const D: usize> {
 pub enum Divergence {
     /// `f_int_i = - sum_p V_p sigma_p grad N_i(x_p)` (N).
     Gradient,
-    /// `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - mean_p) N_i(x_p)` (N): the gradient of a
-    /// least-squares fit instead of that of the basis (Hu et al. 2018, eq. 18).
+    /// `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - mean_p) N_i(x_p)` (N), with the gradient of a
+    /// least-squares fit instead of the basis gradient (Hu et al. 2018, eq. 18).
     Fit,
 }
 
-/// Parts of one pass of P2G.
+/// Parts of one P2G pass.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct P2gRequest<'a, const D: usize> {
     /// `m_i = sum_p m_p N_i(x_p)` (kg) into `grid.mass`.
@@ -248,8 +250,8 @@ pub struct P2gRequest<'a, const D: usize> {
 }
 
 impl<const D: usize> P2gRequest<'_, D> {
-    /// Names of the parts, as reports list them. The moments of the weights count as a part, once
-    /// for each position of the particles.
+    /// Names of the parts for reports. The moments of the weights count as a part, once for each
+    /// position of the particles.
     pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
         let affine = self.momentum.and_then(|field| field.affine);
         let has_moments = self.mass && matches!(affine, Some(Affine::Moment(_)));
@@ -267,19 +269,20 @@ fn named_parts(parts: [(&'static str, bool); 5]) -> impl Iterator<Item = &'stati
     parts.into_iter().filter_map(|(name, is_requested)| is_requested.then_some(name))
 }
 
-/// Parts of one pass of G2P, from nodal velocities except where stated.
+/// Parts of one G2P pass. They use nodal velocities unless stated otherwise.
 #[derive(Debug, Default)]
 pub struct G2pRequest<'a, const D: usize> {
     /// `value_p += dt sum_i a_i N_i(x_p)` with `dt` (s), from nodal accelerations.
     pub change: Option<f64>,
-    /// Then `value_p <- keep value_p + factor sum_i v_i N_i(x_p)` with `keep` and `factor`.
+    /// After `change`: `value_p <- keep value_p + factor sum_i v_i N_i(x_p)` with `keep` and
+    /// `factor`.
     pub mix: Option<(f64, f64)>,
     /// Target of `change` and `mix` (m/s).
     pub value: Option<&'a mut [Vector<D>]>,
     /// `moment_p = sum_i v_i (x) (x_i - mean_p) N_i(x_p)` (m^2/s).
     pub moment: Option<&'a mut [Matrix<D>]>,
-    /// `moment_p D_p^-1` (1/s): the gradient of a least-squares fit (Hu et al. 2018, eq. 17), by
-    /// the visit to the nodes that gives the moment.
+    /// `moment_p D_p^-1` (1/s): the gradient of a least-squares fit (Hu et al. 2018, eq. 17),
+    /// computed in the same visit to the nodes as the moment.
     pub fit: Option<&'a mut [Matrix<D>]>,
     /// `gradient_p = sum_i v_i (x) grad N_i(x_p)` (1/s).
     pub gradient: Option<&'a mut [Matrix<D>]>,
@@ -288,7 +291,7 @@ pub struct G2pRequest<'a, const D: usize> {
 }
 
 impl<const D: usize> G2pRequest<'_, D> {
-    /// Names of the parts, as reports list them.
+    /// Names of the parts for reports.
     pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
         named_parts([
             ("g2p velocity", self.change.is_some()),
@@ -300,16 +303,16 @@ impl<const D: usize> G2pRequest<'_, D> {
     }
 }
 
-/// How the loops run.
+/// Settings of the particle loops.
 #[derive(Debug, Clone, Copy)]
 pub struct LoopSettings {
-    /// Instructions that the loops may use. Results have the same bits at any level.
+    /// Instruction set of the loops. Results are bit-identical for every set.
     pub level: Level,
-    /// Minimum number of particles for a split into blocks for threads: smaller scenes fit the
-    /// cache. The sums of blocks are rounded in another order.
+    /// Minimum number of particles for blocks on several threads; smaller scenes fit the cache.
+    /// Sums over blocks have a different rounding order.
     pub min_particles: usize,
-    /// Minimum number of particles per block: the nodes shared with its neighbours must be few in
-    /// comparison.
+    /// Minimum number of particles per block, such that a block shares only a small part of its
+    /// nodes with its neighbours.
     pub min_block: usize,
 }
 
@@ -320,8 +323,7 @@ impl Default for LoopSettings {
     }
 }
 
-/// Number of particles visited for each part of the passes, counted from the first call of `take`
-/// on.
+/// Number of particles visited by each part of the passes, counted from the first call of `take`.
 #[derive(Debug, Default)]
 pub struct Tally(OnceLock<[AtomicU64; NAMES.len()]>);
 
@@ -355,7 +357,8 @@ impl Tally {
         }
     }
 
-    /// Parts of passes since the last call, with the particles visited by all of `tallies`.
+    /// Parts of passes since the last call, with the number of visited particles summed over
+    /// `tallies`.
     pub(in crate::mpm) fn take(tallies: &[&Self]) -> Vec<(&'static str, u64)> {
         let taken = |part: usize| {
             let counts = tallies.iter().map(|tally| tally.0.get_or_init(Default::default));

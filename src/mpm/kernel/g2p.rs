@@ -1,4 +1,4 @@
-//! G2P: velocity, first moment and gradient in one visit to the nodes of a particle.
+//! G2P: velocity, first moment and gradient from one visit to the nodes of a particle.
 
 use super::batch::{ALL, Batch, ParticleBatches, divide, put_columns};
 use super::contract::G2pRequest;
@@ -11,7 +11,7 @@ use crate::mpm::foundation::simd::{BATCH, F64x4, LANES, Simd, SimdPass, componen
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// Pass of G2P over two packed fields, velocities and accelerations, or over one that holds both
+/// G2P pass over two packed fields for velocities and accelerations, or over one field with both
 /// ([`are_beside`]).
 pub(in crate::mpm) struct Gather<'a, const D: usize, B> {
     pub(in crate::mpm) grid: &'a Grid<D>,
@@ -23,13 +23,13 @@ pub(in crate::mpm) struct Gather<'a, const D: usize, B> {
     pub(in crate::mpm) basis: PhantomData<B>,
 }
 
-/// Whether one packed field holds velocities and accelerations side by side: four numbers a node
-/// hold both in 1-D and 2-D, so that nodes are visited once.
+/// Whether one packed field contains both velocities and accelerations, so that nodes are visited
+/// once. In 1-D and 2-D the four numbers of a node are sufficient.
 pub(in crate::mpm) const fn are_beside<const D: usize>() -> bool {
     2 * D <= LANES
 }
 
-/// Sums of a batch of particles during G2P.
+/// Sums for a batch of particles during G2P.
 struct G2pSums<S: Simd, const D: usize> {
     change: [S::F64x4; BATCH],
     velocity: [S::F64x4; BATCH],
@@ -51,7 +51,7 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
         }
     }
 
-    /// Clears the sums of some particles; matrices exist only where a pass takes them.
+    /// Clears the sums of some particles. Matrices are cleared only if a pass uses them.
     #[inline(always)]
     fn reset(&mut self, simd: S, moments: bool, gradients: bool, left_out: impl Fn(usize) -> bool) {
         let zero = simd.splat(0.0);
@@ -67,7 +67,7 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
     }
 }
 
-/// Adds the term of a patch, or stores it where each particle has one patch.
+/// Adds the term of a patch, or stores it if each particle has only one patch.
 #[inline(always)]
 fn put<B: Basis, F: F64x4>(sum: &mut F, term: F) {
     if B::ONE_PATCH {
@@ -78,12 +78,12 @@ fn put<B: Basis, F: F64x4>(sum: &mut F, term: F) {
 }
 
 impl<const D: usize, B: Basis> Gather<'_, D, B> {
-    /// Whether sums of moments are requested, directly or divided.
+    /// Whether the request includes moments, directly or divided by D_p.
     fn takes_moments(&self) -> bool {
         self.request.moment.is_some() || self.request.fit.is_some()
     }
 
-    /// Adds the sums over the nodes of patches; with `moments`, also those of
+    /// Adds the sums over the nodes of patches. `moments` states whether this includes the sums of
     /// [`Self::takes_moments`].
     #[inline(always)]
     fn gather_patches<S: Simd>(
@@ -142,7 +142,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
         }
     }
 
-    /// Writes the sums of the batch that begins at entry `first` of the request's columns.
+    /// Writes the sums of a batch to the columns of the request, starting at entry `first`.
     #[inline(always)]
     fn write<S: Simd>(&mut self, first: usize, moments: bool, sums: &G2pSums<S, D>) {
         let request = &mut self.request;
@@ -186,7 +186,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
 }
 
 impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
-    // Sums for two axes at once, with their factors.
+    // Sums of two axes at once, with their factors.
     const NEEDS_AVX512: bool = D == 3;
 
     #[inline(always)]

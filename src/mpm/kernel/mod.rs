@@ -1,4 +1,4 @@
-//! The loops of P2G and G2P, compiled once for each basis and dimension.
+//! The P2G and G2P loops, compiled once for each basis and dimension.
 //!
 //! ```text
 //! particles   [ 16 particles ][ 16 particles ] ...   batch.rs: weights of a batch, four at once
@@ -15,11 +15,11 @@
 //!              2. odd block k, after even blocks k and k + 1 (colouring.rs, parallel.rs)
 //! ```
 //!
-//! `tests/it/mpm/kernel/textbook.rs` has the same sums as textbook loops. Sums run over particles
-//! and nodes in a fixed order, so that results have the same bits on any processor and number of
-//! threads.
+//! `tests/it/mpm/kernel/textbook.rs` computes the same sums with textbook loops. Sums run over
+//! particles and nodes in a fixed order, so results are bit-identical on any processor and for any
+//! number of threads.
 //!
-//! Loops of P2G and G2P for scalars.
+//! The module also contains the P2G and G2P loops for scalars.
 
 pub(crate) mod contract;
 
@@ -49,14 +49,14 @@ pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
     kernel_with(basis, LoopSettings::default())
 }
 
-/// Kernel of the basis with this name, with the given loop settings.
+/// Kernel of the basis with this name and the given loop settings.
 pub fn kernel_with<const D: usize>(basis: BasisName, settings: LoopSettings) -> Box<dyn Kernel<D>> {
     let kernel = kernel_in_dimension(D, basis, settings).downcast::<Box<dyn Kernel<D>>>();
     *kernel.unwrap_or_else(|_| unreachable!("no kernel in {D} dimensions"))
 }
 
-/// A `Box<dyn Kernel<D>>`. It is not generic, so that the loops are compiled once in this crate,
-/// and not in each crate that uses one.
+/// A `Box<dyn Kernel<D>>` as `Any`. The function is not generic, so that the loops are compiled
+/// only in this crate and not in each crate that uses a kernel.
 fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSettings) -> Box<dyn Any> {
     fn boxed<const D: usize>(basis: BasisName, settings: LoopSettings) -> Box<dyn Kernel<D>> {
         with_basis!(basis, B => Box::new(Loops::<B>::new(settings)))
@@ -66,7 +66,7 @@ fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSetting
 
 /// Kernel of basis `B`.
 struct Loops<B> {
-    /// Memory that is reused by later passes; results do not depend on its contents.
+    /// Memory reused by all passes; results do not depend on the old contents.
     workspace: Mutex<Workspace>,
     tally: Tally,
     basis: PhantomData<B>,
@@ -79,7 +79,7 @@ impl<B> Loops<B> {
     }
 
     fn workspace(&self) -> MutexGuard<'_, Workspace> {
-        // After a panic: the next pass overwrites all contents.
+        // A panic does not matter, because the next pass overwrites all contents.
         self.workspace.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -1,4 +1,4 @@
-//! P2G: mass, momentum and internal force in one visit to the nodes of a particle.
+//! P2G: mass, momentum and internal force from one visit to the nodes of a particle.
 
 use super::batch::{Batch, ParticleBatches, columns, divide};
 use super::contract::{Affine, Divergence, P2gRequest};
@@ -12,7 +12,7 @@ use crate::mpm::foundation::simd::{BATCH, Simd, SimdPass};
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// Pass of P2G to a packed field.
+/// P2G pass to a packed field.
 pub(in crate::mpm) struct Scatter<'a, const D: usize, B, N> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,
@@ -23,13 +23,13 @@ pub(in crate::mpm) struct Scatter<'a, const D: usize, B, N> {
     pub(in crate::mpm) basis: PhantomData<B>,
 }
 
-/// Whether a request needs nodes of eight numbers, because four cannot hold momentum, mass and
-/// force: in more than 1-D.
+/// Whether a request needs nodes of eight numbers. In more than one dimension, four numbers cannot
+/// hold momentum, mass and force.
 pub(in crate::mpm) fn wants_wide_nodes<const D: usize>(request: &P2gRequest<'_, D>) -> bool {
     request.force.is_some() && (request.mass || request.momentum.is_some())
 }
 
-/// Momentum and, in the last lane, mass of a particle.
+/// Momentum of a particle, and its mass in the last lane.
 #[inline(always)]
 fn inertial<S: Simd, const D: usize>(simd: S, m: f64, v: &Vector<D>) -> S::F64x4 {
     let mut lanes = [0.0, 0.0, 0.0, 1.0];
@@ -39,19 +39,20 @@ fn inertial<S: Simd, const D: usize>(simd: S, m: f64, v: &Vector<D>) -> S::F64x4
     simd.load(lanes) * m
 }
 
-/// Columns of `-V sigma` (J) of particle `p`, or of its like in the total-Lagrangian frame.
+/// Columns of `-V sigma` (J) of particle `p`, or of the corresponding flux in the total-Lagrangian
+/// frame.
 #[inline(always)]
 fn flux<S: Simd, const D: usize>(simd: S, particles: &Particles<D>, p: usize) -> [S::F64x4; D] {
     if !particles.current_position.is_empty() {
         return columns(simd, &-particles.flux(p), force_lane(D));
     }
-    // Not by a matrix in memory: its store would not be forwarded to the loads of its columns.
+    // Avoids a matrix in memory: its store would not be forwarded to the loads of its columns.
     let stress = columns(simd, &particles.sigma[p], force_lane(D));
     array(simd.splat(0.0), |axis| stress[axis] * -particles.vol[p])
 }
 
-/// The particles `first + lanes` with their patches, and the moments of all patches of a particle
-/// that has several.
+/// Particles `first + lanes` with their patches, and, for a particle with several patches, the
+/// moments of all its patches.
 struct Visit<'a, const D: usize, B: Basis> {
     first: usize,
     lanes: Range<usize>,
@@ -60,10 +61,10 @@ struct Visit<'a, const D: usize, B: Basis> {
 }
 
 impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
-    /// Whether a node has lanes for momentum and mass in addition to those of the force.
+    /// Whether a node has lanes for momentum and mass in addition to a force.
     const HOLDS_ALL: bool = N::IS_WIDE || D == 1;
 
-    /// Adds the terms of particles, which have an affine part (`SLOPE`) and one along the gradient
+    /// Adds the terms of particles, with an affine part (`SLOPE`) and a part along the gradient
     /// (`FLUX`).
     #[inline(always)]
     fn add<S: Simd, const SLOPE: bool, const FLUX: bool>(
@@ -73,8 +74,8 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     ) {
         let Self { grid, particles, request, .. } = self;
         let (zero, h) = (simd.splat(0.0), grid.h);
-        // Unrequested lanes are not unpacked, so that their contents do not matter: positions,
-        // which every body has, replace velocities, which a body at rest does not have.
+        // Unrequested lanes are not unpacked, so their contents do not matter. Positions, which
+        // every body has, replace velocities, which a body at rest does not have.
         let (v, affine) =
             request.momentum.map_or((&*particles.x, None), |field| (field.v, field.affine));
         let is_fit = request.force == Some(Divergence::Fit);

@@ -1,10 +1,8 @@
-//! Two-colour schedule of P2G on threads.
+//! Two-colour schedule of P2G on threads, and the division of G2P particles among threads.
 //!
-//! Even blocks and the odd ones between them form a binary tree of joins: an odd block runs after
-//! both its neighbours, on any thread, and no other block uses its nodes. Layers to which no later
-//! block adds are unpacked immediately, while they are in the cache.
-//!
-//! Particles of G2P split among threads.
+//! Even blocks and the odd blocks between them form a binary tree of joins. An odd block runs on
+//! any thread after both its neighbours, when no other block uses its nodes. Layers to which no
+//! later block adds are unpacked immediately, while they are in the cache.
 
 use super::colouring::ParticleBlock;
 use super::contract::G2pRequest;
@@ -26,7 +24,7 @@ impl<const D: usize, N: PackedNode> Target<'_, D, N> {
         Target { field: self.field.reborrow(), columns: self.columns.reborrow() }
     }
 
-    /// Nodes before `layer`, and nodes from there on.
+    /// Splits into the nodes before `layer` and the nodes from `layer`.
     fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
         let field = self.field.split_at::<D>(layer);
         let columns = self.columns.split_at(grid, layer);
@@ -34,12 +32,11 @@ impl<const D: usize, N: PackedNode> Target<'_, D, N> {
     }
 }
 
-/// Adds a block of particles to a field that contains its nodes.
+/// Function that adds a block of particles to a field that contains its nodes.
 type Add<'a, N> = dyn Fn(&ParticleBlock, FieldViewMut<'_, N>) + Sync + 'a;
 
 /// Clears `target`, calls `add` for all blocks, each with a field that contains its nodes, and
-/// unpacks the sums. Two-colour schedule: odd block k runs after even blocks k and k + 1, with
-/// which it shares nodes.
+/// unpacks the sums. Odd block k runs after even blocks k and k + 1, with which it shares nodes.
 pub(in crate::mpm) fn two_colour_schedule<const D: usize, N: PackedNode>(
     grid: &Grid<D>,
     [even, odd]: [&[ParticleBlock]; 2],
@@ -56,8 +53,8 @@ struct Schedule<'a, const D: usize, N> {
 }
 
 impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
-    /// Even blocks, the odd ones between them, and perhaps one after the last. No other block adds
-    /// to the layers in `own`.
+    /// Runs even blocks, the odd blocks between them, and optionally one odd block after the last
+    /// even block. No other block adds to the layers in `own`.
     fn tree(
         &self,
         own: Range<usize>,
@@ -90,7 +87,7 @@ impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
         join(|| self.add(between, done, low), || self.add(last, end..own.end, high));
     }
 
-    /// Adds a block, if there is one, and unpacks `done`, the layers to which no later block adds.
+    /// Adds a block, if any, and unpacks the layers `done`, to which no later block adds.
     fn add(&self, block: &[ParticleBlock], done: Range<usize>, mut target: Target<'_, D, N>) {
         if let [block] = block {
             (self.add)(block, target.field.reborrow());
@@ -100,7 +97,7 @@ impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
 }
 
 impl<const D: usize> G2pRequest<'_, D> {
-    /// Requests for the first `count` particles, and for the remaining ones.
+    /// Splits into requests for the first `count` particles and for the remaining ones.
     fn split_at(self, count: usize) -> (Self, Self) {
         let Self { change, mix, .. } = self;
         let value = split(self.value, count);

@@ -1,4 +1,4 @@
-//! P2G and G2P on threads, with their reusable memory.
+//! P2G and G2P on threads, with reusable memory.
 
 use super::colouring::{Blocks, ParticleBlock};
 use super::contract::{G2pRequest, LoopSettings, P2gRequest};
@@ -15,11 +15,11 @@ use crate::mpm::foundation::particles::Particles;
 use fearless_simd::Level;
 use std::marker::PhantomData;
 
-/// Memory of a pass in addition to particles and grid.
+/// Memory of a pass in addition to the particles and the grid.
 #[derive(Debug)]
 pub(in crate::mpm) struct Workspace {
     level: Level,
-    /// Packed fields of nodes.
+    /// Packed nodal fields.
     fields: [PackedField<Node4>; 2],
     wide: PackedField<Node8>,
     blocks: Blocks,
@@ -39,7 +39,7 @@ fn pack<const D: usize>(
     }
 }
 
-/// Pass of P2G on threads.
+/// A P2G pass on threads.
 struct P2g<'a, const D: usize> {
     level: Level,
     particles: &'a Particles<D>,
@@ -57,7 +57,7 @@ impl<const D: usize> P2g<'_, D> {
             let pass = Scatter::<D, B, N> { grid, particles, range, request, field, basis };
             B::run(level, pass);
         };
-        // Sums beyond a periodic end must be folded back before anything is unpacked.
+        // Sums beyond a periodic end must be added to their nodes before unpacking.
         let (at_once, after) = if grid.periodic.contains(&true) {
             (None, Some(columns))
         } else {
@@ -100,7 +100,7 @@ impl Workspace {
         }
     }
 
-    /// G2P of all parts of `request`, with `field` for the velocities of nodes.
+    /// G2P of all parts of `request`, with `field` as the nodal velocities.
     pub(in crate::mpm) fn gather<B: Basis, const D: usize>(
         &mut self,
         grid: &Grid<D>,

@@ -1,6 +1,6 @@
-//! Bodies of revolution: a law in space whose third axis is the hoop, with F_33 = r/R.
+//! Bodies of revolution: a three-dimensional law whose third axis is the hoop, with F_33 = r/R.
 //!
-//! Any law can be used in a body of revolution: it is evaluated in three dimensions, where the
+//! Any law can be used in a body of revolution. The law is evaluated in three dimensions, where the
 //! shears between the meridian plane and the hoop are zero.
 
 use super::contract::Material;
@@ -9,15 +9,15 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::{Block, Particles};
 use crate::subject::{Checkpoint, Column, Failure};
 
-/// A law in space, of a body in its meridian plane.
+/// A three-dimensional law for a body in its meridian plane.
 pub(super) struct Axisymmetric {
     law: Box<dyn Material<3>>,
-    /// The columns of the body that the law reads and writes, in space.
+    /// The three-dimensional columns that the law reads and writes.
     space: Particles<3>,
 }
 
 impl Axisymmetric {
-    /// A body of revolution of this law.
+    /// Creates the law of a body of revolution from the law in three dimensions.
     pub(super) fn new(law: Box<dyn Material<3>>) -> Self {
         Self { law, space: none() }
     }
@@ -46,7 +46,7 @@ fn none() -> Particles<3> {
     Particles::fill_where(&Block { from, to, density: 1.0 }, 1.0, 1, |_| false)
 }
 
-/// Puts the state of a body into `space`. Allocates the first time only.
+/// Copies the state of a body to `space`. Allocates only the first time.
 fn enter<const D: usize>(particles: &Particles<D>, space: &mut Particles<3>) {
     let Particles { def_grad, grad_v, sigma, across, rate_across, stress_across, .. } = particles;
     space.x.resize(particles.len(), Vector::zeros());
@@ -102,14 +102,14 @@ impl<const D: usize> Material<D> for Axisymmetric {
         self.law.checkpoint(checkpoint);
     }
 
-    /// Per radian.
+    /// Energy per radian.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let mut space = none();
         enter(particles, &mut space);
         self.law.energy(&space)
     }
 
-    /// The hoop stretch follows from the positions, its rate from the velocities.
+    /// The hoop stretch is computed from the positions, and its rate from the velocities.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         for p in 0..particles.len() {
             let r = particles.position(p)[0];
@@ -132,7 +132,8 @@ mod tests {
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-    /// The stress, volume and energy of every law in space, hoop included, step after step.
+    /// Compares stress, volume and energy with every law in space, including the hoop, for several
+    /// steps.
     #[test]
     fn a_body_of_revolution_has_its_law_in_space() {
         for plan in every() {

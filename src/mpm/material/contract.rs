@@ -1,4 +1,4 @@
-//! Interface of materials to the solver and to the compiler of suites.
+//! Interface between materials and the solver, and between materials and the compiler of suites.
 
 use super::stress_update::StressUpdate;
 use super::tangent::StressResponse;
@@ -9,34 +9,35 @@ use crate::subject::{Checkpoint, Column, Failure};
 /// [`MaterialProperties::takes_averaged_volume`] of every law in rate form.
 ///
 /// # Errors
-/// Always: such a law reads the velocity gradient.
+/// Always, because such a law reads the velocity gradient.
 pub(super) fn rate_form_averages_no_volume() -> Result<(), &'static str> {
     Err("a law in rate form does not compute its stress from F or J")
 }
 
-/// Properties of a law that decide which problems may be stated with it.
+/// Properties of a law that determine which problems can be stated with it.
 pub trait MaterialProperties {
-    /// Stiffness against strain along one axis (Pa), at rest: `rho0 c^2` of the fastest wave, in a
-    /// body of the reference density `density` (kg/m3).
+    /// Stiffness at rest against strain along one axis (Pa): `rho0 c^2` of the fastest wave, in a
+    /// body with the reference density `density` (kg/m3).
     fn wave_modulus(&self, density: f64) -> f64;
 
-    /// Speed (m/s) of the fastest wave at rest, in a body of the reference density `density`
+    /// Speed (m/s) of the fastest wave at rest, in a body with the reference density `density`
     /// (kg/m3).
     fn wave_speed(&self, density: f64) -> f64 {
         (self.wave_modulus(density) / density).sqrt()
     }
 
-    /// Whether stress is a function of F alone. Then a body may start in the state of a stated
+    /// Whether stress is a function of F alone. Only then may a body start in the state of a stated
     /// motion, and a body force may be manufactured.
     ///
     /// # Errors
-    /// Why it is not.
+    /// The reason why stress depends on other quantities.
     fn depends_on_deformation_alone(&self) -> Result<(), &'static str>;
 
-    /// Whether the deformation at the start gives the stress there: a body may start deformed.
+    /// Whether the initial deformation determines the initial stress, so that a body may start
+    /// deformed.
     ///
     /// # Errors
-    /// Why it does not.
+    /// The reason why a body may not start deformed.
     fn starts_deformed(&self) -> Result<(), &'static str> {
         self.depends_on_deformation_alone()
     }
@@ -45,34 +46,35 @@ pub trait MaterialProperties {
     /// stress of the law.
     ///
     /// # Errors
-    /// Why it may not.
+    /// The reason why a body may not have an initial stress.
     fn starts_stressed(&self) -> Result<(), &'static str> {
         self.depends_on_deformation_alone()
     }
 
-    /// Whether the stress may be computed at the averaged volume ratio of F-bar: the law reads F,
-    /// or keeps J alone.
+    /// Whether the stress may be computed at the averaged volume ratio of F-bar. This requires that
+    /// the law reads F, or stores only J.
     ///
     /// # Errors
-    /// Why it may not.
+    /// The reason why the averaged volume ratio is not supported.
     fn takes_averaged_volume(&self) -> Result<(), &'static str> {
         self.depends_on_deformation_alone()
     }
 
-    /// Whether the law has a consistent tangent ([`Material::response`]), as implicit solvers need.
+    /// Whether the law has a consistent tangent ([`Material::response`]), which implicit solvers
+    /// need.
     ///
     /// # Errors
-    /// Why it has none.
+    /// The reason why the law has no tangent.
     fn has_tangent(&self) -> Result<(), &'static str> {
         Err("the derivative of its stress by the deformation is not implemented")
     }
 
-    /// Whether the law is elastic: only then is its thermal expansion defined.
+    /// Whether the law is elastic. Thermal expansion is defined only for elastic laws.
     fn is_elastic(&self) -> bool {
         false
     }
 
-    /// The first parameter that contradicts another one, if any.
+    /// First parameter that contradicts another one, if any.
     fn contradiction(&self) -> Option<Contradiction> {
         None
     }
@@ -95,30 +97,30 @@ pub trait MaterialProperties {
 /// A parameter of a material that contradicts another one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Contradiction {
-    /// The key of the parameter.
+    /// Key of the parameter.
     pub key: &'static str,
-    /// The message of the error.
+    /// Message of the error.
     pub reason: &'static str,
-    /// Why the two do not go together.
+    /// Reason why both parameters are incompatible.
     pub explanation: &'static str,
 }
 
-/// Closed forms of a law, with which the tests of the family compare its stress. For laws that flow
-/// or heat in a step, the values are those of one infinitely long step from a state of rest.
+/// Closed forms of a law, with which tests of the family compare its stress. For laws with flow or
+/// heat during a step, the values apply to one infinitely long step from a state of rest.
 #[cfg(test)]
 pub(super) trait ClosedForms {
     /// Cauchy stress (Pa) under simple shear in the plane: components 11, 12 and 22.
     fn simple_shear(&self, gamma: f64) -> [f64; 3];
 
-    /// Cauchy stress (Pa) along and across a uniaxial stretch, with the other axes fixed; `None` if
-    /// the law has a history, which a test in its own file covers.
+    /// Cauchy stress (Pa) along and across a uniaxial stretch, with the other axes fixed. `None` if
+    /// the law depends on the history; a test in the file of the law then covers this case.
     fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]>;
 
-    /// The energy density (J/m3) whose derivative is the stress, up to a constant, as long as
-    /// nothing flows; `None` for a law in rate form.
+    /// Energy density (J/m3), up to a constant, whose derivative is the stress without flow. `None`
+    /// for a law in rate form.
     fn energy_density(&self, f: &Matrix<3>) -> Option<f64>;
 
-    /// Stress (Pa) caused by the rounding of J in a step of zero length.
+    /// Stress (Pa) caused by rounding of J in a step of zero length.
     fn rounding(&self) -> f64 {
         0.0
     }
@@ -134,23 +136,23 @@ pub(super) trait ClosedForms {
     }
 }
 
-/// A constitutive law, with its private state. The solver makes one virtual call per step.
+/// A constitutive law with its private state. The solver makes one virtual call per step.
 pub trait Material<const D: usize>: Send {
-    /// Whether the law reads F: the column exists only then, or if the basis reads F.
+    /// Whether the law reads F. The column of F exists only if the law or the basis reads it.
     fn reads_deformation(&self) -> bool;
 
-    /// Whether the law stores the stretch across the plane: the column exists only then.
+    /// Whether the law stores the out-of-plane stretch, whose column exists only in this case.
     fn keeps_stretch_across(&self) -> bool {
         false
     }
 
-    /// Whether stress depends on the velocity gradient itself: a body that starts in motion then
+    /// Whether stress depends directly on the velocity gradient. A body that starts in motion then
     /// starts under stress.
     fn reads_rate(&self) -> bool {
         false
     }
 
-    /// Whether a body at rest that is not deformed has a stress: `start_deformed` then sets it.
+    /// Whether an undeformed body at rest has a stress, which `start_deformed` then sets.
     fn is_stressed_at_rest(&self) -> bool {
         false
     }
@@ -163,23 +165,23 @@ pub trait Material<const D: usize>: Send {
     /// Visits the state of the law.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
-    /// This law in plane stress, sigma_33 = 0; `None` if it is not implemented there.
+    /// This law in plane stress, sigma_33 = 0; `None` if plane stress is not implemented.
     fn in_plane_stress(&self) -> Option<Box<dyn Material<D>>> {
         None
     }
 
-    /// Energy that all particles store, over the whole body (J); `None` if the work of the stress
-    /// is not a function of the state. Dissipated energy is not stored.
+    /// Stored energy of all particles (J); `None` if the work of the stress is not a function of
+    /// the state. Dissipated energy is not included.
     fn energy(&self, _: &Particles<D>) -> Option<f64> {
         None
     }
 
-    /// Computes the initial stresses of a body that starts deformed or, with a law that reads
-    /// rates, in motion, from F and the velocity gradients. Volumes already follow from F. A law in
-    /// rate form adds to the present stress.
+    /// Computes initial stresses from F and the velocity gradients, for a body that starts
+    /// deformed, or in motion with a law that reads rates. Volumes have already been computed from
+    /// F. A law in rate form adds to the current stress.
     ///
     /// # Errors
-    /// [`Failure::NotOfDeformation`] if these give no stress.
+    /// [`Failure::NotOfDeformation`] if F and the velocity gradients do not determine a stress.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         if !self.reads_deformation() {
             return Err(Failure::NotOfDeformation);
@@ -189,13 +191,13 @@ pub trait Material<const D: usize>: Send {
     }
 
     /// Kirchhoff stress and consistent tangent of particle `p` at the deformation gradient `f`.
-    /// Both belong to a step from the state of the law at its start, which does not change. `None`
-    /// if the law has no tangent.
+    /// Both belong to a step that starts from the stored state of the law, which does not change.
+    /// `None` if the law has no tangent.
     fn response(&self, _p: usize, _f: &Matrix<D>) -> Option<StressResponse<D>> {
         None
     }
 
-    /// New stresses and volumes of all particles from F, where it exists, and from their velocity
-    /// gradients. Allocates in the first call only.
+    /// Updates stresses and volumes of all particles from F, if available, and from the velocity
+    /// gradients. Allocates only in the first call.
     fn update(&mut self, body: &mut StressUpdate<'_, D>);
 }

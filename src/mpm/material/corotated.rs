@@ -1,10 +1,11 @@
-//! Fixed corotated elasticity: the law of small strains between the stretches less one.
+//! Fixed corotated elasticity: the small-strain law, with the principal stretches minus one as
+//! strains.
 //!
 //! `sigma = (2 mu/J) (F - R) F^T + lambda (J - 1) I`, with the rotation R of `F = V R` (Stomakhin,
 //! Howes, Schroeder & Teran 2012, SCA, "Energetically consistent invertible elasticity"; Jiang et
-//! al. 2016, SIGGRAPH Courses, section 6.3). Derived from the energy
-//! `W = mu sum (s_i - 1)^2 + lambda/2 (J - 1)^2` of the stretches s_i. In uniaxial strain P is
-//! linear in the displacement gradient. In 2-D and 1-D the strain is plane and uniaxial.
+//! al. 2016, SIGGRAPH Courses, section 6.3). The stress derives from the energy
+//! `W = mu sum (s_i - 1)^2 + lambda/2 (J - 1)^2` of the principal stretches s_i. In uniaxial strain
+//! P is linear in the displacement gradient. In 2-D the strain is plane, and in 1-D uniaxial.
 
 use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{set_stress_along_axes, stored_energy};
@@ -22,20 +23,20 @@ pub struct Corotated {
 }
 
 impl Corotated {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
         Self { lambda, mu }
     }
 
-    /// Principal stresses (Pa), from the squared stretches: `(F - R) F^T = V^2 - V`.
+    /// Principal stresses (Pa) from the squared stretches: `(F - R) F^T = V^2 - V`.
     #[inline(always)]
     fn principal<const D: usize>(&self, squares: &Vector<D>, j: f64) -> Vector<D> {
         let pressure = self.lambda * (j - 1.0);
         squares.map(|square| pressure + 2.0 * self.mu * (square - square.sqrt()) / j)
     }
 
-    /// W (J/m^D).
+    /// Energy density W (J/m^D).
     fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
         let excess = spectral(&(f * f.transpose())).0.map(|square| square.sqrt() - 1.0);
         let dilation = det(f) - 1.0;
@@ -78,7 +79,7 @@ impl<const D: usize> Material<D> for Corotated {
 
 #[cfg(test)]
 impl super::contract::ClosedForms for Corotated {
-    /// With `V = (b + I)/sqrt(tr b + 2)`, which a plane b of determinant one has (Cayley-Hamilton).
+    /// Uses `V = (b + I)/sqrt(tr b + 2)` for a plane b with determinant one (Cayley-Hamilton).
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let (square, t) = (gamma * gamma, (4.0 + gamma * gamma).sqrt());
         let along = 1.0 + square - (2.0 + square) / t;

@@ -1,8 +1,8 @@
-//! Hencky elasticity: the law of small strains, with logarithmic strain and Kirchhoff stress.
+//! Hencky elasticity: the small-strain law, with logarithmic strain and Kirchhoff stress.
 //!
 //! `sigma = (lambda tr(eps) I + 2 mu eps)/J`, `eps = ln(F F^T)/2` (Hencky 1928; de Souza Neto,
-//! Peric & Owen 2008, chapter 13; Charlton et al. 2017 in MPM). Derived from the energy
-//! `W = lambda/2 tr(eps)^2 + mu eps : eps`. In 2-D and 1-D the strain is plane and uniaxial.
+//! Peric & Owen 2008, chapter 13; Charlton et al. 2017 in MPM). The stress derives from the energy
+//! `W = lambda/2 tr(eps)^2 + mu eps : eps`. In 2-D the strain is plane, and in 1-D uniaxial.
 
 use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{set_stress_along_axes, stored_energy};
@@ -22,7 +22,7 @@ pub struct Hencky {
 }
 
 impl Hencky {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
         Self { lambda, mu }
@@ -33,21 +33,21 @@ impl Hencky {
         assembled(&self.principal(&half_log(&squares), j), &axes)
     }
 
-    /// Principal stresses (Pa), from the logarithmic strains.
+    /// Principal stresses (Pa) from the logarithmic strains.
     #[inline(always)]
     fn principal<const D: usize>(&self, strain: &Vector<D>, j: f64) -> Vector<D> {
         let pressure = self.lambda * strain.sum();
         strain.map(|eps| (pressure + 2.0 * self.mu * eps) / j)
     }
 
-    /// W (J/m^D).
+    /// Energy density W (J/m^D).
     fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
         let strain = half_log(&spectral(&(f * f.transpose())).0);
         0.5 * self.lambda * strain.sum() * strain.sum() + self.mu * strain.norm_squared()
     }
 }
 
-/// A plate: stress and energy follow from the strains in the plane, with another lambda.
+/// A plate. Stress and energy are functions of the in-plane strains, with another lambda.
 struct HenckyPlate {
     plane: Hencky,
     thinning: f64,
@@ -118,7 +118,7 @@ impl<const D: usize> Material<D> for Hencky {
 #[cfg(test)]
 impl super::contract::ClosedForms for Hencky {
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
-        // The axes of simple shear stretch by exp(e) and exp(-e).
+        // The principal stretches of simple shear are exp(e) and exp(-e).
         let e = libm::asinh(0.5 * gamma);
         let normal = 2.0 * self.mu * e * libm::tanh(e);
         [normal, 2.0 * self.mu * e / libm::cosh(e), -normal]

@@ -1,4 +1,4 @@
-//! Stress and energy of laws of the deformation gradient alone, over all particles.
+//! Stress and energy over all particles, for laws that depend only on the deformation gradient.
 
 use super::spectral::{MatrixBatch, assembled_batch, spectral_batch};
 use super::stress_update::{StressBlock, StressUpdate};
@@ -6,7 +6,7 @@ use crate::mpm::foundation::algebra::{Matrix, Vector, det, product};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
 
-/// Sum of the energies of the particles (J), from that per reference volume (J/m^D).
+/// Sum of the particle energies (J), from the energy per reference volume (J/m^D).
 pub(super) fn stored_energy<const D: usize>(
     particles: &Particles<D>,
     density: impl Fn(&Matrix<D>) -> f64,
@@ -15,7 +15,8 @@ pub(super) fn stored_energy<const D: usize>(
     all.map(|(f, vol0)| vol0 * density(f)).sum()
 }
 
-/// Sets volumes, and Cauchy stresses from F, using `of_j` of J, for several particles at a time.
+/// Sets volumes, and computes Cauchy stresses from F for several particles at a time. `of_j`
+/// computes the inputs of `cauchy` from J.
 pub(super) fn set_stress_by_batch<const D: usize, const N: usize>(
     body: &mut StressUpdate<'_, D>,
     of_j: impl Fn(&F64Batch) -> [F64Batch; N] + Sync,
@@ -37,9 +38,9 @@ pub(super) fn set_stress_by_batch<const D: usize, const N: usize>(
     );
 }
 
-/// Sets volumes, and Cauchy stresses along the axes of `F F^T`: `of_squares` computes the inputs of
-/// the law from the squared stretches, for several particles at a time, and `principal` the
-/// stresses (Pa) from these and J.
+/// Sets volumes and Cauchy stresses, whose axes are the axes of `F F^T`. For several particles at a
+/// time, `of_squares` computes the inputs of the law from the squared stretches. `principal`
+/// computes the stresses (Pa) from these inputs and J.
 pub(super) fn set_stress_along_axes<const D: usize>(
     body: &mut StressUpdate<'_, D>,
     of_squares: impl Fn(&F64Batch) -> F64Batch + Sync,

@@ -1,7 +1,8 @@
-//! J2 plasticity: the yield surface of von Mises with linear hardening.
+//! J2 plasticity: von Mises yield surface with linear hardening.
 //!
-//! Yield if `sqrt(3/2) |dev tau| > Y + H alpha`; the return is radial (de Souza Neto, Peric & Owen
-//! 2008, chapters 7 and 14). The integration is that of [`plastic_flow`](super::plastic_flow).
+//! The material yields if `sqrt(3/2) |dev tau| > Y + H alpha`, with a radial return (de Souza Neto,
+//! Peric & Owen 2008, chapters 7 and 14). [`plastic_flow`](super::plastic_flow) describes the
+//! integration.
 
 use super::plastic_flow::{
     ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface, modulus_of_invariants,
@@ -11,7 +12,7 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 /// J2 elastoplasticity at finite strain with isotropic hardening.
 pub type J2 = ElastoPlastic<VonMises>;
 
-/// The yield surface of von Mises, with linear isotropic hardening.
+/// Von Mises yield surface with linear isotropic hardening.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VonMises {
     elasticity: LogElasticity,
@@ -20,8 +21,8 @@ pub struct VonMises {
 }
 
 impl J2 {
-    /// From Young's modulus (Pa), Poisson's ratio, the yield stress in tension Y (Pa) and the
-    /// hardening modulus H (Pa).
+    /// Creates the law from Young's modulus (Pa), Poisson's ratio, the yield stress in tension Y
+    /// (Pa) and the hardening modulus H (Pa).
     pub fn new(young: f64, poisson: f64, yield_stress: f64, hardening: f64) -> Self {
         let elasticity = LogElasticity::new(young, poisson);
         Self::with_surface(VonMises { elasticity, yield_stress, hardening })
@@ -45,8 +46,8 @@ impl YieldSurface for VonMises {
         Some((PrincipalStrain { deviator, ..*trial }, flow))
     }
 
-    /// The deviator of the stress has the length `sqrt(2/3) (Y + H (alpha + flow))`, whose slope is
-    /// `2 mu H/(3 mu + H)` along the deviator of the strain.
+    /// The stress deviator has the length `sqrt(2/3) (Y + H (alpha + flow))`. The slope of this
+    /// length along the strain deviator is `2 mu H/(3 mu + H)`.
     fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>> {
         let (mu, hardening) = (self.elasticity.mu, self.hardening);
         let (_, flow) = self.return_from(trial, flowed)?;
@@ -57,7 +58,7 @@ impl YieldSurface for VonMises {
         Some(modulus_of_invariants(trial, &mean, (length, &slope)))
     }
 
-    /// The deviator ends on the yield surface.
+    /// The stress deviator ends on the yield surface.
     #[cfg(test)]
     fn isochoric(&self, e: f64) -> [f64; 2] {
         let mu = self.elasticity.mu;
@@ -76,9 +77,9 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Uniaxial strain: elastic to `Y/(2 mu)`, then `d tau_1 = K d eps` and `tau_1 - tau_2 = Y`
-    /// without hardening (benchmark V18, in Kirchhoff stress and logarithmic strain). Unloading is
-    /// elastic, until it yields in the opposite direction.
+    /// Uniaxial strain is elastic to `Y/(2 mu)`. Beyond yield, `d tau_1 = K d eps` and
+    /// `tau_1 - tau_2 = Y` without hardening (benchmark V18, in Kirchhoff stress and logarithmic
+    /// strain). Unloading is elastic until yield in the opposite direction.
     #[rstest]
     fn uniaxial_strain_has_its_closed_form(#[values(0.0, 40.0)] hardening: f64) {
         pull::<1>(hardening);

@@ -1,5 +1,5 @@
-//! Law tests of every registered material, in 1-D, 2-D and 3-D. Differences between materials are
-//! declared in their properties and closed forms.
+//! Tests of properties that every registered material must have, in 1-D, 2-D and 3-D. Differences
+//! between materials are declared in their properties and closed forms.
 
 use super::specimen::{DENSITY, FAST, SLOW, Specimen, diagonal, every, scattered, stress};
 use super::{
@@ -9,12 +9,12 @@ use super::{
 use crate::mpm::foundation::algebra::{Matrix, det};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-/// The material that `docs/exercises/material.md` adds.
+/// The material added by `docs/exercises/material.md`.
 #[allow(unreachable_pub)] // public where the page puts it
 #[path = "../../../tests/exercises/st_venant_kirchhoff.rs"]
 mod exercise;
 
-/// A rotation about an oblique axis (Rodrigues); in 1-D the identity.
+/// A rotation about an oblique axis (Rodrigues' formula); the identity in 1-D.
 fn rotation<const D: usize>(angle: f64) -> Matrix<D> {
     let w = 1.0 / 3.0_f64.sqrt();
     let spin = match D {
@@ -33,8 +33,8 @@ fn in_space<const D: usize>(m: &Matrix<D>, beyond: f64) -> Matrix<3> {
 }
 
 /// Whether the law reads F, so that its stress is objective under any rotation in one step. A law
-/// of the velocity gradient is objective in the rate only: a step with a rotation has an error of
-/// second order in the angle.
+/// of the velocity gradient is objective only in the rate: a rotation during a step causes an error
+/// of second order in the angle.
 fn reads_deformation(plan: MaterialPlan) -> bool {
     plan.build::<1>().reads_deformation()
 }
@@ -61,7 +61,7 @@ fn waves_have_their_speed<const D: usize>(plan: MaterialPlan) {
     assert_relative_eq!(DENSITY * speed * speed, slope, max_relative = 1e-8);
 }
 
-/// `P : dF = dW`, with `P = J sigma F^-T`.
+/// Tests `P : dF = dW` with `P = J sigma F^-T`.
 fn stress_is_the_derivative_of_the_energy<const D: usize>(plan: MaterialPlan) {
     let law = plan.closed_forms();
     for seed in [0.1, 1.7, 2.9] {
@@ -76,9 +76,9 @@ fn stress_is_the_derivative_of_the_energy<const D: usize>(plan: MaterialPlan) {
     }
 }
 
-/// The stored energy is the one that stress derives from, at rest that of its closed form (zero
-/// for a solid), and accurate to second order in small strains although it is a difference of
-/// numbers that are not small.
+/// The stored energy is the potential of the stress. At rest the energy equals its closed form
+/// (zero for a solid). The energy is accurate to second order in small strains, although the test
+/// takes a difference of larger numbers.
 fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
     let law = plan.closed_forms();
     for (size, tolerance) in [(0.25, 1e-13), (1e-2, 1e-11), (1e-6, 1e-6)] {
@@ -92,12 +92,12 @@ fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
         let expected = law.energy_density(&spaced).zip(rest).map(|(energy, rest)| energy - rest);
         let found = found.map(|found| found - start);
         let Some((found, expected)) = found.zip(expected) else { return };
-        // The expected difference cancels: rounding of numbers of the size of the moduli.
+        // The expected difference cancels, so the rounding error has the size of the moduli.
         assert_relative_eq!(found, expected, max_relative = tolerance, epsilon = 3e-13);
     }
 }
 
-/// `sigma(Q f F) = Q sigma(f F) Q^T`, also after plastic flow in the step before.
+/// Tests `sigma(Q f F) = Q sigma(f F) Q^T`, also after plastic flow in the previous step.
 fn rotation_in_a_step_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     let error = |size: f64, angle: f64| {
         let (before, step) = (Matrix::identity() + scattered(0.2, 0.3), scattered(size, 1.1));
@@ -116,14 +116,14 @@ fn rotation_in_a_step_only_turns_the_stress<const D: usize>(plan: MaterialPlan) 
         assert_abs_diff_eq!(error(0.1, 2.0), 0.0, epsilon = 1e-11);
     } else if D > 1 {
         let (error, half) = (error(1e-3, 1e-3), error(5e-4, 5e-4));
-        // A stress that depends on J alone has no error of rotation.
+        // A stress that depends only on J has no error due to rotation.
         let is_second_order = error < 1e-13 || (3.9 * half..=4.1 * half).contains(&error);
         assert!(is_second_order, "{plan:?}: {error}, {half}");
     }
 }
 
-/// `sigma(Q L Q^T + W) = Q sigma(L) Q^T` for the velocity gradient L and any spin W: isotropy and
-/// frame indifference. A law that reads F must pass the stronger test above.
+/// Tests `sigma(Q L Q^T + W) = Q sigma(L) Q^T` for the velocity gradient L and any spin W: isotropy
+/// and frame indifference. A law that reads F must pass the stronger test above.
 fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     if reads_deformation(plan) {
         return;
@@ -136,7 +136,7 @@ fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(found, turned, epsilon = 1e-12 * turned.norm() + rounding);
 }
 
-/// The state after a step, including plastic flow, gives the same stress again.
+/// A step without deformation does not change the stress of a state, including plastic flow.
 fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
     let mut specimen = Specimen::<D>::new(plan);
     let first = specimen.deform(&(Matrix::identity() + scattered(0.25, 0.3)), SLOW);
@@ -144,7 +144,8 @@ fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(again, first, epsilon = 1e-11);
 }
 
-/// To the second order in the strain, which a law in rate form does not have from one step.
+/// The stress agrees to second order in the strain. For a law in rate form one step is less
+/// accurate.
 fn a_deformed_start_has_the_stress_of_the_way_there<const D: usize>(plan: MaterialPlan) {
     if plan.properties().starts_deformed().is_err() {
         return;
@@ -162,7 +163,7 @@ fn a_deformed_start_has_the_stress_of_the_way_there<const D: usize>(plan: Materi
     }
 }
 
-/// Bit for bit: plastic flow and hardening are in the checkpoint.
+/// The resumed run is bit-identical: plastic flow and hardening are in the checkpoint.
 fn an_interrupted_run_goes_on<const D: usize>(plan: MaterialPlan) {
     let step = |k: i32| scattered::<D>(0.1, f64::from(k));
     for dt in [SLOW, 1.0, FAST] {
@@ -229,7 +230,7 @@ fn simple_shear_has_its_closed_forms() {
     }
 }
 
-/// Along and across a uniaxial stretch, with the other axes fixed.
+/// Stress along and across a uniaxial stretch, with the other axes fixed.
 #[test]
 fn stretch_has_its_closed_forms() {
     let stretch = 1.3;

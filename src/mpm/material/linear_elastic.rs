@@ -1,17 +1,17 @@
 //! Linear elasticity in rate form, as the original MPM integrates it.
 //!
-//! `d eps = sym(grad v) dt`, `sigma += lambda tr(d eps) I + 2 mu d eps`,
-//! `V *= det(I + grad v dt)` (Wobbes & Tielen 2015, step 5; in 1-D `V *= 1 + d eps`). In the limit
-//! dt -> 0 the 1-D form integrates to `sigma = E ln F`: it agrees with small-strain elasticity to
-//! first order in the strain only, which reports separate from the error of the discretisation.
+//! `d eps = sym(grad v) dt`, `sigma += lambda tr(d eps) I + 2 mu d eps`, `V *= det(I + grad v dt)`
+//! (Wobbes & Tielen 2015, step 5; in 1-D `V *= 1 + d eps`). In the limit dt -> 0 the 1-D form
+//! integrates to `sigma = E ln F`. It agrees with small-strain elasticity only to first order in
+//! the strain. Reports separate this difference from the discretisation error.
 //!
-//! The rate is the plain one, without the terms of Jaumann or Green & Naghdi: to first order in the
-//! step, a spin adds no stress, but it does not rotate the present stress either. Objective for
-//! small rotations only, in more than one dimension.
+//! The rate is the plain stress rate, without Jaumann or Green-Naghdi terms. To first order in the
+//! step, a spin adds no stress, but it does not rotate the current stress either. In more than one
+//! dimension, the law is objective only for small rotations.
 //!
-//! A body that starts deformed has the stress that the rate brings along the straight path
-//! `x = X + s u`, s from 0 to 1: `grad v = H (I + s H)^-1` with `H = F - I`, and so
-//! `eps = sym(ln F)` (Higham 2008, *Functions of Matrices*, eq. 11.1).
+//! For a body that starts deformed, the rate is integrated along the straight path `x = X + s u`, s
+//! from 0 to 1. This path has `grad v = H (I + s H)^-1` with `H = F - I`, and so `eps = sym(ln F)`
+//! (Higham 2008, *Functions of Matrices*, eq. 11.1).
 
 use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
 use super::plane_stress::RatePlaneStress;
@@ -30,7 +30,7 @@ pub struct LinearElastic {
 }
 
 impl LinearElastic {
-    /// From Young's modulus (Pa) and Poisson's ratio. In 1-D a bar with nu = 0 has
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio. In 1-D, a bar with nu = 0 has
     /// `lambda + 2 mu = E`.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self {
@@ -44,7 +44,8 @@ impl LinearElastic {
     }
 }
 
-/// `eps e^eps - e^eps + 1`, the integral of `s e^s`: a series where the sum would cancel.
+/// `eps e^eps - e^eps + 1`, the integral of `s e^s`. For small `eps` the sum would cancel, and a
+/// series is evaluated instead.
 fn logarithmic_work(eps: f64) -> f64 {
     if eps.abs() > 0.05 {
         return eps * libm::exp(eps) - libm::expm1(eps);
@@ -58,11 +59,11 @@ fn logarithmic_work(eps: f64) -> f64 {
     terms.sum()
 }
 
-/// Maximum number of terms of a logarithm: enough for a stretch of 1/100 or 100.
+/// Maximum number of terms of the logarithm series, sufficient for stretches from 1/100 to 100.
 const MOST_TERMS: u32 = 2000;
 
-/// `ln F = 2 artanh(Z)`, `Z = (F - I)(F + I)^-1` (Higham 2008, eq. 11.5); NaN if the series does
-/// not converge: for stretches below 1/100 or above 100, and rotations by 90 degrees.
+/// `ln F = 2 artanh(Z)`, `Z = (F - I)(F + I)^-1` (Higham 2008, eq. 11.5). NaN if the series does
+/// not converge: for stretches below 1/100 or above 100, and for rotations by 90 degrees.
 pub(super) fn logarithm<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
     let nothing = Matrix::from_element(f64::NAN);
     let Some(inverse) = (f + Matrix::identity()).try_inverse() else { return nothing };
@@ -122,9 +123,9 @@ impl<const D: usize> Material<D> for LinearElastic {
         Some(Box::new(RatePlaneStress::new(self.lambda, self.mu, plate)))
     }
 
-    /// In 1-D the rate integrates to `sigma = M eps`, `eps = ln J`, and its work per reference
-    /// volume, of `J sigma d eps`, to `M (eps e^eps - e^eps + 1)`, evaluated with the eps of the
-    /// stress. In 2-D and 3-D the work depends on the path: there is no energy.
+    /// In 1-D the rate integrates to `sigma = M eps` with `eps = ln J`. Its work per reference
+    /// volume, the integral of `J sigma d eps`, is `M (eps e^eps - e^eps + 1)`, evaluated with the
+    /// eps of the stress. In 2-D and 3-D the work depends on the path, so there is no energy.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let modulus = self.lambda + 2.0 * self.mu;
         let stored = |(sigma, vol0): (&Matrix<D>, &f64)| {
@@ -193,7 +194,7 @@ mod tests {
         assert_relative_eq!(bar.sigma[0][(0, 0)], young * libm::log(1.1), max_relative = 1e-6);
     }
 
-    /// Against the rate along `x = X + s u`, taken in steps about their middles.
+    /// Compares with the rate along `x = X + s u`, integrated by the midpoint rule.
     #[test]
     fn a_deformed_start_has_the_stress_of_the_straight_path() {
         let (law, steps) = (LinearElastic::new(100.0, 0.3), 2000);
@@ -209,7 +210,8 @@ mod tests {
         assert_relative_eq!(started(law, f).sigma[0], pulled.sigma[0], epsilon = 1e-5);
     }
 
-    /// `E ln F` in 1-D, without cancellation for small strain; NaN for a rotation by 180 degrees.
+    /// Expects `E ln F` in 1-D, without cancellation for small strain, and NaN for a rotation by
+    /// 180 degrees.
     #[test]
     fn a_deformed_start_has_the_stress_of_the_logarithm() {
         let law = LinearElastic::new(100.0, 0.0);
@@ -228,7 +230,7 @@ mod tests {
         body
     }
 
-    /// `W(J) = M (J ln J - J + 1)`, whose derivative is sigma; no energy in 2-D.
+    /// Expects `W(J) = M (J ln J - J + 1)`, whose derivative is sigma, and no energy in 2-D.
     #[test]
     fn a_bar_stores_the_work_of_its_stress() {
         for stretch in [1.2, 0.7, 1.01, 1.0 - 1e-9] {
@@ -263,7 +265,7 @@ mod tests {
         }
     }
 
-    /// An objective law would rotate the stress; this one does not.
+    /// An objective law would rotate the stress; this law does not.
     #[test]
     fn spin_does_not_turn_the_stress() {
         let mut solid = one_particle::<2>();

@@ -1,12 +1,12 @@
-//! An inviscid fluid of linear compressibility, the medium of linear acoustics.
+//! An inviscid fluid with linear compressibility: the medium of linear acoustics.
 //!
-//! `sigma = -p I`, `p = -K (J - 1)`, from the energy `K/2 (J - 1)^2`: in uniaxial strain
-//! `P = K u_X` for any amplitude, so that plane waves of finite strain keep their shape (Landau &
-//! Lifshitz 1987, section 101: waves steepen because of the curvature of p over the specific
-//! volume). To first order in the strain it is `p = c^2 (rho - rho0)`, `c^2 = K/rho0`. The
-//! resistance to a collapse, J = 0, is finite: p = K.
+//! `sigma = -p I`, `p = -K (J - 1)`, from the energy `K/2 (J - 1)^2`. In uniaxial strain
+//! `P = K u_X` for any amplitude, so plane waves of finite strain retain their shape. (Waves
+//! steepen because of the curvature of p over the specific volume: Landau & Lifshitz 1987, section
+//! 101.) To first order in the strain, `p = c^2 (rho - rho0)`, `c^2 = K/rho0`. The resistance to a
+//! collapse, J = 0, is finite: p = K.
 //!
-//! The stress depends on J only, which is integrated, `J *= det(I + grad v dt)`.
+//! The stress depends only on J, which is integrated as `J *= det(I + grad v dt)`.
 
 use super::contract::{Material, MaterialProperties};
 use super::stress_update::{StressBlock, StressUpdate};
@@ -14,14 +14,14 @@ use crate::mpm::foundation::algebra::{Matrix, det};
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::Failure;
 
-/// An inviscid fluid, linearly compressible.
+/// An inviscid, linearly compressible fluid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearFluid {
     bulk: f64,
 }
 
 impl LinearFluid {
-    /// From the bulk modulus (Pa).
+    /// Creates the law from the bulk modulus (Pa).
     pub fn new(bulk: f64) -> Self {
         Self { bulk }
     }

@@ -1,5 +1,5 @@
-//! Materials: the family. A member is one file and one line of `members`; a parameter that no other
-//! material has is one line at the end of this file.
+//! The family of materials. A member is one file and one line of `members`. A parameter that no
+//! other material has is one line at the end of this file.
 
 mod axisymmetric;
 #[cfg(test)]
@@ -37,8 +37,8 @@ pub use tangent::StressResponse;
 each_material!(materials);
 
 impl MaterialPlan {
-    /// The material of a body in this state across its plane; `None` if the law is not implemented
-    /// there.
+    /// Creates the material for a body with this out-of-plane state; `None` if the law does not
+    /// support this state.
     pub fn in_plane<const D: usize>(&self, plane: PlaneState) -> Option<Box<dyn Material<D>>> {
         match plane {
             PlaneState::Strain => Some(self.build()),
@@ -53,16 +53,16 @@ impl MaterialPlan {
     }
 }
 
-/// A parameter that a suite gives to a material.
+/// A material parameter in a suite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MaterialParameter {
-    /// Its name in messages: `Young's modulus`.
+    /// Name in messages: `Young's modulus`.
     pub what: &'static str,
-    /// Its letter in reports: `E`.
+    /// Symbol in reports: `E`.
     pub symbol: &'static str,
-    /// Its unit, empty for a ratio.
+    /// Unit; empty for a ratio.
     pub unit: &'static str,
-    /// Its valid values.
+    /// Valid values.
     pub range: Range,
 }
 
@@ -75,7 +75,7 @@ pub enum Range {
     NotNegative,
     /// Above one.
     AboveOne,
-    /// Above -1 and below 1/2: the range in which an isotropic solid is stable and compressible.
+    /// Above -1 and below 1/2: an isotropic solid is then stable and compressible.
     PoissonsRatio,
     /// Zero or above, and below 90 (degrees).
     Angle,

@@ -1,7 +1,7 @@
-//! Neo-Hookean elasticity, a law of the whole deformation.
+//! Neo-Hookean elasticity, a law of the total deformation.
 //!
 //! `sigma = (lambda ln(J)/J) I + (mu/J) (F F^T - I)` (Wallstedt & Guilkey 2008; Kamojjala et al.
-//! 2015). Only F is integrated in time. In 2-D and 1-D the strain is plane and uniaxial.
+//! 2015). Only F is integrated in time. In 2-D the strain is plane, and in 1-D uniaxial.
 
 use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{set_stress_by_batch, stored_energy};
@@ -21,7 +21,7 @@ pub struct NeoHookean {
 }
 
 impl NeoHookean {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
         Self { lambda, mu }
@@ -37,8 +37,8 @@ impl NeoHookean {
         isotropic(f, self.factors(j, libm::log(j)))
     }
 
-    /// `W = lambda/2 ln(J)^2 + mu/2 (F : F - D - 2 ln J)` (J/m^D), of `H = F - I`: where strains
-    /// are small, F : F - D and 2 ln J are nearly the same.
+    /// Energy density `W = lambda/2 ln(J)^2 + mu/2 (F : F - D - 2 ln J)` (J/m^D), computed from
+    /// `H = F - I`. For small strains, F : F - D and 2 ln J are nearly equal.
     fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
         let h = f - Matrix::identity();
         let log = log_det(&h);
@@ -67,12 +67,12 @@ fn log_det<const D: usize>(h: &Matrix<D>) -> f64 {
     libm::log1p(trace + minors + if D == 3 { det(h) } else { 0.0 })
 }
 
-/// Maximum number of Newton steps for the stretch across a plate.
+/// Maximum number of Newton steps for the out-of-plane stretch of a plate.
 const MOST_STEPS: usize = 100;
 
 impl FreeAcross for NeoHookean {
-    /// The root of `lambda ln(area s) + mu (s^2 - 1)` by Newton's method in ln s, which converges
-    /// from above; NaN if it does not converge, as for nu < 0 under extreme compression.
+    /// Root of `lambda ln(area s) + mu (s^2 - 1)` by Newton's method in ln s, which converges from
+    /// above. NaN if the method does not converge, as for nu < 0 under extreme compression.
     fn stretch(&self, area: f64) -> f64 {
         let (Self { lambda, mu }, log) = (*self, libm::log(area));
         let mut above = -thinning(lambda, mu) * log;
@@ -186,8 +186,8 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// The quadratic form that all elastic laws share, at strains whose squares are far below
-    /// rounding.
+    /// For strains whose squares are far below rounding, all elastic laws have the same quadratic
+    /// form.
     #[test]
     fn tiny_strains_store_an_energy_too() {
         let NeoHookean { lambda, mu } = NeoHookean::new(100.0, 0.3);

@@ -1,13 +1,13 @@
 //! A weakly compressible Newtonian fluid.
 //!
 //! `sigma = -p I + 2 eta dev(D)`, `D = sym(grad v)`, with Tait's equation of state in Cole's form,
-//! `p = K/7 (J^-7 - 1)` (Cole 1948; Monaghan 1994): K is the bulk modulus at rest, and the
-//! resistance to compression grows without bound, so that no particle collapses. The deviator is
-//! three-dimensional for any dimension of the scene: a flow in 2-D or 1-D also has the volumetric
-//! part `tr(D)/3` along each axis.
+//! `p = K/7 (J^-7 - 1)` (Cole 1948; Monaghan 1994). K is the bulk modulus at rest. The resistance
+//! to compression has no upper limit, so no particle collapses. The deviator is three-dimensional
+//! in any dimension of the scene: a flow in 2-D or 1-D also has the volumetric part `tr(D)/3` along
+//! each axis.
 //!
-//! The pressure depends on J only, which is integrated, `J *= det(I + grad v dt)`. F is not stored:
-//! it grows without limit in a flow.
+//! The pressure depends only on J, which is integrated as `J *= det(I + grad v dt)`. F is not
+//! stored, because it grows without limit in a flow.
 
 use super::contract::{Material, MaterialProperties};
 use super::stress_update::{StressBlock, StressUpdate};
@@ -15,7 +15,7 @@ use crate::mpm::foundation::algebra::{Matrix, det};
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::Failure;
 
-/// A viscous fluid, weakly compressible.
+/// A weakly compressible viscous fluid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Newtonian {
     bulk: f64,
@@ -23,7 +23,7 @@ pub struct Newtonian {
 }
 
 impl Newtonian {
-    /// From the bulk modulus at rest (Pa) and the dynamic viscosity (Pa s).
+    /// Creates the law from the bulk modulus at rest (Pa) and the dynamic viscosity (Pa s).
     pub fn new(bulk: f64, viscosity: f64) -> Self {
         Self { bulk, viscosity }
     }
@@ -71,7 +71,7 @@ impl<const D: usize> Material<D> for Newtonian {
         true
     }
 
-    /// Energy of the pressure, with the density `K/7 (J^-6/6 + J - 7/6)`.
+    /// Energy of the pressure, with density `K/7 (J^-6/6 + J - 7/6)`.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let density = |j: f64| {
             let cube = 1.0 / (j * j * j);

@@ -1,7 +1,7 @@
-//! Plates in plane stress: laws whose stretch across the plane is that at which sigma_33 = 0.
+//! Plates in plane stress: the out-of-plane stretch is determined by sigma_33 = 0.
 //!
-//! The volume of a particle is `V = J V0` with the J of all three axes, so that the forces in a
-//! plate are those of its present thickness.
+//! The volume of a particle is `V = J V0` with J over all three axes, so the forces in a plate
+//! account for its current thickness.
 
 use super::contract::Material;
 use super::stress_update::{StressBlock, StressUpdate};
@@ -9,19 +9,19 @@ use crate::mpm::foundation::algebra::{Matrix, det};
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::Failure;
 
-/// A law of the whole deformation that is known in plane stress.
+/// A law of the total deformation with an implementation in plane stress.
 pub(super) trait FreeAcross: Send + Sync {
-    /// F_33 of a plate whose F in the plane has the determinant `area`.
+    /// F_33 of a plate whose in-plane F has the determinant `area`.
     fn stretch(&self, area: f64) -> f64;
 
-    /// sigma (Pa) in the plane, with the `j` of all three axes.
+    /// In-plane sigma (Pa), with `j` over all three axes.
     fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D>;
 
-    /// Stored energy (J/m3), with the stretch across.
+    /// Stored energy (J/m3) for the out-of-plane stretch `across`.
     fn density<const D: usize>(&self, f: &Matrix<D>, across: f64) -> f64;
 }
 
-/// A plate of a law of the whole deformation.
+/// A plate with a law of the total deformation.
 pub(super) struct PlaneStress<L>(pub(super) L);
 
 impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
@@ -44,7 +44,7 @@ impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
             let results = volumes.zip(sigma.iter_mut());
             for (f, (((vol, vol0), across), sigma)) in def_grad.iter().zip(results) {
                 let area = det(f);
-                // The solver reports an inverted particle by its volume.
+                // The solver detects an inverted particle by its volume.
                 *across = if area > 0.0 { self.0.stretch(area) } else { 1.0 };
                 let j = area * *across;
                 *vol = j * vol0;
@@ -54,27 +54,28 @@ impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
     }
 }
 
-/// `nu/(1 - nu)`: minus the logarithmic strain across the plate over that of its area.
+/// `nu/(1 - nu)`: minus the out-of-plane logarithmic strain divided by the logarithmic area strain.
 pub(super) fn thinning(lambda: f64, mu: f64) -> f64 {
     lambda / (lambda + 2.0 * mu)
 }
 
-/// First Lame parameter (Pa) of a plate, `2 lambda mu/(lambda + 2 mu)`: lambda as the strains in
-/// the plane alone have it (Timoshenko & Goodier 1970, section 16).
+/// First Lame parameter (Pa) of a plate, `2 lambda mu/(lambda + 2 mu)`, which multiplies the
+/// in-plane strains alone (Timoshenko & Goodier 1970, section 16).
 pub(super) fn lambda_of_plate(lambda: f64, mu: f64) -> f64 {
     2.0 * mu * thinning(lambda, mu)
 }
 
-/// A plate of a law in rate form, `D_33 = -nu/(1 - nu) (D_11 + D_22)`.
+/// A plate with a law in rate form, `D_33 = -nu/(1 - nu) (D_11 + D_22)`.
 pub(super) struct RatePlaneStress<L> {
-    /// The law of the strains in the plane alone.
+    /// The law for the in-plane strains alone.
     plane: L,
     /// `nu/(1 - nu)`.
     thinning: f64,
 }
 
 impl<L> RatePlaneStress<L> {
-    /// From the law that `with_lambda` makes of another first Lame parameter (Pa).
+    /// Creates a plate from the law that `with_lambda` returns for another first Lame parameter
+    /// (Pa).
     pub(super) fn new(lambda: f64, mu: f64, with_lambda: impl Fn(f64) -> L) -> Self {
         Self { plane: with_lambda(lambda_of_plate(lambda, mu)), thinning: thinning(lambda, mu) }
     }
@@ -127,8 +128,8 @@ mod tests {
         plates
     }
 
-    /// The law in 3-D, with the stretch across the plate, gives the stress of the plate and zero
-    /// across it.
+    /// With the out-of-plane stretch of the plate, the law in 3-D gives the stress of the plate and
+    /// zero out-of-plane stress.
     #[test]
     fn a_plate_is_a_body_that_is_free_across() {
         for (mut plate, mut space) in plates() {

@@ -1,14 +1,14 @@
 //! Elastoplasticity at finite strain: Hencky elasticity and a return to the yield surface in
 //! logarithmic strain.
 //!
-//! `F = Fe Fp`, Kirchhoff stress `tau = J sigma = K tr(eps) I + 2 mu dev(eps)` of the elastic
-//! strain `eps = ln(be)/2` (Simo 1992; de Souza Neto, Peric & Owen 2008, chapter 14). With the
-//! exponential map, the return in `eps` is that of small strain, along the axes of the trial
-//! strain: a yield surface needs principal values only. The plastic flow is stored as `Cp^-1` of
-//! `be = F Cp^-1 F^T`. The trial state follows from F alone, so that a body that starts deformed
-//! needs only its F, and an elastic state does not drift.
+//! The split is `F = Fe Fp`. The Kirchhoff stress is `tau = J sigma = K tr(eps) I + 2 mu dev(eps)`
+//! with the elastic strain `eps = ln(be)/2` (Simo 1992; de Souza Neto, Peric & Owen 2008, chapter
+//! 14). With the exponential map, the return in `eps` has the same form as in small strain, along
+//! the axes of the trial strain. A yield surface is therefore a function of principal values. The
+//! plastic flow is stored as `Cp^-1` in `be = F Cp^-1 F^T`. The trial state is a function of F
+//! alone, so a body that starts deformed needs only its F, and an elastic state does not drift.
 //!
-//! Plane and uniaxial strain have elastic strain out of the plane: the state is 3-D in any
+//! Plane and uniaxial strain have out-of-plane elastic strain, so the state is 3-D in any
 //! dimension.
 
 use super::contract::{Contradiction, Material, MaterialProperties};
@@ -32,7 +32,7 @@ pub struct LogElasticity {
 }
 
 impl LogElasticity {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// Computes the moduli from Young's modulus (Pa) and Poisson's ratio.
     pub(super) fn new(young: f64, poisson: f64) -> Self {
         let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
         Self { lambda, bulk: lambda + 2.0 / 3.0 * mu, mu }
@@ -43,7 +43,7 @@ impl LogElasticity {
         strain.deviator.map(|eps| 3.0 * self.bulk * strain.mean + 2.0 * self.mu * eps)
     }
 
-    /// Derivatives of the principal Kirchhoff stresses by the principal strains (Pa).
+    /// Derivatives of the principal Kirchhoff stresses with respect to the principal strains (Pa).
     pub(super) fn modulus(&self) -> Matrix<3> {
         isotropic_modulus(self.lambda, self.mu)
     }
@@ -55,7 +55,7 @@ impl LogElasticity {
     }
 }
 
-/// Principal values of an elastic logarithmic strain: their mean, and the deviations from it.
+/// Principal values of an elastic logarithmic strain: the mean, and the deviations from the mean.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrincipalStrain {
     pub(super) mean: f64,
@@ -76,9 +76,9 @@ impl PrincipalStrain {
     }
 }
 
-/// Derivatives of `mean 1 + length n` by the strains, for the direction `n` of the deviator of the
-/// strain: those of the mean and of the length are given as rows. The direction turns by
-/// `(I - 1 (x) 1/3 - n (x) n) deps / |dev eps|`.
+/// Derivatives of `mean 1 + length n` with respect to the strains, where `n` is the direction of
+/// the strain deviator. The derivatives of the mean and of the length are given as rows. The
+/// direction rotates by `(I - 1 (x) 1/3 - n (x) n) deps / |dev eps|`.
 pub(super) fn modulus_of_invariants(
     strain: &PrincipalStrain,
     mean_slope: &Vector<3>,
@@ -94,25 +94,25 @@ pub(super) fn modulus_of_invariants(
 
 /// A yield surface with its flow rule.
 pub trait YieldSurface: Send + Sync {
-    /// The elasticity inside the surface.
+    /// Elasticity inside the surface.
     fn elasticity(&self) -> &LogElasticity;
 
-    /// A parameter that contradicts another one.
+    /// A parameter that contradicts another one, if any.
     fn contradiction(&self) -> Option<Contradiction> {
         None
     }
 
-    /// The elastic strain after the return to the surface from a trial strain, and the plastic
-    /// strain that the return adds to the accumulated one, `flowed`; `None` if the trial state is
-    /// inside.
+    /// Elastic strain after the return to the surface from a trial strain, and the plastic strain
+    /// that the return adds to the accumulated plastic strain `flowed`. `None` if the trial state
+    /// is inside the surface.
     fn return_from(&self, trial: &PrincipalStrain, flowed: f64) -> Option<(PrincipalStrain, f64)>;
 
-    /// Derivatives of the principal Kirchhoff stresses after the return (rows) by the principal
-    /// trial strains (Pa): the consistent tangent of [`return_from`](Self::return_from). `None` if
-    /// the trial state is inside.
+    /// Derivatives of the principal Kirchhoff stresses after the return (rows) with respect to the
+    /// principal trial strains (Pa): the consistent tangent of [`return_from`](Self::return_from).
+    /// `None` if the trial state is inside the surface.
     fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>>;
 
-    /// The closed form of the principal Kirchhoff stresses (Pa) in the plane at the strain
+    /// Closed form of the principal Kirchhoff stresses (Pa) in the plane at the strain
     /// `(e, -e, 0)`, beyond yield.
     #[cfg(test)]
     fn isochoric(&self, e: f64) -> [f64; 2];
@@ -122,7 +122,7 @@ pub trait YieldSurface: Send + Sync {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElastoPlastic<S> {
     pub(super) surface: S,
-    /// One for each particle, from the first step on.
+    /// Plastic state of each particle; empty before the first step.
     flowed: Vec<Flowed>,
 }
 
@@ -135,7 +135,7 @@ struct Flowed {
     strain: f64,
 }
 
-/// The plastic strain alone.
+/// Only the accumulated plastic strain is written.
 impl Entry for Flowed {
     fn write(&self, numbers: &mut Vec<f64>) {
         numbers.push(self.strain);
@@ -164,13 +164,13 @@ impl Memory for Flowed {
 }
 
 impl<S: YieldSurface> ElastoPlastic<S> {
-    /// A body that has not flowed.
+    /// Creates a law without initial plastic flow.
     pub(super) fn with_surface(surface: S) -> Self {
         Self { surface, flowed: Vec::new() }
     }
 
-    /// The Kirchhoff stress at F after the return, and the plastic state then, from the trial
-    /// strain along its axes.
+    /// Kirchhoff stress at F and plastic state after the return, from the trial strain along its
+    /// axes.
     fn kirchhoff(
         &self,
         f: &Matrix<3>,
@@ -184,7 +184,7 @@ impl<S: YieldSurface> ElastoPlastic<S> {
             return (stress(&trial), before);
         };
         let squares = elastic.deviator.map(|eps| libm::exp(2.0 * (elastic.mean + eps)));
-        // An F without inverse ends the run for its volume.
+        // If F has no inverse, the invalid volume ends the run.
         let back = f.try_inverse().unwrap_or(*f);
         let inverse_metric = back * assembled(&squares, axes) * back.transpose();
         (stress(&elastic), Flowed { inverse_metric, strain: before.strain + flow })
@@ -209,7 +209,8 @@ impl<S: YieldSurface> MaterialProperties for ElastoPlastic<S> {
         Ok(())
     }
 
-    /// F-bar of elastoplasticity: trial strains of Fbar (de Souza Neto et al. 1996, IJSS 33).
+    /// F-bar of elastoplasticity: trial strains are computed from Fbar (de Souza Neto et al. 1996,
+    /// IJSS 33).
     fn takes_averaged_volume(&self) -> Result<(), &'static str> {
         Ok(())
     }
@@ -282,7 +283,7 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
     }
 }
 
-/// Trial strains of a batch of particles, `ln(be)/2` with `be = F Cp^-1 F^T`, along their axes.
+/// Trial strains of a batch of particles along their axes, `ln(be)/2` with `be = F Cp^-1 F^T`.
 fn trial<const D: usize>(
     def_grad: &[Matrix<D>],
     flowed: &[Flowed],
@@ -305,7 +306,7 @@ fn trial<const D: usize>(
 
 #[cfg(test)]
 impl<S: YieldSurface> super::contract::ClosedForms for ElastoPlastic<S> {
-    /// The axes of simple shear stretch by exp(e) and exp(-e).
+    /// The principal stretches of simple shear are exp(e) and exp(-e).
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let e = libm::asinh(0.5 * gamma);
         let [first, second] = self.surface.isochoric(e);
@@ -325,7 +326,7 @@ impl<S: YieldSurface> super::contract::ClosedForms for ElastoPlastic<S> {
     }
 }
 
-/// Paths of strain with fixed axes, for tests.
+/// Strain paths with fixed axes, for tests.
 #[cfg(test)]
 pub(super) mod path {
     use super::super::MaterialPlan;
@@ -333,14 +334,15 @@ pub(super) mod path {
     use crate::mpm::foundation::algebra::{Matrix, Vector, det};
     use approx::assert_relative_eq;
 
-    /// Young's modulus (Pa) and Poisson's ratio from the bulk and the shear modulus (Pa).
+    /// Young's modulus (Pa) and Poisson's ratio from the bulk and shear moduli (Pa).
     pub(in super::super) fn isotropic(bulk: f64, mu: f64) -> (f64, f64) {
         let young = 9.0 * bulk * mu / (3.0 * bulk + mu);
         (young, (3.0 * bulk - 2.0 * mu) / (2.0 * (3.0 * bulk + mu)))
     }
 
     /// Asserts the principal Kirchhoff stresses (Pa) at the end of a path through these principal
-    /// logarithmic strains, in all dimensions that contain the path, and with the axes exchanged.
+    /// logarithmic strains. Tests all dimensions that contain the path, and permutations of the
+    /// axes.
     pub(in super::super) fn principal(plan: MaterialPlan, path: &[[f64; 3]], expected: [f64; 3]) {
         for axes in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2]] {
             let turned = |values: &[f64; 3]| axes.map(|axis| values[axis]);

@@ -1,12 +1,12 @@
 //! A polytropic gas, `sigma = -p I`, `p = K rho^g`, with the energy `p J/(g - 1)` per unit of
 //! reference volume (Landau & Lifshitz 1987, section 83, with K constant over the body).
 //!
-//! The pressure is a function of the present density `rho = m/V`, the mass of a particle over its
-//! volume. Each particle therefore has the law of its own reference density `m/V0`, which may vary
-//! over the body. The gas has a pressure at J = 1, and none in the limit of infinite expansion,
-//! where its energy is zero.
+//! The pressure is a function of the current density `rho = m/V`, the particle mass divided by the
+//! particle volume. Each particle therefore has its own reference density `m/V0`, which may vary
+//! over the body. The gas has a pressure at J = 1. In the limit of infinite expansion, pressure and
+//! energy are zero.
 //!
-//! The volume is integrated, `J *= det(I + grad v dt)`. F is not stored.
+//! The volume is integrated as `J *= det(I + grad v dt)`. F is not stored.
 
 use super::contract::{Material, MaterialProperties};
 use super::stress_update::{StressBlock, StressUpdate};
@@ -22,12 +22,13 @@ pub struct Polytropic {
 }
 
 impl Polytropic {
-    /// From the stiffness K (Pa (m3/kg)^g) and the exponent g, which is above one.
+    /// Creates the law from the stiffness K (Pa (m3/kg)^g) and the exponent g, which must be above
+    /// one.
     pub fn new(stiffness: f64, exponent: f64) -> Self {
         Self { stiffness, exponent }
     }
 
-    /// The pressure (Pa) at the present density `density` (kg/m3).
+    /// Pressure (Pa) at the current density `density` (kg/m3).
     fn pressure(&self, density: f64) -> f64 {
         self.stiffness * libm::pow(density, self.exponent)
     }
@@ -38,7 +39,7 @@ impl MaterialProperties for Polytropic {
         self.exponent * self.pressure(density)
     }
 
-    /// Finite without density too, where the modulus over the density is not a number.
+    /// Also finite at zero density, where the modulus divided by the density is NaN.
     fn wave_speed(&self, density: f64) -> f64 {
         (self.exponent * self.stiffness * libm::pow(density, self.exponent - 1.0)).sqrt()
     }
@@ -128,7 +129,7 @@ mod tests {
         row
     }
 
-    /// p = 3 rho^2 with rho = 0.5, 2 and 0 kg/m3; after a stretch of 2, a quarter.
+    /// p = 3 rho^2 with rho = 0.5, 2 and 0 kg/m3; a quarter of this after a stretch of 2.
     #[test]
     fn each_particle_has_the_pressure_of_its_own_density() {
         let (mut gas, mut row) = (Polytropic::new(3.0, 2.0), row());

@@ -1,8 +1,8 @@
-//! A law with a stress that its body has in the reference configuration.
+//! A law with an initial stress in the reference configuration.
 //!
 //! If the law is a function of F, the initial stress S0 is an additional second Piola-Kirchhoff
-//! stress, `sigma = sigma_law(F) + F S0 F^T/J`: it rotates with the body, and derives from the
-//! energy `W_law + S0 : E`, `E = (F^T F - I)/2` (Merodio, Ogden & Rodriguez 2013, Int. J.
+//! stress, `sigma = sigma_law(F) + F S0 F^T/J`. This stress rotates with the body, and derives from
+//! the energy `W_law + S0 : E`, `E = (F^T F - I)/2` (Merodio, Ogden & Rodriguez 2013, Int. J.
 //! Non-Linear Mech. 56). A law in rate form starts from the Cauchy stress S0.
 
 use super::contract::Material;
@@ -19,8 +19,8 @@ pub struct Prestressed<const D: usize> {
 }
 
 impl<const D: usize> Prestressed<D> {
-    /// Adds the initial `stress` (Pa), one entry per particle, to `law` and sets it in `particles`,
-    /// which have not moved yet.
+    /// Adds the initial `stress` (Pa), one entry per particle, to `law`, and sets it in
+    /// `particles`, which must not have moved.
     pub fn new(
         law: Box<dyn Material<D>>,
         stress: Vec<Matrix<D>>,
@@ -31,7 +31,7 @@ impl<const D: usize> Prestressed<D> {
         Self { law, stress: if keeps { stress } else { Vec::new() } }
     }
 
-    /// Adds the part of S0 to stresses that the law has just made.
+    /// Adds the part of S0 to the stresses computed by the law.
     fn add(&self, particles: &mut Particles<D>) {
         let Particles { sigma, def_grad, vol, vol0, .. } = particles;
         let states = def_grad.iter().zip(vol.iter().zip(vol0.iter()));
@@ -62,13 +62,13 @@ impl<const D: usize> Material<D> for Prestressed<D> {
         self.law.checkpoint(checkpoint);
     }
 
-    /// `W_law + S0 : E`. A law in rate form takes its energy from a stress that is all its own.
+    /// Energy `W_law + S0 : E`. A law in rate form has no energy, because its stress includes S0.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         if !self.law.reads_deformation() {
             return None;
         }
         let stored = |((f, s0), vol0): ((&Matrix<D>, &Matrix<D>), &f64)| {
-            // E from H = F - I, without cancellation for small strains.
+            // E is computed from H = F - I, without cancellation for small strains.
             let h = f - Matrix::identity();
             vol0 * 0.5 * s0.dot(&(h + h.transpose() + h.transpose() * h))
         };
@@ -98,13 +98,13 @@ mod tests {
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-    /// A symmetric stress (Pa) of the size of the moduli, with shear.
+    /// A symmetric stress (Pa) with shear, of the magnitude of the moduli.
     fn initial<const D: usize>() -> Matrix<D> {
         let all = scattered::<D>(20.0, 0.8);
         all + all.transpose()
     }
 
-    /// One particle of each material that may start with a stress, and of its plates.
+    /// One particle of each material that may start with a stress, and of the corresponding plates.
     fn bodies<const D: usize>() -> Vec<(MaterialPlan, Prestressed<D>, Particles<D>)> {
         let admitted =
             every().into_iter().filter(|plan| plan.properties().starts_stressed().is_ok());
@@ -125,7 +125,8 @@ mod tests {
         admitted.flat_map(both).collect()
     }
 
-    /// P (Pa) of a start at F, `J sigma F^-T`, and the stored energy.
+    /// First Piola-Kirchhoff stress P (Pa), `J sigma F^-T`, and stored energy of a body that starts
+    /// at F.
     fn at<const D: usize>(f: &Matrix<D>) -> Vec<(MaterialPlan, Matrix<D>, Option<f64>)> {
         let started = |(plan, mut law, mut body): (MaterialPlan, Prestressed<D>, Particles<D>)| {
             body.deform(|_| (Vector::zeros(), *f));
@@ -152,7 +153,7 @@ mod tests {
         hold::<3>();
     }
 
-    /// `P : dF = d(W_law + S0 : E)`.
+    /// Tests `P : dF = d(W_law + S0 : E)`.
     #[test]
     fn stress_is_the_derivative_of_the_energy() {
         fn hold<const D: usize>() {
@@ -182,7 +183,7 @@ mod tests {
         }
     }
 
-    /// `dP/dF = M + S0` along S0 for a law of the total deformation; M for the rate form.
+    /// Along S0, `dP/dF` is `M + S0` for a law of the total deformation, and M for the rate form.
     #[test]
     fn small_waves_along_the_stress_have_their_modulus() {
         let [low, high] = [-1e-6, 1e-6].map(|eps| at(&Matrix::<1>::new(1.0 + eps)));
@@ -197,7 +198,7 @@ mod tests {
         }
     }
 
-    /// Its energy is computed from the stress without S0.
+    /// The energy of such a law would require the stress without S0.
     #[test]
     fn a_law_in_rate_form_has_no_energy() {
         let rate = at(&Matrix::<1>::new(1.1));

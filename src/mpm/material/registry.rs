@@ -1,7 +1,7 @@
-//! Registration: one line makes a material known by name, with the keys of its parameters.
+//! Registration: one line defines the name of a material and the keys of its parameters.
 
-/// Declares the family of materials, from the lines of [`each_material`](crate::members). The
-/// density, which every material has and which laws take from the masses, is added to the keys.
+/// Declares the family of materials from the lines of [`each_material`](crate::members). The key of
+/// the density is added to the keys of every material; laws compute the density from the masses.
 macro_rules! materials {
     ($($name:literal => $file:ident::$member:ident {
         $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?
@@ -36,7 +36,7 @@ macro_rules! materials {
             )+
         }
 
-        /// A material, ready to be built: its name and its parameters.
+        /// A material that is ready to be built: its name and parameters.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum MaterialPlan {
             $(
@@ -51,18 +51,17 @@ macro_rules! materials {
         }
 
         impl<N> MaterialSpec<N> {
-            /// The name in suites and reports.
+            /// Name in suites and reports.
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$member { .. } => $name,)+
                 }
             }
 
-            /// The material, once `number` has evaluated every parameter, from its key and the
-            /// text of the suite.
+            /// Evaluates the suite text of every parameter with `number`, and returns the material.
             ///
             /// # Errors
-            /// The first that `number` returns.
+            /// The first error that `number` returns.
             pub fn numbers<E>(
                 &self,
                 mut number: impl FnMut(&'static str, &MaterialParameter, &N) -> Result<f64, E>,
@@ -75,7 +74,7 @@ macro_rules! materials {
                 }
             }
 
-            /// The reference density (kg/m3), a number or a formula of the coordinates.
+            /// Reference density (kg/m3), a number or a formula of the coordinates.
             pub fn density(&self) -> &N {
                 match self {
                     $(Self::$member { density, .. } => density,)+
@@ -84,21 +83,21 @@ macro_rules! materials {
         }
 
         impl MaterialPlan {
-            /// The name in suites and reports.
+            /// Name in suites and reports.
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$member { .. } => $name,)+
                 }
             }
 
-            /// The properties of the law.
+            /// Properties of the law.
             pub fn properties(&self) -> Box<dyn MaterialProperties> {
                 match *self {
                     $(Self::$member { $($field),* } => Box::new($member::new($($field),*)),)+
                 }
             }
 
-            /// The closed forms of the law.
+            /// Closed forms of the law.
             #[cfg(test)]
             fn closed_forms(&self) -> Box<dyn ClosedForms> {
                 match *self {
@@ -106,7 +105,7 @@ macro_rules! materials {
                 }
             }
 
-            /// Every parameter under its key in suites.
+            /// Every parameter with its key in suites.
             pub fn keyed_parameters(&self) -> Vec<(&'static str, f64)> {
                 match *self {
                     $(Self::$member { $($field),* } => {
@@ -115,27 +114,27 @@ macro_rules! materials {
                 }
             }
 
-            /// Value of the parameter with this key, if the material has it.
+            /// Value of the parameter with this key, if the material has such a parameter.
             pub fn parameter(&self, wanted: &str) -> Option<f64> {
                 let mut all = self.keyed_parameters().into_iter();
                 all.find(|(key, _)| *key == wanted).map(|(_, value)| value)
             }
 
-            /// Every parameter with its value, in the order of registration.
+            /// Every parameter with its value, in registration order.
             pub fn parameters(&self) -> Vec<(MaterialParameter, f64)> {
                 match self {
                     $(Self::$member { $($field),* } => vec![$(($parameter, *$field)),*],)+
                 }
             }
 
-            /// Builds the material for a body free of stress.
+            /// Builds the material for a stress-free body.
             pub fn build<const D: usize>(&self) -> Box<dyn Material<D>> {
                 match *self {
                     $(Self::$member { $($field),* } => Box::new($member::new($($field),*)),)+
                 }
             }
 
-            /// One of every registered material, for the law tests.
+            /// One instance of every registered material, for the law tests.
             pub fn every(value: impl Fn(&MaterialParameter) -> f64) -> Vec<Self> {
                 vec![$(Self::$member { $($field: value(&$parameter)),* }),+]
             }

@@ -1,4 +1,4 @@
-//! Rigid bodies at rest: no law, a body that neither deforms nor moves, in which heat may flow.
+//! Rigid bodies at rest. They neither deform nor move and have no law, but may conduct heat.
 
 use super::contract::{Material, MaterialProperties};
 use super::stress_update::StressUpdate;
@@ -10,7 +10,7 @@ use crate::mpm::foundation::algebra::Matrix;
 pub struct Rigid;
 
 impl Rigid {
-    /// Without parameters.
+    /// Creates the law, which has no parameters.
     #[allow(clippy::new_without_default)]
     pub fn new() -> Self {
         Self

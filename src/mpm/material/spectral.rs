@@ -1,22 +1,22 @@
-//! Eigenvalues and axes of a small symmetric matrix by Jacobi's rotations.
+//! Eigenvalues and axes of a small symmetric matrix by Jacobi rotations.
 //!
-//! Golub & Van Loan, *Matrix Computations* (4th ed., 2013), section 8.5. Only products, quotients
-//! and square roots in a fixed order: bit-identical everywhere. Equal eigenvalues are no special
-//! case, and those of a positive definite matrix have a small relative error (Demmel & Veselic
-//! 1992), as the logarithm of a small eigenvalue requires.
+//! Golub & Van Loan, *Matrix Computations* (4th ed., 2013), section 8.5. The algorithm uses only
+//! products, quotients and square roots in a fixed order, so results are bit-identical everywhere.
+//! Equal eigenvalues are no special case. The eigenvalues of a positive definite matrix have a
+//! small relative error (Demmel & Veselic 1992), as the logarithm of a small eigenvalue requires.
 //!
-//! Jacobi's rotations for a batch of particles: the operations of [`spectral`] for all of them at a
-//! time, without its branches, so that the compiler vectorises them. A test checks that the bits
+//! The batch version applies the operations of [`spectral`] to all particles of a batch at once.
+//! This version has no branches, so the compiler vectorises the loops. A test checks that the bits
 //! are equal.
 
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
 
-/// Maximum number of sweeps. A few suffice, as each sweep squares the off-diagonal entries; the
-/// limit ends the loop for NaN.
+/// Maximum number of sweeps. Each sweep squares the off-diagonal entries, so a few sweeps suffice.
+/// The limit ends the loop for NaN.
 const MOST_SWEEPS: usize = 12;
 
-/// Eigenvalues of the symmetric matrix `m`, and their axes as columns: `m = A diag(values) A^T`.
+/// Eigenvalues of the symmetric matrix `m`, and its axes as columns: `m = A diag(values) A^T`.
 pub(super) fn spectral<const D: usize>(m: &Matrix<D>) -> (Vector<D>, Matrix<D>) {
     let (mut m, mut axes) = (*m, Matrix::identity());
     for _ in 0..MOST_SWEEPS {
@@ -38,12 +38,13 @@ pub(super) fn assembled<const D: usize>(values: &Vector<D>, axes: &Matrix<D>) ->
     axes * Matrix::from_diagonal(values) * axes.transpose()
 }
 
-/// Half the logarithm, eigenvalue by eigenvalue: the logarithmic strain for those of F F^T.
+/// Half the logarithm of each eigenvalue: the logarithmic strain for eigenvalues of F F^T.
 pub(super) fn half_log<const D: usize>(values: &Vector<D>) -> Vector<D> {
     values.map(|value| 0.5 * libm::log(value))
 }
 
-/// Turns the axes p and q until they no longer couple; false if they do not.
+/// Rotates the axes p and q such that the entry (p, q) vanishes. Returns false if it is already
+/// negligible.
 fn rotate<const D: usize>(m: &mut Matrix<D>, axes: &mut Matrix<D>, p: usize, q: usize) -> bool {
     let (low, high, coupling) = (m[(p, p)], m[(q, q)], m[(p, q)]);
     if coupling * coupling <= f64::EPSILON * f64::EPSILON * (low * high).abs() {
@@ -68,12 +69,12 @@ fn rotate<const D: usize>(m: &mut Matrix<D>, axes: &mut Matrix<D>, p: usize, q: 
     true
 }
 
-/// One matrix for each particle of a batch.
+/// One matrix per particle of a batch.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm::material) struct MatrixBatch<const D: usize>([[F64Batch; D]; D]);
 
 impl<const D: usize> MatrixBatch<D> {
-    /// The identity for each particle.
+    /// Identity matrices for all particles.
     #[inline(always)]
     pub(in crate::mpm::material) fn identity() -> Self {
         let mut all = Self([[F64Batch::ZERO; D]; D]);
@@ -106,7 +107,7 @@ impl<const D: usize> MatrixBatch<D> {
     }
 }
 
-/// One vector for each particle of a batch.
+/// One vector per particle of a batch.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm::material) struct VectorBatch<const D: usize>(
     pub(in crate::mpm::material) [F64Batch; D],
@@ -131,7 +132,7 @@ impl<const D: usize> VectorBatch<D> {
         }
     }
 
-    /// `f` of every number.
+    /// Applies `f` to every number.
     #[inline(always)]
     pub(in crate::mpm::material) fn map(mut self, f: impl Fn(&F64Batch) -> F64Batch) -> Self {
         for i in 0..D {
@@ -165,7 +166,7 @@ pub(in crate::mpm::material) fn spectral_batch<const D: usize>(
     (VectorBatch(values), axes)
 }
 
-/// Half the logarithm of each: the logarithmic strain for an eigenvalue of F F^T.
+/// Half the logarithm of each number: the logarithmic strain for an eigenvalue of F F^T.
 #[inline(always)]
 pub(in crate::mpm::material) fn half_log_batch(values: &F64Batch) -> F64Batch {
     let mut strains = ln(values);
@@ -198,7 +199,8 @@ pub(in crate::mpm::material) fn assembled_batch<const D: usize>(
     all
 }
 
-/// Turns the axes p and q of each matrix until they no longer couple; whether any did.
+/// Rotates the axes p and q of each matrix such that the entry (p, q) vanishes. Returns whether any
+/// matrix was rotated.
 #[inline(always)]
 fn rotate_batch<const D: usize>(
     m: &mut MatrixBatch<D>,
@@ -247,7 +249,7 @@ fn rotate_batch<const D: usize>(
     turned != 0
 }
 
-/// Two columns of a row; p < q.
+/// Two columns of a row, with p < q.
 #[inline(always)]
 fn pair<const D: usize>(row: &mut [F64Batch; D], p: usize, q: usize) -> [&mut F64Batch; 2] {
     let (head, tail) = row.split_at_mut(q);
@@ -300,8 +302,8 @@ mod tests {
         }
     }
 
-    /// The smallest eigenvalue of `[[1, s], [s, 2 s^2]]` is about s^2, far below the rounding of
-    /// the largest: `(1 + 2 s^2 - sqrt(1 + 4 s^4))/2`.
+    /// The smallest eigenvalue of `[[1, s], [s, 2 s^2]]`, `(1 + 2 s^2 - sqrt(1 + 4 s^4))/2`, is
+    /// about s^2, far below the rounding error of the largest one.
     #[test]
     fn a_small_eigenvalue_is_accurate_relative_to_itself() {
         let s = 1e-9;
@@ -314,7 +316,7 @@ mod tests {
         assert!(spectral(&Matrix::<3>::from_element(f64::NAN)).0.iter().all(|v| v.is_nan()));
     }
 
-    /// Each particle has the bits that it has alone.
+    /// The results of a batch are bit-identical to the results of single particles.
     fn hold_batch<const D: usize>(given: &[Matrix<D>; BATCH]) {
         let mut m = MatrixBatch::identity();
         for (lane, given) in given.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! One update of the stresses of a body, which visits each particle once:
+//! One update of the stresses of a body, with one visit per particle:
 //!
 //! ```text
 //! threads   halves of the body, down to some thousands of particles
@@ -11,7 +11,7 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::vectorized;
 use crate::mpm::foundation::threads::{FEW, join};
 
-/// Particles of a block: 232 bytes each in 3-D.
+/// Number of particles in a block. A particle has 232 bytes in 3-D.
 const BLOCK: usize = 128;
 
 /// Update of the stresses of a body over a time step.
@@ -19,13 +19,13 @@ const BLOCK: usize = 128;
 pub struct StressUpdate<'a, const D: usize> {
     dt: f64,
     particles: &'a mut Particles<D>,
-    /// Whether F is still that of the start of the step.
+    /// Whether F still belongs to the start of the step.
     awaits_strain: bool,
-    /// The smallest J of the last visit, if it has found all J positive and all stresses finite.
+    /// The smallest J of the last visit, if all J were positive and all stresses finite.
     least_j: Option<f64>,
 }
 
-/// Columns of some particles, which a law reads and writes; columns that the body does not have are
+/// Columns of some particles that a law reads and writes. Columns that the body does not have are
 /// empty.
 #[derive(Debug)]
 pub struct StressBlock<'a, const D: usize> {
@@ -41,23 +41,23 @@ pub struct StressBlock<'a, const D: usize> {
     pub vol: &'a mut [f64],
     /// Cauchy stresses (Pa), which the law sets.
     pub sigma: &'a mut [Matrix<D>],
-    /// Stretches across the plane.
+    /// Out-of-plane stretches.
     pub across: &'a mut [f64],
-    /// Stresses across the plane (Pa).
+    /// Out-of-plane stresses (Pa).
     pub stress_across: &'a mut [f64],
 }
 
-/// Function of a law for one block of particles, with the state of the law for each.
+/// Function of a law for one block of particles, with the state of the law for each particle.
 type BlockLaw<'a, const D: usize, S> = dyn Fn(&mut StressBlock<'_, D>, &mut [S]) + Sync + 'a;
 
 impl<'a, const D: usize> StressUpdate<'a, D> {
-    /// An update over `dt` (s) of particles whose F is already that of the end of the step.
+    /// Creates an update over `dt` (s). F must already belong to the end of the step.
     pub fn new(dt: f64, particles: &'a mut Particles<D>) -> Self {
         Self { dt, particles, awaits_strain: false, least_j: None }
     }
 
-    /// An update over `dt` (s) of particles whose F is that of the start of the step. F is advanced
-    /// by the velocity gradients in the same visit as the law.
+    /// Creates an update over `dt` (s) for particles with F of the start of the step. The velocity
+    /// gradients advance F in the same visit as the law.
     pub(in crate::mpm) fn straining(dt: f64, particles: &'a mut Particles<D>) -> Self {
         Self { awaits_strain: true, ..Self::new(dt, particles) }
     }
@@ -72,7 +72,7 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
         self.particles.len()
     }
 
-    /// The whole body, with F of the end of the step.
+    /// All particles, with F at the end of the step.
     pub fn particles(&mut self) -> &mut Particles<D> {
         if std::mem::take(&mut self.awaits_strain) {
             strain_by(self.dt, &self.particles.grad_v, &mut self.particles.def_grad);
@@ -81,13 +81,13 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
         self.particles
     }
 
-    /// Calls `law` with all particles, block by block, on all threads.
+    /// Calls `law` for all particles, block by block, on all threads.
     pub fn by_block(&mut self, law: impl Fn(&mut StressBlock<'_, D>) + Sync) {
         self.by_block_with(&mut Vec::<()>::new(), &|block, _| law(block));
     }
 
-    /// Calls `law` with all particles, block by block, on all threads, and with its `state` of each
-    /// particle, which the first call creates.
+    /// Calls `law` for all particles, block by block, on all threads. `law` also receives its
+    /// `state` of each particle, which the first call creates.
     pub fn by_block_with<S: Clone + Default + Send>(
         &mut self,
         state: &mut Vec<S>,
@@ -98,8 +98,8 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
         self.least_j = visit(StressBlock::from_particles(self.particles), state, strain, law);
     }
 
-    /// The smallest J (infinity without particles); `None` unless every J is positive and finite
-    /// and all stresses are finite.
+    /// Smallest J (infinity without particles). `None` unless every J is positive and finite and
+    /// all stresses are finite.
     pub(in crate::mpm) fn least_j(mut self) -> Option<f64> {
         if self.least_j.is_none() {
             self.by_block(|_| {});
@@ -115,7 +115,7 @@ impl<'a, const D: usize> StressBlock<'a, D> {
         Self { def_grad, grad_v, mass, vol0, vol, sigma, across, stress_across }
     }
 
-    /// Splits off the first `count` particles, or all if there are fewer.
+    /// Splits off the first `count` particles, or all particles if there are fewer.
     fn take_first(&mut self, count: usize) -> Self {
         Self {
             def_grad: first_mut(&mut self.def_grad, count),
@@ -129,7 +129,7 @@ impl<'a, const D: usize> StressBlock<'a, D> {
         }
     }
 
-    /// The smallest J, if all are sound and so are the stresses.
+    /// Smallest J, if every J and all stresses are valid.
     fn least_j(&self) -> Option<f64> {
         let least = least_ratio(self.vol, self.vol0)?;
         let is_sound = all_finite(self.sigma) && self.stress_across.iter().all(|s| s.is_finite());
@@ -137,13 +137,13 @@ impl<'a, const D: usize> StressBlock<'a, D> {
     }
 }
 
-/// Splits off the first `count` entries of `column`, or all if there are fewer.
+/// Splits off the first `count` entries of `column`, or all entries if there are fewer.
 #[allow(clippy::mut_mut, reason = "what is taken is gone from the column")]
 fn first_mut<'a, T>(column: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     column.split_off_mut(..count.min(column.len())).unwrap_or_default()
 }
 
-/// Strains over the time `strain` (s), if any, and calls `law`, block by block. Returns the
+/// Advances F over the time `strain` (s), if given, and calls `law`, block by block. Returns the
 /// smallest J, see [`StressUpdate::least_j`].
 fn visit<S: Send, const D: usize>(
     mut body: StressBlock<'_, D>,
@@ -175,7 +175,7 @@ fn visit<S: Send, const D: usize>(
     least_j
 }
 
-/// `F <- (I + grad v dt) F`.
+/// Advances F: `F <- (I + grad v dt) F`.
 fn strain_by<const D: usize>(dt: f64, grad_v: &[Matrix<D>], def_grad: &mut [Matrix<D>]) {
     vectorized(
         #[inline(always)]
@@ -194,11 +194,11 @@ fn strain_by<const D: usize>(dt: f64, grad_v: &[Matrix<D>], def_grad: &mut [Matr
     );
 }
 
-/// Ratios computed together.
+/// Number of ratios that are computed together.
 const TOGETHER: usize = 4;
 
-/// The smallest `a / b`, if all are positive and finite; infinity for empty slices. The loop has no
-/// early exit, because failures are rare, and divides several numbers at a time.
+/// Smallest `a / b`, if all ratios are positive and finite; infinity for empty slices. The loop has
+/// no early exit, because failures are rare, and divides several numbers at a time.
 fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
     let (many_a, rest_a) = a.as_chunks::<TOGETHER>();
     let (many_b, rest_b) = b.as_chunks::<TOGETHER>();
@@ -209,7 +209,8 @@ fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
             for (a, b) in many_a.iter().zip(many_b) {
                 for k in 0..TOGETHER {
                     let ratio = a[k] / b[k];
-                    // Zero of a finite number; else not a number, for good.
+                    // Adds zero if the ratio is finite. Otherwise the sum becomes NaN and stays
+                    // NaN.
                     sound[k] += ratio * 0.0;
                     least[k] = if ratio < least[k] { ratio } else { least[k] };
                 }
@@ -242,7 +243,7 @@ mod tests {
         squares
     }
 
-    /// Each particle is strained and stressed as if it were alone.
+    /// Compares each particle with an update of this particle alone.
     #[rstest]
     fn blocks_on_threads_have_the_bits_of_single_particles(#[values(1, 3)] threads: usize) {
         let (total, dt) = (2 * FEW + 37, 0.5);
@@ -281,7 +282,7 @@ mod tests {
         }
     }
 
-    /// A hook that has changed the volume of a particle.
+    /// The test simulates a hook that changes the volume of a particle.
     #[test]
     fn who_asks_for_the_particles_has_them_strained_and_checked_again() {
         let mut body = squares(3);

@@ -1,10 +1,10 @@
 //! Kirchhoff stress of an isotropic law with its consistent tangent, for implicit solvers.
 //!
-//! The stress of such a law is a function of `b = F G F^T`, along the axes of `b`, with a constant
-//! `G` within a load step: the identity for an elastic law, the inverse plastic metric `Cp^-1` for
-//! an elastic-plastic one. With the principal values `b_A`, the logarithmic strains `ln(b_A)/2` and
-//! the stresses `tau_A`, a change of the deformation gradient by `dF = dh F` changes the stress,
-//! in components along the axes, by
+//! The stress of such a law is a function of `b = F G F^T` and has the axes of `b`. `G` is constant
+//! within a load step: it is the identity for an elastic law, and the inverse plastic metric
+//! `Cp^-1` for an elastic-plastic law. With the principal values `b_A`, the logarithmic strains
+//! `ln(b_A)/2` and the stresses `tau_A`, a change of the deformation gradient by `dF = dh F`
+//! changes the stress by (components along the axes)
 //!
 //! ```text
 //! d tau_AA = sum_B (d tau_A / d eps_B) dh_BB
@@ -17,12 +17,12 @@
 use super::spectral::{assembled, half_log, spectral};
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 
-/// Relative difference of two principal values below which the limit replaces the quotient: the
-/// limit has an error of the square of it, and the quotient loses as many digits.
+/// Relative difference of two principal values below which the limit replaces the quotient. The
+/// error of the limit is the square of this difference, and the quotient loses as many digits.
 const EQUAL: f64 = 1e-5;
 
-/// Kirchhoff stress of a particle, with its derivative by the deformation. The state is 3-D in any
-/// dimension, and `D` is that of the body.
+/// Kirchhoff stress of a particle, with its derivative with respect to the deformation. The state
+/// is 3-D in any dimension; `D` is the dimension of the body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StressResponse<const D: usize> {
     /// Kirchhoff stress `tau = J sigma` (Pa).
@@ -33,13 +33,14 @@ pub struct StressResponse<const D: usize> {
     axes: Matrix<3>,
     /// Principal Kirchhoff stresses (Pa).
     stresses: Vector<3>,
-    /// Derivatives of the principal stresses (rows) by the principal logarithmic strains (Pa).
+    /// Derivatives of the principal stresses (rows) with respect to the principal logarithmic
+    /// strains (Pa).
     modulus: Matrix<3>,
 }
 
 impl<const D: usize> StressResponse<D> {
-    /// The response of a law at `F` for the metric `G`. `principal` computes the principal stresses
-    /// (Pa) from the principal logarithmic strains, and their derivatives.
+    /// Response of a law at `F` for the metric `G`. `principal` computes the principal stresses
+    /// (Pa) and their derivatives from the principal logarithmic strains.
     pub(super) fn new(
         f: &Matrix<D>,
         metric: &Matrix<3>,
@@ -52,7 +53,7 @@ impl<const D: usize> StressResponse<D> {
         Self { kirchhoff, squares, axes, stresses, modulus }
     }
 
-    /// Change of the Kirchhoff stress (Pa) for a change `dF = dh F` of the deformation gradient.
+    /// Change of the Kirchhoff stress (Pa) due to a change `dF = dh F` of the deformation gradient.
     pub fn tangent(&self, dh: &Matrix<D>) -> Matrix<D> {
         let mut space = Matrix::<3>::zeros();
         space.fixed_view_mut::<D, D>(0, 0).copy_from(dh);
@@ -73,24 +74,24 @@ impl<const D: usize> StressResponse<D> {
         if difference.abs() > EQUAL * self.squares[a].max(self.squares[b]) {
             return (self.stresses[a] - self.stresses[b]) / difference;
         }
-        // The mean of the limits at both values has an error of the square of their difference.
+        // The mean of both limits has an error of second order in the difference of the values.
         let limit = |a, b| (self.modulus[(a, a)] - self.modulus[(a, b)]) / (2.0 * self.squares[a]);
         0.5 * (limit(a, b) + limit(b, a))
     }
 }
 
-/// F in three dimensions, without stretch along the missing axes.
+/// F in three dimensions, with unit stretch along the missing axes.
 pub(super) fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
     Matrix::from_fn(|i, k| if i < D && k < D { f[(i, k)] } else { f64::from(u8::from(i == k)) })
 }
 
-/// The components in the dimensions of the body.
+/// Components in the dimensions of the body.
 fn in_body<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
     Matrix::from_fn(|i, k| m[(i, k)])
 }
 
-/// The matrix `spherical 1 (x) 1 + 2 mu I` of moduli (Pa): `spherical` is Lamé's first constant in
-/// linear elasticity.
+/// The matrix `spherical 1 (x) 1 + 2 mu I` of moduli (Pa). In linear elasticity, `spherical` is the
+/// first Lamé parameter.
 pub(super) fn isotropic_modulus(spherical: f64, mu: f64) -> Matrix<3> {
     Matrix::from_fn(|a, b| if a == b { spherical + 2.0 * mu } else { spherical })
 }
@@ -108,8 +109,8 @@ mod tests {
         plan.properties().has_tangent().is_ok()
     }
 
-    /// The largest difference of the tangent from central differences, over its size, at `f` after
-    /// the deformation `before`.
+    /// Largest difference between the tangent and central differences, relative to the tangent, at
+    /// `f` after the deformation `before`.
     fn difference<const D: usize>(plan: MaterialPlan, before: &Matrix<D>, f: &Matrix<D>) -> f64 {
         let mut specimen = Specimen::<D>::new(plan);
         specimen.deform(before, SLOW);
@@ -121,7 +122,8 @@ mod tests {
             let mut dh = Matrix::<D>::zeros();
             dh[(k / D, k % D)] = 1.0;
             let stress = |step: f64| response(&((Matrix::identity() + dh * step) * f)).kirchhoff;
-            // Fourth order: the error of second order would be 1e-10 of the modulus at this step.
+            // Fourth order, because the error of a second-order difference would be 1e-10 of the
+            // modulus.
             let wide = (stress(2.0 * step) - stress(-2.0 * step)) / (4.0 * step);
             let narrow = (stress(step) - stress(-step)) / (2.0 * step);
             let expected = (narrow * 4.0 - wide) / 3.0;
@@ -135,7 +137,7 @@ mod tests {
     fn tangent_is_the_derivative<const D: usize>(plan: MaterialPlan) {
         let identity = Matrix::<D>::identity();
         for (size, seed) in [(0.0, 0.1), (1e-3, 0.4), (0.02, 1.3), (0.15, 2.9), (0.15, 4.2)] {
-            // The first size gives equal principal values: a pure compression.
+            // The first size gives equal principal values, for a pure compression.
             let f = identity * 0.97 + scattered::<D>(size, seed);
             let before = identity + scattered::<D>(0.5 * size, seed + 0.7);
             let error = difference(plan, &before, &f);
@@ -157,7 +159,7 @@ mod tests {
         assert_eq!(names, expected);
     }
 
-    /// On the way to yield, on a face, on edges and in the apex, with and without dilation.
+    /// Tests states before yield, on a face, on edges and at the apex, with and without dilation.
     #[test]
     fn tangent_of_mohr_coulomb_belongs_to_its_return() {
         let strains = [
@@ -186,7 +188,7 @@ mod tests {
         }
     }
 
-    /// The stress of the response is that of the update, and the state of the law is unchanged.
+    /// The response has the stress of the update, and does not change the state of the law.
     #[test]
     fn response_has_the_stress_of_the_update() {
         for plan in every().into_iter().filter(has_tangent) {

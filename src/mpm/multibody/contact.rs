@@ -1,21 +1,21 @@
-//! Contact with friction, at the nodes where bodies meet (Bardenhagen, Brackbill & Sulsky 2000,
-//! CMAME 187, section 3).
+//! Frictional contact at the interface nodes of bodies (Bardenhagen, Brackbill & Sulsky 2000, CMAME
+//! 187, section 3).
 //!
 //! Each body has its own velocity at such a node. Two bodies that approach, `(v_a - v_b) . n > 0`,
-//! get equal and opposite impulses. Then they have a common normal velocity, and also a common
-//! tangential velocity, unless this requires more than mu times the normal impulse, which is the
-//! limit of friction. Bodies that separate are not changed.
+//! receive equal and opposite impulses. These make the normal velocities equal. They also make the
+//! tangential velocities equal, unless this requires more than mu times the normal impulse, the
+//! friction limit. Bodies that separate are not changed.
 //!
-//! The normal is the direction of `grad ln m_a - grad ln m_b`. Bardenhagen et al. use that of each
-//! body's own mass; two such normals are not opposite, and impulses along them would not be either.
-//! With one normal for both, momentum is conserved to rounding, for any number of bodies, pair
-//! after pair. The logarithm is used because the mass field of a smooth basis oscillates inside a
-//! body: at a node with the last particles of one body and the inside of the other,
-//! `grad m_a - grad m_b` may have the wrong sign.
+//! The normal is the direction of `grad ln m_a - grad ln m_b`. Bardenhagen et al. use a separate
+//! normal from the mass of each body. Two such normals are not opposite, so the impulses would not
+//! be opposite either. With one normal for both bodies, momentum is conserved to rounding, for any
+//! number of bodies, with one pair processed after another. The logarithm is used because the mass
+//! field of a smooth basis oscillates inside a body. At a node near the last particles of one body
+//! and inside the other body, `grad m_a - grad m_b` may have the wrong sign.
 //!
-//! Impulses go into accelerations, `a_i = (v*_i - v_i)/dt`, so that particles are given all of
-//! them. Velocities that strain the bodies before or after are corrected likewise, for the strain
-//! alone.
+//! Impulses are added to accelerations, `a_i = (v*_i - v_i)/dt`, so that particles receive the
+//! complete impulses. Velocities that strain the bodies before or after are corrected in the same
+//! way, only for the strain.
 
 use super::coupling::{Coupling, InterfaceNodes};
 use crate::mpm::boundary::ContactState;
@@ -27,22 +27,22 @@ use crate::mpm::step::setup::Setup;
 use crate::mpm::step::solver::Solver;
 use crate::subject::{Checkpoint, Column};
 
-/// Contact between all bodies of a scene.
+/// Contact among all bodies of a scene.
 pub(in crate::mpm) struct Contact<const D: usize> {
     friction: f64,
     interface: InterfaceNodes,
-    /// For each body: `sum_p m_p grad N_i` (kg/m), up to date where bodies meet.
+    /// Mass gradient of each body, `sum_p m_p grad N_i` (kg/m), up to date at interface nodes.
     outwards: Vec<Vec<Vector<D>>>,
-    /// Every two bodies.
+    /// All pairs of bodies.
     pairs: Vec<[usize; 2]>,
-    /// For each node and every two bodies: the contact state after the last impulse.
+    /// Contact state after the last impulse, for each node and pair of bodies.
     states: Vec<ContactState>,
-    /// For each body: the mapped velocities (m/s), if strains are updated first.
+    /// Mapped velocities of each body (m/s), if strains are updated first.
     mapped: Vec<Vec<Vector<D>>>,
 }
 
 impl<const D: usize> Contact<D> {
-    /// Contact between `bodies` with a coefficient of friction.
+    /// Contact among `bodies` with a coefficient of friction.
     pub(in crate::mpm) fn new(bodies: &[Solver<D>], friction: f64) -> Self {
         let column = |body: &Solver<D>| vec![Vector::zeros(); body.grid().nodes()];
         let strained_first = |body: &&Solver<D>| body.setup.scheme == SchemeName::Usf;
@@ -59,7 +59,7 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// Finds the mass gradients of the bodies.
+    /// Computes the mass gradients of the bodies.
     fn find_normals(&mut self, bodies: &mut [Solver<D>]) {
         for (body, outwards) in bodies.iter_mut().zip(&mut self.outwards) {
             let Setup { kernel, particles, grid, .. } = &body.setup;
@@ -68,7 +68,7 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// Impulses against approach after `dt` (s), as accelerations of nodes.
+    /// Applies impulses to approaching bodies over `dt` (s), as nodal accelerations.
     fn push(&mut self, bodies: &mut [Solver<D>], dt: f64) {
         self.states.fill(ContactState::Separated);
         for k in 0..self.interface.nodes().len() {
@@ -88,7 +88,8 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// Contact law: contact state, and change of a velocity relative to the other body.
+    /// Contact law: returns the contact state, and the change of the velocity relative to the other
+    /// body.
     fn law(&self, relative: &Vector<D>, normal: &Vector<D>) -> (ContactState, Vector<D>) {
         let approach = relative.dot(normal);
         if !(approach > 0.0) {
@@ -102,8 +103,9 @@ impl<const D: usize> Contact<D> {
         (ContactState::Slip, -(normal * approach + along * (most / speed)))
     }
 
-    /// Applies the contact states of the last impulses to velocities that strain the bodies: equal
-    /// along the normal in contact, and along the surface too where bodies stick.
+    /// Applies the contact states of the last impulses to velocities that strain the bodies. Normal
+    /// velocities of bodies in contact become equal, and tangential velocities too if the bodies
+    /// stick.
     fn hold(&self, bodies: &mut [Solver<D>]) {
         for &i in self.interface.nodes() {
             for (pair, [a, b]) in self.pairs.iter().copied().enumerate() {
@@ -124,7 +126,7 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// Normal and reduced mass of a pair of bodies at node i, if both have mass there.
+    /// Normal and reduced mass of a pair of bodies at node i, if both bodies have mass there.
     fn meet_at(&self, bodies: &[Solver<D>], i: usize, pair: usize) -> Option<ContactPair<D>> {
         let [(m, out_of_one), (k, out_of_other)] =
             self.pairs[pair].map(|k| (bodies[k].setup.grid.mass[i], &self.outwards[k][i]));
@@ -138,11 +140,11 @@ impl<const D: usize> Contact<D> {
     }
 }
 
-/// Two bodies at a node.
+/// A pair of bodies at a node.
 struct ContactPair<const D: usize> {
-    /// Unit normal from the first body into the other.
+    /// Unit normal from the first body to the second.
     normal: Vector<D>,
-    /// Reduced mass (kg): impulse per change of the relative velocity.
+    /// Reduced mass (kg): impulse divided by the change of the relative velocity.
     mass: f64,
 }
 
@@ -166,7 +168,8 @@ impl<const D: usize> Coupling<D> for Contact<D> {
         ]
     }
 
-    /// The contact states of the last impulses, which velocities that strain follow.
+    /// Visits the contact states of the last impulses, which are applied to velocities that strain
+    /// the bodies.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.states[..]);
     }

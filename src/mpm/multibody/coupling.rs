@@ -1,5 +1,5 @@
-//! Couplings of bodies at their interface: the contract, the nodes to which more than one body
-//! gives mass, and one velocity field for all.
+//! Couplings of bodies at their interface: the trait, the nodes to which more than one body
+//! contributes mass, and the coupling by one velocity field.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
@@ -7,38 +7,38 @@ use crate::mpm::step::schedule::CouplingPoint;
 use crate::mpm::step::solver::Solver;
 use crate::subject::{Checkpoint, Column};
 
-/// Coupling of two or more bodies at the nodes of their interface.
+/// Coupling of two or more bodies at their interface nodes.
 pub(in crate::mpm) trait Coupling<const D: usize>: Send {
-    /// Name in suites, if it is an effect.
+    /// Name in suites, if the coupling is an effect.
     fn name(&self) -> Option<&'static str>;
 
-    /// Columns for nodes.
+    /// Columns with entries for nodes.
     fn columns(&self) -> Vec<Column<'_>>;
 
-    /// State between two steps.
+    /// Visits the state that persists between steps.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
-    /// Whether it reads velocities before they advance.
+    /// Whether the coupling reads velocities before they advance.
     fn reads_velocity(&self) -> bool;
 
-    /// Nodes at which bodies meet.
+    /// Interface nodes, to which more than one body contributes mass.
     fn nodes(&self) -> &[usize];
 
     /// Couples the bodies at one point of a step of `dt` (s).
     fn couple(&mut self, at: CouplingPoint, bodies: &mut [Solver<D>], dt: f64);
 }
 
-/// Nodes at which bodies meet, in their order.
+/// Nodes to which more than one body contributes mass, in ascending order.
 #[derive(Debug)]
 pub(in crate::mpm) struct InterfaceNodes(Vec<usize>);
 
 impl InterfaceNodes {
-    /// Capacity for all nodes of the grid that `bodies` share.
+    /// Empty list, with capacity for all nodes of the grid that `bodies` share.
     pub(in crate::mpm) fn new<const D: usize>(bodies: &[Solver<D>]) -> Self {
         Self(Vec::with_capacity(bodies.first().map_or(0, |body| body.grid().nodes())))
     }
 
-    /// Finds the nodes at which bodies meet in the current step.
+    /// Finds the interface nodes of the current step.
     pub(in crate::mpm) fn find<const D: usize>(&mut self, bodies: &[Solver<D>]) {
         self.0.clear();
         let Some(first) = bodies.first() else { return };
@@ -47,7 +47,7 @@ impl InterfaceNodes {
         self.0.extend((0..first.grid().nodes()).filter(|node| present(*node) > 1));
     }
 
-    /// The nodes.
+    /// The interface nodes.
     pub(in crate::mpm) fn nodes(&self) -> &[usize] {
         &self.0
     }

@@ -1,12 +1,13 @@
 //! Several bodies on one grid.
 //!
-//! Each body is a [`Solver`] with its own particles, material, effects and fields on a separate
-//! grid over the same geometry. Each pass is run by all of them; at nodes to which more than one
-//! body gives mass they are then coupled:
+//! Each body is a [`Solver`] with its own particles, material, effects and fields, on a separate
+//! grid with the same geometry. All bodies run each pass. They are then coupled at the nodes to
+//! which more than one body contributes mass:
 //!
-//! - [`SharedVelocity`]: they have one velocity and one acceleration there, as in the original MPM,
-//!   which does not distinguish bodies (Sulsky, Chen & Schreyer 1994): they are bonded permanently;
-//! - [`Contact`]: each has its own velocity, and they exchange impulses if they approach.
+//! - [`SharedVelocity`]: the bodies have a common velocity and acceleration there and are bonded
+//!   permanently, as in the original MPM, which does not distinguish bodies (Sulsky, Chen &
+//!   Schreyer 1994);
+//! - [`Contact`]: each body has its own velocity, and approaching bodies exchange impulses.
 //!
 //! A single body has no coupling.
 
@@ -24,17 +25,17 @@ use crate::subject::{
 use contact::Contact;
 use coupling::{Coupling, SharedVelocity};
 
-/// Bodies on a common grid; particles are those of all bodies, one after the other.
+/// Bodies on a common grid. Particles are numbered over all bodies, one body after another.
 pub struct Bodies<const D: usize> {
     solvers: Vec<Solver<D>>,
-    /// None of a single body.
+    /// `None` for a single body.
     coupling: Option<Box<dyn Coupling<D>>>,
     schedule: StepSchedule,
 }
 
 impl<const D: usize> Bodies<D> {
-    /// Bodies at t = 0, with contact if a coefficient of friction is given. All have the same grid,
-    /// scheme and start.
+    /// Creates bodies at t = 0, with contact if a coefficient of friction is given. All bodies must
+    /// have the same grid, scheme and start.
     ///
     /// # Errors
     /// Failures of [`Solver::new`], and [`Failure::Solve`] for bodies on different grids.
@@ -63,24 +64,24 @@ impl<const D: usize> Bodies<D> {
         &self.solvers
     }
 
-    /// Number of nodes at which bodies have met in this step.
+    /// Number of interface nodes in the current step.
     pub fn interface_nodes(&self) -> usize {
         self.coupling.as_ref().map_or(0, |coupling| coupling.nodes().len())
     }
 
-    /// Profile of a step of all bodies, with their coupling.
+    /// Profile of a step of all bodies and their coupling.
     pub fn profile(&self) -> Profile {
         let coupling = self.coupling.as_deref();
         joint_profile(self.solvers.iter().map(Solver::profile), coupling)
     }
 
-    /// See [`Solver::take_visits`], of all bodies together.
+    /// Number of visits by all bodies, see [`Solver::take_visits`].
     pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
         let tallies = self.solvers.iter().map(|solver| solver.setup.kernel.tally());
         Tally::take(&tallies.collect::<Vec<_>>())
     }
 
-    /// Compiles the schedule: that of the first body with the coupling of all.
+    /// Compiles the schedule from the schedule of the first body and the coupling of all bodies.
     fn compile(&mut self, fixed_configuration: bool) {
         let reads_velocity = self.coupling.as_ref().is_some_and(|c| c.reads_velocity());
         let coupled = Coupled { bodies: self.coupling.is_some(), reads_velocity };
@@ -89,7 +90,7 @@ impl<const D: usize> Bodies<D> {
         }
     }
 
-    /// Runs `passes` one after another, each by all bodies.
+    /// Runs `passes` one after another, each on all bodies.
     fn run_all(&mut self, passes: &[Pass], dt: f64) -> Result<(), Failure> {
         for &pass in passes {
             let mut first = 0;
@@ -168,7 +169,7 @@ impl<const D: usize> Subject for Bodies<D> {
     }
 }
 
-/// Renumbers the particle in a failure of a body whose first particle has the number `first`.
+/// Renumbers the particle in a failure, for a body whose first particle has the number `first`.
 pub(in crate::mpm) fn among(failure: Failure, first: usize) -> Failure {
     let shifted = |site: Site| match site {
         Site::Particle(p) => Site::Particle(first + p),
@@ -186,8 +187,8 @@ pub(in crate::mpm) fn among(failure: Failure, first: usize) -> Failure {
     }
 }
 
-/// One profile of all bodies and their coupling. Every body has a grid: nodes are summed over all
-/// grids.
+/// One profile for all bodies and their coupling. Every body has its own grid, so nodes are summed
+/// over all grids.
 pub(in crate::mpm) fn joint_profile<const D: usize>(
     bodies: impl Iterator<Item = Profile>,
     coupling: Option<&dyn Coupling<D>>,
@@ -211,8 +212,8 @@ pub(in crate::mpm) fn joint_profile<const D: usize>(
     all
 }
 
-/// Adds the columns of one body to `all`. A column is added to the one of the same kind; the second
-/// column of a kind (two walls) to the second one.
+/// Adds the columns of one body to `all`. A column is added to the column of the same kind. Several
+/// columns of one kind (two walls) are matched in order.
 fn add_columns(all: &mut Vec<ColumnSize>, body: Vec<ColumnSize>) {
     let kind = |column: &ColumnSize| (column.name, column.holder, column.bytes);
     let known = all.len();
@@ -254,7 +255,7 @@ impl<const D: usize> Perturbable for Bodies<D> {
     }
 }
 
-/// The numbers that `give` writes for each body, body after body.
+/// Concatenates the numbers that `give` writes for each body.
 fn joined<T>(all: &mut Vec<f64>, each: impl Iterator<Item = T>, give: impl Fn(T, &mut Vec<f64>)) {
     all.clear();
     let mut own = Vec::new();

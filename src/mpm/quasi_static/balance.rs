@@ -1,8 +1,8 @@
-//! Balance of forces of one load step: basis functions at the start of the step, unknowns,
-//! residual and consistent tangent.
+//! Force balance of one load step: basis functions at the start of the step, unknowns, residual and
+//! consistent tangent.
 //!
-//! With nodal displacement increments u and their gradient `grad u` at a particle, with respect to
-//! positions at the start of the step, and with `F' = (I + grad u) F` and
+//! For nodal displacement increments u, let `grad u` be their gradient at a particle with respect
+//! to positions at the start of the step. With `F' = (I + grad u) F` and
 //! `grad' N = (I + grad u)^-T grad N`,
 //!
 //! ```text
@@ -10,8 +10,8 @@
 //! d r_ia/du_jb = sum_p V0 (N_i,c c_acbd N_j,d - tau_ac N_j,c N_i,b)
 //! ```
 //!
-//! where commas are derivatives with respect to positions at the end of the step, and
-//! `d tau_ac = c_acbd d(grad' u)_bd` (Charlton, Coombs & Augarde 2017, Comput. Struct. 190).
+//! where subscripts after a comma are derivatives with respect to positions at the end of the step,
+//! and `d tau_ac = c_acbd d(grad' u)_bd` (Charlton, Coombs & Augarde 2017, Comput. Struct. 190).
 
 use super::banded::BandedSystem;
 use crate::mpm::boundary::Boundary;
@@ -23,14 +23,14 @@ use crate::mpm::material::{Material, StressResponse};
 use crate::subject::{Failure, Site};
 use std::array;
 
-/// Sum of the functions of a node over the particles below which the node has no unknown: its row
-/// of the tangent would be singular.
+/// Minimum sum of the functions of a node over all particles. A node with a smaller sum has no
+/// unknown, because its row of the tangent would be singular.
 const LEAST_WEIGHT: f64 = 1e-12;
 
 /// Maximum number of stored entries of the tangent, 4 GB.
 const MOST_ENTRIES: usize = 1 << 29;
 
-/// Function of one node at a particle.
+/// Basis function of one node at a particle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NodeFunction<const D: usize> {
     pub(super) node: usize,
@@ -41,12 +41,12 @@ pub(super) struct NodeFunction<const D: usize> {
 
 /// Basis functions of all particles at the start of a step, and the unknowns of the step.
 pub(super) struct StepEquations<const D: usize> {
-    /// Functions of all particles, one after the other.
+    /// Functions of all particles, one particle after another.
     functions: Vec<NodeFunction<D>>,
-    /// End of the functions of each particle.
+    /// End of each particle's functions.
     ends: Vec<usize>,
-    /// Number of the unknown of each component of each node; `None` if it is held, or no particle
-    /// has a function there.
+    /// Index of the unknown of each component of each node; `None` if the component is fixed, or if
+    /// no particle has a function at this node.
     unknowns: Vec<[Option<usize>; D]>,
     /// Node of each unknown.
     nodes: Vec<usize>,
@@ -57,9 +57,9 @@ pub(super) struct StepEquations<const D: usize> {
 pub(super) struct Iterate<const D: usize> {
     /// Nodal displacement increments (m).
     pub(super) increment: Vec<Vector<D>>,
-    /// Residual of each node, held components included: internal minus external force (N).
+    /// Residual of each node, including fixed components: internal minus external force (N).
     pub(super) residual: Vec<Vector<D>>,
-    /// Its norm over the unknowns (N).
+    /// Norm of the residual over the unknowns (N).
     pub(super) norm: f64,
     responses: Vec<StressResponse<D>>,
     /// `(I + grad u)^-T` of each particle.
@@ -67,10 +67,10 @@ pub(super) struct Iterate<const D: usize> {
 }
 
 impl<const D: usize> StepEquations<D> {
-    /// For `particles` at the start of a step.
+    /// Creates the equations for `particles` at the start of a step.
     ///
     /// # Errors
-    /// [`Failure::Solve`] if no component is free, or the tangent does not fit into memory.
+    /// [`Failure::Solve`] if no component is free, or if the tangent does not fit into memory.
     pub(super) fn new(
         grid: &Grid<D>,
         particles: &Particles<D>,
@@ -87,7 +87,8 @@ impl<const D: usize> StepEquations<D> {
         Self::of_functions(grid, (functions, ends), boundary)
     }
 
-    /// For the functions of all particles, one after the other, and their end for each particle.
+    /// Creates the equations from the functions of all particles, one particle after another, and
+    /// the end of each particle's functions.
     fn of_functions(
         grid: &Grid<D>,
         (functions, ends): (Vec<NodeFunction<D>>, Vec<usize>),
@@ -124,7 +125,7 @@ impl<const D: usize> StepEquations<D> {
         &self.functions[start..self.ends[p]]
     }
 
-    /// Number of pairs of particle and node.
+    /// Number of particle-node pairs.
     pub(super) fn pairs(&self) -> u64 {
         self.functions.len() as u64
     }
@@ -142,7 +143,7 @@ impl<const D: usize> StepEquations<D> {
         self.of_unknowns(field).iter().fold(0.0, |sum, value| libm::hypot(sum, *value))
     }
 
-    /// The node with the largest value of a field among the unknowns, and this value.
+    /// Node of the unknown with the largest magnitude of a field, and this magnitude.
     pub(super) fn largest(&self, field: &[Vector<D>]) -> (usize, f64) {
         let values = self.of_unknowns(field).into_iter().map(f64::abs);
         let of_nodes = self.nodes.iter().copied().zip(values);
@@ -161,7 +162,8 @@ impl<const D: usize> StepEquations<D> {
         values
     }
 
-    /// Stresses and residual for the increments `increment` (m) and external forces `load` (N).
+    /// Computes stresses and residual for the increments `increment` (m) and external forces `load`
+    /// (N).
     ///
     /// # Errors
     /// [`Failure::Inverted`] or [`Failure::NonFinite`] for the first particle without a stress.
@@ -198,10 +200,10 @@ impl<const D: usize> StepEquations<D> {
         Ok(Iterate { increment, residual, norm, responses, push })
     }
 
-    /// Newton's correction of an iterate (m).
+    /// Newton correction of an iterate (m).
     ///
     /// # Errors
-    /// The node of the first row of the tangent without a pivot.
+    /// The node of the first tangent row without a pivot.
     pub(super) fn correction(
         &self,
         particles: &Particles<D>,
@@ -225,7 +227,7 @@ impl<const D: usize> StepEquations<D> {
         let functions = self.functions_of(p);
         let gradients: Vec<Vector<D>> =
             functions.iter().map(|function| push * function.gradient).collect();
-        // Changes of the stress by each component of the displacement gradient.
+        // Changes of the stress due to each component of the displacement gradient.
         let changes: [[Matrix<D>; D]; D] = array::from_fn(|b| {
             array::from_fn(|d| {
                 let mut direction = Matrix::<D>::zeros();
@@ -251,7 +253,7 @@ impl<const D: usize> StepEquations<D> {
         }
     }
 
-    /// Largest difference between numbers of unknowns that share a particle.
+    /// Largest difference between the indices of unknowns that share a particle.
     fn widest(&self) -> usize {
         let width = |p: usize| {
             let rows = self.functions_of(p).iter().flat_map(|f| self.unknowns[f.node]).flatten();
@@ -263,11 +265,11 @@ impl<const D: usize> StepEquations<D> {
     }
 }
 
-/// The reason why there is no subject for a law.
+/// Reason why a law without a tangent cannot be used.
 pub(super) const NO_TANGENT: &str = "the law has no consistent tangent";
 
-/// Numbers the free components with the longest axis of the grid slowest, for a narrow band.
-/// Returns the numbers, and the node of each.
+/// Numbers the free components with the longest grid axis slowest, for a narrow band. Returns the
+/// indices, and the node of each index.
 fn number<const D: usize>(
     grid: &Grid<D>,
     free: &[Vector<D>],
@@ -296,7 +298,7 @@ mod tests {
     use crate::mpm::material::{DruckerPrager, Hencky, StressUpdate};
     use rstest::rstest;
 
-    /// Bilinear functions of four cells at a particle.
+    /// Bilinear functions of the nodes around a particle in a grid of four cells.
     fn bilinear(grid: &Grid<2>, x: &Vector<2>) -> Vec<NodeFunction<2>> {
         let hat = |axis: usize, i: usize| {
             let s = (x[axis] - grid.origin[axis]) / grid.h - i as f64;
@@ -312,7 +314,7 @@ mod tests {
         (0..grid.nodes()).map(function).filter(|function| function.weight > 0.0).collect()
     }
 
-    /// At an increment without symmetry; with plasticity, some particles yield and others do not.
+    /// The increment has no symmetry. With plasticity, some particles yield and others do not.
     #[rstest]
     #[case::elastic(Box::new(Hencky::new(100.0, 0.3)))]
     #[case::plastic(Box::new(DruckerPrager::new(100.0, 0.3, 0.3, 0.1, 4.0)))]
@@ -341,7 +343,7 @@ mod tests {
             equations.iterate(&particles, law.as_ref(), &load, increment).unwrap()
         };
         let at = iterate(increment.clone());
-        // K d = -r, so that the residual changes by -r along d.
+        // K d = -r, so the residual changes by -r along d.
         let direction = equations.correction(&particles, &at).unwrap();
         let length = direction.iter().map(Vector::norm).fold(0.0, f64::max);
         let step = 1e-5 / length;

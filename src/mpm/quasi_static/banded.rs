@@ -1,17 +1,17 @@
 //! Direct solution of a banded linear system: LU with partial pivoting (Golub & Van Loan, *Matrix
 //! Computations*, 4th ed., 2013, section 4.3.5).
 //!
-//! The tangent of a quasi-static step is symmetric for elastic and associated laws only, and it can
-//! be indefinite, so that Cholesky's factorisation does not apply. The operations have a fixed
-//! order and no fused products: results have the same bits on any machine, as a library that
-//! chooses its instructions at run time does not guarantee.
+//! The tangent of a quasi-static step is symmetric only for elastic and associated laws, and may be
+//! indefinite, so Cholesky factorisation does not apply. The operations have a fixed order and no
+//! fused products. Results are therefore bit-identical on any machine. A library that chooses its
+//! instructions at run time does not guarantee this.
 
-/// A square matrix with `band` diagonals on either side, and a right-hand side.
+/// A square matrix with `band` diagonals on either side of the main diagonal.
 #[derive(Debug, Clone)]
 pub(super) struct BandedSystem {
     rows: usize,
     band: usize,
-    /// Columns `i - band ..= i + 2 band` of each row `i`; pivoting fills the last `band` ones.
+    /// Columns `i - band ..= i + 2 band` of each row `i`; pivoting fills the last `band` columns.
     entries: Vec<f64>,
 }
 
@@ -31,17 +31,17 @@ impl BandedSystem {
         i * (3 * self.band + 1) + (j + self.band - i)
     }
 
-    /// Adds `value` to the entry in row `i` and column `j`, which must be in the band.
+    /// Adds `value` to the entry in row `i` and column `j`, which must be within the band.
     pub(super) fn add(&mut self, i: usize, j: usize, value: f64) {
         let place = self.place(i, j);
         self.entries[place] += value;
     }
 
-    /// The solution for this right-hand side.
+    /// Solution for this right-hand side.
     ///
     /// # Errors
-    /// The first row without a pivot, in the order of the elimination: the matrix is singular, or
-    /// an entry is not finite.
+    /// The first row without a pivot in elimination order, if the matrix is singular or an entry is
+    /// not finite.
     pub(super) fn solve(mut self, mut side: Vec<f64>) -> Result<Vec<f64>, usize> {
         let Self { rows, band, .. } = self;
         for k in 0..rows {
@@ -95,8 +95,8 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
     use rstest::rstest;
 
-    /// An indefinite unsymmetric matrix whose pivots are not on the diagonal, compared with the LU
-    /// of a library.
+    /// Compares the solution for an indefinite unsymmetric matrix, whose pivots are off the
+    /// diagonal, with the LU factorisation of a library.
     #[rstest]
     fn solution_is_that_of_a_dense_factorisation(
         #[values((1, 0), (7, 1), (9, 8), (40, 3), (41, 5))] (rows, band): (usize, usize),

@@ -1,5 +1,5 @@
-//! Quasi-static MPM: the load grows in steps, and each step solves for the equilibrium at its end
-//! by Newton's method (Charlton, Coombs & Augarde 2017, Comput. Struct. 190; Coombs & Augarde 2020,
+//! Quasi-static MPM: the load grows in steps. Each step solves for the equilibrium at its end by
+//! Newton's method (Charlton, Coombs & Augarde 2017, Comput. Struct. 190; Coombs & Augarde 2020,
 //! Adv. Eng. Softw. 139).
 //!
 //! Load step k of N:
@@ -10,9 +10,8 @@
 //! 3. move the particles, `x += sum_i u_i N_i`, update F, the state of the law and the domains, and
 //!    reset the grid.
 //!
-//! Nothing but F, the state of the law and positions is kept on the particles: there is no velocity
-//! and no transfer. The load step is never divided: if Newton's method does not converge, the level
-//! fails.
+//! The particles store only F, the state of the law and positions: there is no velocity and no
+//! transfer. A load step is never divided: if Newton's method does not converge, the level fails.
 
 mod balance;
 mod banded;
@@ -40,7 +39,7 @@ use balance::{NO_TANGENT, StepEquations};
 pub struct QuasiStaticSetup<const D: usize> {
     /// The background grid.
     pub grid: Grid<D>,
-    /// The body, free of stress.
+    /// The stress-free body.
     pub particles: Particles<D>,
     /// Basis.
     pub kernel: Box<dyn Kernel<D>>,
@@ -48,27 +47,27 @@ pub struct QuasiStaticSetup<const D: usize> {
     pub material: Box<dyn Material<D>>,
     /// Loads that depend neither on time nor on the deformation.
     pub effects: Vec<Box<dyn Effect<D>>>,
-    /// Walls that do not move.
+    /// Fixed walls.
     pub boundary: Vec<Box<dyn Boundary<D>>>,
-    /// Number of load steps of length 1 to the whole load.
+    /// Number of load steps of length 1 until the full load.
     pub load_steps: u64,
 }
 
-/// A body whose load grows in steps, in equilibrium after each.
+/// A body whose load grows in steps, in equilibrium after each step.
 pub struct QuasiStatic<const D: usize> {
     setup: QuasiStaticSetup<D>,
-    /// Sum of the lengths of the load steps so far: the share of the load is this sum over
-    /// [`QuasiStaticSetup::load_steps`].
+    /// Sum of the lengths of the load steps so far. The current share of the load is this sum
+    /// divided by [`QuasiStaticSetup::load_steps`].
     advanced: f64,
     transfers: u64,
     min_j: f64,
     cell_tracker: CellTracker<D>,
-    /// Residuals of the iterates of the last load step, over its load.
+    /// Residuals of the iterates of the last load step, divided by its load.
     residuals: Vec<f64>,
 }
 
 impl<const D: usize> QuasiStatic<D> {
-    /// A body without load.
+    /// Creates a body without load.
     ///
     /// # Errors
     /// [`Failure::NonFinite`] or [`Failure::LeftDomain`] for an invalid particle;
@@ -85,8 +84,8 @@ impl<const D: usize> QuasiStatic<D> {
         Ok(Self { setup, advanced, transfers, min_j, cell_tracker, residuals })
     }
 
-    /// Residuals of the iterates of the last load step: the norm over all nodes with unknowns, over
-    /// that of the load of the step. The first belongs to zero increments.
+    /// Residuals of the iterates in the last load step: norms over all nodes with unknowns, divided
+    /// by the norm of the load. The first residual belongs to zero increments.
     pub fn residuals(&self) -> &[f64] {
         &self.residuals
     }
@@ -96,13 +95,13 @@ impl<const D: usize> QuasiStatic<D> {
         &self.setup.particles
     }
 
-    /// The effects, and all columns for particles and nodes.
+    /// Active effects, and all columns of particles and nodes.
     pub fn profile(&self) -> Profile {
         let QuasiStaticSetup { grid, particles, effects, .. } = &self.setup;
         profile(grid, particles, effects, &self.columns())
     }
 
-    /// See [`Solver::take_visits`](super::Solver::take_visits).
+    /// Number of visited particles, see [`Solver::take_visits`](super::Solver::take_visits).
     pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
         Tally::take(&[self.setup.kernel.tally()])
     }
@@ -118,7 +117,7 @@ impl<const D: usize> QuasiStatic<D> {
         columns
     }
 
-    /// The external forces of the whole load, into the forces of the grid (N).
+    /// Computes the external forces of the full load into the forces of the grid (N).
     fn load(&mut self) {
         let QuasiStaticSetup { grid, particles, kernel, effects, .. } = &mut self.setup;
         grid.force.fill(Vector::zeros());
@@ -142,7 +141,7 @@ impl<const D: usize> QuasiStatic<D> {
                 particles.x[p] += increment[function.node] * function.weight;
             }
         }
-        // F is already that of the end of the step.
+        // F already belongs to the end of the step.
         material.update(&mut StressUpdate::new(0.0, particles));
         if kernel.domain() == Domain::Follows {
             particles.track_domains();
@@ -160,8 +159,8 @@ impl<const D: usize> QuasiStatic<D> {
 }
 
 impl<const D: usize> Subject for QuasiStatic<D> {
-    /// One load step of the length `dt`. In a study of shorter steps, two of length 1/2 take the
-    /// place of one.
+    /// Performs one load step of length `dt`. In a study of shorter steps, two steps of length 1/2
+    /// replace one step.
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         self.advanced += dt;
         self.load();
@@ -171,7 +170,7 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         let balance = StepEquations::new(grid, particles, kernel.as_ref(), boundary)?;
         let solution = newton::solve(&balance, particles, material.as_ref(), &load);
         self.residuals = solution.residuals;
-        // Each iterate visits the nodes of all particles for its stress, and again for its tangent.
+        // For each iterate, the stress and the tangent each visit the nodes of all particles.
         let passes = 2 * self.residuals.len() as u64;
         self.transfers += passes * balance.pairs();
         let iterate = solution.last?;
@@ -206,7 +205,7 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         Some(Totals { strain_energy, ..particles.totals(|_| None) })
     }
 
-    /// The time is the sum of the lengths of the load steps.
+    /// The time of a reaction is the sum of the lengths of the load steps.
     fn reaction(&self, face: Option<(usize, bool)>) -> Option<Reaction> {
         let QuasiStaticSetup { grid, boundary, .. } = &self.setup;
         let side = |high| if high { Side::High } else { Side::Low };

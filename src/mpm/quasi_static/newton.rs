@@ -1,12 +1,11 @@
 //! Newton's method for one load step, with a line search.
 //!
-//! Full steps are taken first, even if the residual rises for a few iterates: where particles
-//! begin to yield, the residual of a full step is larger than that before it, and the next one is
-//! smaller by orders of magnitude. If several iterates in a row do not improve on the best one, as
-//! in a cycle between the branches of a law, the method returns to the best iterate and from then
-//! on accepts only steps that reduce its residual (the watchdog technique of Chamberlain, Powell,
-//! Lemarechal & Pedersen 1982, Math. Program. Study 16). A step that inverts a particle is halved
-//! in any case.
+//! The method first takes full steps, even if the residual rises for a few iterates. When particles
+//! begin to yield, a full step increases the residual, and the next full step reduces it by orders
+//! of magnitude. If several successive iterates do not improve on the best one, as in a cycle
+//! between the branches of a law, the method returns to the best iterate. From then on it accepts
+//! only steps that reduce the residual (the watchdog technique of Chamberlain, Powell, Lemarechal &
+//! Pedersen 1982, Math. Program. Study 16). A step that inverts a particle is always halved.
 
 use super::balance::{Iterate, StepEquations};
 use crate::mpm::foundation::algebra::Vector;
@@ -14,31 +13,31 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::Material;
 use crate::subject::Failure;
 
-/// Residual over the load at which a step has converged. Rounding limits it to between 2e-14 and
-/// 1e-11 of the load.
+/// Residual relative to the load at which a step counts as converged. Rounding limits the residual
+/// to between 2e-14 and 1e-11 of the load.
 pub(super) const CONVERGED: f64 = 1e-10;
 
 /// Maximum number of corrections.
 const MOST_CORRECTIONS: usize = 25;
 
-/// Iterates that need not improve on the best one.
+/// Number of successive iterates without improvement on the best one that are allowed.
 const PATIENCE: usize = 4;
 
 /// Maximum number of halvings of a correction.
 const MOST_HALVINGS: u32 = 12;
 
-/// Share of the reduction by a linear model that the line search requires (Armijo 1966).
+/// Share of the reduction predicted by a linear model that the line search requires (Armijo 1966).
 const SUFFICIENT: f64 = 1e-4;
 
 /// Result of a load step.
 pub(super) struct Solution<const D: usize> {
-    /// Residuals of all iterates, over the load.
+    /// Residuals of all iterates, divided by the load.
     pub(super) residuals: Vec<f64>,
-    /// The last iterate, or why the step has failed.
+    /// The last iterate, or the reason why the step failed.
     pub(super) last: Result<Iterate<D>, Failure>,
 }
 
-/// Data of a load step.
+/// Input data of a load step.
 struct LoadStep<'a, const D: usize> {
     balance: &'a StepEquations<D>,
     particles: &'a Particles<D>,
@@ -89,7 +88,7 @@ impl<const D: usize> LoadStep<'_, D> {
         if now.norm / scale < CONVERGED { Ok(now) } else { Err(self.not_converged(&now, scale)) }
     }
 
-    /// The iterate after Newton's correction, shortened where required.
+    /// The iterate after a Newton correction, which is shortened if required.
     fn corrected(
         &self,
         now: &Iterate<D>,

@@ -1,4 +1,4 @@
-//! Seeding: bodies filled with particles, and particles sorted by cell.
+//! Seeding: filling bodies with particles, and sorting particles by cell.
 
 use super::foundation::algebra::{Matrix, Vector, det};
 use super::foundation::particles::{Block, Particles};
@@ -6,20 +6,20 @@ use super::foundation::particles::{Block, Particles};
 pub(crate) mod quadrilateral;
 pub(crate) mod sort_by_cell;
 
-/// A part of a body, for one particle.
+/// A part of a body that one particle represents.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fragment<const D: usize> {
     /// Centroid (m).
     pub place: Vector<D>,
     /// Volume (m^D).
     pub volume: f64,
-    /// Half-lengths of a parallelepiped of this volume, the columns its vectors (m).
+    /// Vectors of half the edges of a parallelepiped with this volume, as columns (m).
     pub domain: Matrix<D>,
 }
 
 impl<const D: usize> Particles<D> {
-    /// Adds `fragments` of density `density` (kg/m3) to a lattice, at rest and free of stress.
-    /// The particles of the lattice keep their boxes as domains.
+    /// Adds `fragments` with density `density` (kg/m3) to a lattice, at rest and free of stress.
+    /// The lattice particles keep their boxes as domains.
     pub fn add_fragments(&mut self, fragments: &[Fragment<D>], density: f64) {
         if fragments.is_empty() {
             return;
@@ -41,9 +41,9 @@ impl<const D: usize> Particles<D> {
 }
 
 impl<const D: usize> Particles<D> {
-    /// Fills a mapped box of density `density` (kg/m3) with `counts` particles along its axes.
-    /// `map` gives the place (m) of a point of the unit box, and the slope there (m). At rest and
-    /// free of stress.
+    /// Fills a mapped box of density `density` (kg/m3) with `counts` particles along its axes, at
+    /// rest and free of stress. `map` returns the position (m) of a point of the unit box and the
+    /// derivative of the map there (m).
     pub fn fill_mapped(
         counts: [usize; D],
         density: f64,
@@ -72,8 +72,8 @@ impl<const D: usize> Particles<D> {
 }
 
 impl<const D: usize> Particles<D> {
-    /// Converts the particles, in the meridian plane with the axes r and z, to a body of
-    /// revolution: masses (kg/rad) and volumes (m^3/rad) are those of one radian.
+    /// Converts particles in the meridian plane with the axes r and z to a body of revolution.
+    /// Masses (kg/rad) and volumes (m^3/rad) become values per radian.
     pub fn revolve(&mut self) {
         for (p, x0) in self.x0.iter().enumerate() {
             for column in [&mut self.mass, &mut self.vol0, &mut self.vol] {
@@ -84,7 +84,7 @@ impl<const D: usize> Particles<D> {
         (self.rate_across, self.stress_across) = (vec![0.0; self.len()], vec![0.0; self.len()]);
     }
 
-    /// Whether any hoop starts with another radius than its own, or with NaN.
+    /// Whether the initial radius of any hoop differs from its reference radius, or is NaN.
     pub(in crate::mpm) fn is_widened(&self) -> bool {
         let is_own = |(x, x0): (&Vector<D>, &Vector<D>)| x[0] == x0[0];
         !self.stress_across.is_empty() && !self.x.iter().zip(&self.x0).all(is_own)
@@ -111,7 +111,7 @@ mod tests {
         assert_eq!(particles.domain, [Matrix::identity() * 0.5, Matrix::identity() * 0.5, domain]);
     }
 
-    /// `int r dr dz` of a box is exact with the radius at the middle of each share.
+    /// `int r dr dz` over a box is exact if the radius is taken at the middle of each part.
     #[test]
     fn a_hollow_cylinder_has_its_mass_per_radian() {
         let (from, to) = (Vector::<2>::new(0.5, 0.0), Vector::<2>::new(2.0, 3.0));

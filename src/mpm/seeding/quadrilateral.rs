@@ -1,21 +1,21 @@
 //! Panels with four straight sides, filled with particles by the bilinear map of the unit square,
-//! `x = sum_c M_c(s) x_c` with the hats M_c of the corners.
+//! `x = sum_c M_c(s) x_c` with the hat functions M_c of the corners.
 
 use crate::mpm::foundation::algebra::{Matrix, Vector, det};
 use crate::mpm::foundation::particles::Particles;
 
-/// A panel in the plane: its corners (m), counter-clockwise, with a left turn at each corner; the
-/// first corner starts the side whose direction is closest to X.
+/// A panel in the plane. Its corners (m) are in counter-clockwise order, with a left turn at each
+/// corner. The first corner starts the side whose direction is closest to X.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quadrilateral {
     corners: [Vector<2>; 4],
 }
 
 impl Quadrilateral {
-    /// The panel with these corners.
+    /// Creates the panel with these corners.
     ///
     /// # Errors
-    /// The number of the first corner without a left turn.
+    /// The index of the first corner without a left turn.
     pub fn new(corners: [Vector<2>; 4]) -> Result<Self, usize> {
         let panel = Self { corners };
         let turns = |i: &usize| {
@@ -27,20 +27,20 @@ impl Quadrilateral {
         }
     }
 
-    /// Renumbers the corners so that the first axis of the map is as close to X as possible: GIMP
-    /// replaces domains by boxes, whose sides are the diagonal entries of the domain vectors.
+    /// Renumbers the corners so that the first axis of the map is as close to X as possible. GIMP
+    /// replaces domains by boxes whose half-lengths are the diagonal entries of the domain matrix.
     fn upright(self) -> Self {
         let along = |i: &usize| self.side(*i)[0] - self.side((i + 2) % 4)[0];
         let first = (1..4).fold(0, |best, i| if along(&i) > along(&best) { i } else { best });
         Self { corners: std::array::from_fn(|i| self.corners[(first + i) % 4]) }
     }
 
-    /// The corners (m).
+    /// Corners (m).
     pub fn corners(&self) -> &[Vector<2>; 4] {
         &self.corners
     }
 
-    /// Lowest and highest corner of the box around the panel (m).
+    /// Lowest and highest corners of the bounding box of the panel (m).
     pub fn ends(&self) -> (Vec<f64>, Vec<f64>) {
         let [a, b, c, d] = &self.corners;
         let end = |of: fn(f64, f64) -> f64| {
@@ -49,7 +49,7 @@ impl Quadrilateral {
         (end(f64::min), end(f64::max))
     }
 
-    /// Whether a whole side lies at the low or the high end of the panel along `axis`.
+    /// Whether a whole side is at the low or high end of the panel along `axis`.
     pub fn has_side_at(&self, axis: usize, high: bool) -> bool {
         let (low, top) = self.ends();
         let end = if high { top[axis] } else { low[axis] };
@@ -57,13 +57,13 @@ impl Quadrilateral {
         (0..4).any(|i| at_end(i) && at_end(i + 1))
     }
 
-    /// From corner i to the next (m).
+    /// Vector from corner i to the next corner (m).
     fn side(&self, i: usize) -> Vector<2> {
         self.corners[(i + 1) % 4] - self.corners[i]
     }
 
-    /// Numbers of particles along each axis of the map: as close to `per_axis` particles per cell
-    /// of size `h` (m) as the mean length of the two sides allows, at least two.
+    /// Number of particles along each axis of the map, at least two. The number per cell of size
+    /// `h` (m) is as close to `per_axis` as the mean length of opposite sides allows.
     pub fn counts(&self, h: f64, per_axis: usize) -> [usize; 2] {
         [0, 1].map(|i| {
             let length = f64::midpoint(self.side(i).norm(), self.side(i + 2).norm());
@@ -71,7 +71,7 @@ impl Quadrilateral {
         })
     }
 
-    /// The place (m) of a point of the unit square, and the slope there (m).
+    /// Position (m) of a point of the unit square, and the derivative of the map there (m).
     fn at(&self, s: f64, t: f64) -> (Vector<2>, Matrix<2>) {
         let [a, b, c, d] = &self.corners;
         let place = (a * (1.0 - s) + b * s) * (1.0 - t) + (d * (1.0 - s) + c * s) * t;
@@ -80,10 +80,10 @@ impl Quadrilateral {
         (place, Matrix::from_columns(&[along, across]))
     }
 
-    /// The panel filled with particles of density `density` (kg/m^2).
+    /// Fills the panel with particles of density `density` (kg/m^2).
     pub fn fill<const D: usize>(&self, density: f64, h: f64, per_axis: usize) -> Particles<D> {
         let counts = self.counts(h, per_axis);
-        // A panel is a body in the plane; a further axis would be its thickness of one.
+        // A panel is two-dimensional; a further axis would be its unit thickness.
         let counts = std::array::from_fn(|axis| counts.get(axis).copied().unwrap_or(1));
         Particles::fill_mapped(counts, density, |s| {
             let (place, slope) = self.at(s[0], s.get(1).copied().unwrap_or(0.5));
@@ -112,7 +112,7 @@ mod tests {
         Quadrilateral::new(corners.map(Vector::from)).unwrap()
     }
 
-    /// A square whose corners are moved by less than a quarter: it stays convex.
+    /// A square with each corner moved by less than a quarter, which stays convex.
     fn any() -> impl Strategy<Value = Quadrilateral> {
         prop::array::uniform4(prop::array::uniform2(-0.24..0.24_f64)).prop_map(|moved| {
             let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
@@ -143,7 +143,8 @@ mod tests {
             for (x, domain) in particles.x0.iter().zip(&particles.domain0) {
                 prop_assert!(is_inside(&panel, x), "{:?}", x);
                 for axis in 0..2 {
-                    // Middles of a domain's sides are inside, up to rounding where sides meet.
+                    // The middles of domain sides are inside the panel, up to rounding on the
+                    // boundary.
                     let towards = domain.column(axis) * (1.0 - 1e-9);
                     prop_assert!(is_inside(&panel, &(x + towards)));
                     prop_assert!(is_inside(&panel, &(x - towards)));
@@ -181,8 +182,8 @@ mod tests {
         assert_eq!(sides.map(|(a, high)| cook().has_side_at(a, high)), [true, true, false, false]);
     }
 
-    /// The largest push of a uniform unit stress on nodes well inside a panel, over that on a face
-    /// of a cell of size `h`, `|sum_p V_p grad N_i|/h`.
+    /// Largest nodal force of a uniform unit stress well inside a panel, relative to the force on a
+    /// cell face of size `h`: `|sum_p V_p grad N_i|/h`.
     fn push<B: Basis>(panel: &Quadrilateral, h: f64) -> f64 {
         let mut particles: Particles<2> = panel.fill(1.0, h, 2);
         particles.track_domains();
@@ -201,8 +202,8 @@ mod tests {
         (0..grid.nodes()).filter(is_far_inside).map(|i| total[i].norm()).fold(0.0, f64::max)
     }
 
-    /// Parallelograms tile any panel. Boxes of their diagonals tile a panel with two upright sides.
-    /// Boxes of one size do not, and no boxes tile a rotated panel, at any refinement.
+    /// Parallelograms tile any panel. Boxes with their diagonals tile a panel with two upright
+    /// sides. Boxes of equal size do not. No boxes tile a rotated panel, at any refinement.
     #[test]
     fn boxes_of_gimp_tile_a_panel_with_two_upright_sides() {
         let (sin, cos) = libm::sincos(std::f64::consts::PI / 6.0);

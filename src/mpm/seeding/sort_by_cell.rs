@@ -1,17 +1,17 @@
-//! Particles in the order of cells: neighbours in space are neighbours in memory.
+//! Sorts particles by cell, so that neighbours in space are neighbours in memory.
 //!
-//! Seeded bodies are nearly sorted. Unsorted particles cost several times as much in a large scene,
-//! as each meets other nodes than the one before: they are sorted once, before the solver is set
-//! up.
+//! Seeded bodies are nearly sorted. In a large scene unsorted particles cost several times as much,
+//! because each particle visits other nodes than the previous one. Particles are therefore sorted
+//! once, before the solver is set up.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 
 impl<const D: usize> Particles<D> {
-    /// Sorts the particles by the cells of `grid`, and returns the old index of each. Particles of
-    /// one cell keep their order; those outside the grid come last. Must be called before effects
-    /// or transfers create their own columns.
+    /// Sorts the particles by the cells of `grid`, and returns the old index of each particle.
+    /// Particles in the same cell keep their order, and particles outside the grid come last. Must
+    /// be called before effects or transfers create their own columns.
     pub fn sort_by_cell(&mut self, grid: &Grid<D>) -> Vec<usize> {
         // Particles outside all cells come last.
         let nowhere = grid.cells.iter().product();
@@ -21,7 +21,7 @@ impl<const D: usize> Particles<D> {
             })
         };
         let cells: Vec<usize> = self.x.iter().map(place).collect();
-        // A counting sort: the first place of a cell is the number of particles in previous cells.
+        // Counting sort: the first place of a cell is the number of particles in previous cells.
         let mut next = vec![0; nowhere + 2];
         for cell in &cells {
             next[cell + 1] += 1;

@@ -1,4 +1,4 @@
-//! Cell of each particle, and counters of cell crossings and departures.
+//! The cell of each particle, and counters of cell crossings and departures.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::finite_check::is_finite;
@@ -9,23 +9,23 @@ use crate::mpm::foundation::threads::{FEW, join};
 use crate::subject::{Checkpoint, Column, Failure, Memory, RunCounters, Site};
 use std::array;
 
-/// The cells of all particles, with counters.
+/// Cells of all particles, with counters.
 #[derive(Debug)]
 pub(in crate::mpm) struct CellTracker<const D: usize> {
-    /// Index of the cell along each axis, as a whole number to compare positions with. On a
-    /// periodic axis it keeps counting beyond the face.
+    /// Index of the cell along each axis, as a floating-point number for comparison with positions.
+    /// On a periodic axis the index is not wrapped.
     cells: Vec<[f64; D]>,
-    /// Changes of cell so far.
+    /// Number of cell changes so far.
     pub(in crate::mpm) crossings: u64,
-    /// Particles outside the grid now.
+    /// Number of particles that are now outside the grid.
     pub(in crate::mpm) left_domain: u64,
 }
 
 impl<const D: usize> CellTracker<D> {
-    /// Finds the cells of particles that have not moved yet.
+    /// Finds the cells of particles that have not moved.
     ///
     /// # Errors
-    /// [`Failure::LeftDomain`] for the first particle that has none.
+    /// [`Failure::LeftDomain`] for the first particle outside all cells.
     pub(in crate::mpm) fn new(grid: &Grid<D>, particles: &Particles<D>) -> Result<Self, Failure> {
         let find = |(p, x): (usize, &Vector<D>)| cell(grid, x).ok_or_else(|| nowhere(p, x));
         let mut cells = particles.x.iter().enumerate().map(find).collect::<Result<Vec<_>, _>>()?;
@@ -33,7 +33,7 @@ impl<const D: usize> CellTracker<D> {
         Ok(Self { cells, crossings: 0, left_domain: 0 })
     }
 
-    /// `counters` of a run, with the number of particles and the counters of their cells.
+    /// Completes `counters` of a run with the number of particles and the counters of their cells.
     pub(in crate::mpm) fn counters(&self, counters: RunCounters) -> RunCounters {
         RunCounters {
             particles: Some(self.cells.len() as u64),
@@ -43,16 +43,16 @@ impl<const D: usize> CellTracker<D> {
         }
     }
 
-    /// Columns for particles.
+    /// Column with entries for particles.
     pub(in crate::mpm) fn columns(&self) -> Column<'_> {
         Column::of_particles("cell", &self.cells)
     }
 
-    /// Counts changes of cell and departures. In the total-Lagrangian frame a particle keeps the
-    /// cell of its reference position, and its position must be a number.
+    /// Counts cell changes and departures. In the total-Lagrangian frame a particle keeps the cell
+    /// of its reference position, and its position must not be NaN.
     ///
     /// # Errors
-    /// The failure of the first particle that is in no cell.
+    /// The failure of the first particle outside all cells.
     pub(in crate::mpm) fn track(
         &mut self,
         grid: &Grid<D>,
@@ -71,12 +71,12 @@ impl<const D: usize> CellTracker<D> {
     }
 }
 
-/// Counts of some particles that have moved.
+/// Counts for some particles that have moved.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 struct CellChanges {
     crossings: u64,
     left_domain: u64,
-    /// The first particle that is in no cell.
+    /// First particle outside all cells.
     lost: Option<usize>,
 }
 
@@ -125,7 +125,7 @@ impl<const D: usize> Memory for CellTracker<D> {
     }
 }
 
-/// Whether every particle of a batch is between the faces of its cell, as most are after a step.
+/// Whether every particle of a batch is still in its previous cell, which is the usual case.
 #[inline(always)]
 #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch")]
 fn stay<const D: usize>(grid: &Grid<D>, cells: &[[f64; D]], x: &[Vector<D>]) -> bool {
@@ -139,7 +139,7 @@ fn stay<const D: usize>(grid: &Grid<D>, cells: &[[f64; D]], x: &[Vector<D>]) -> 
     stay
 }
 
-/// Puts each particle of a batch into its cell.
+/// Updates the cell of each particle of a batch.
 #[inline(never)]
 fn enter_each<const D: usize>(
     grid: &Grid<D>,
@@ -159,7 +159,7 @@ fn enter_each<const D: usize>(
     }
 }
 
-/// The cell that holds `x`, counted on beyond a periodic face, if one does.
+/// Cell that contains `x`, if any; not wrapped on periodic axes.
 fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> Option<[f64; D]> {
     let inside = grid.cell(x)?;
     Some(array::from_fn(|axis| {
@@ -168,7 +168,7 @@ fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> Option<[f64; D]> {
     }))
 }
 
-/// Whether two cells differ, and not by whole periods.
+/// Whether two cells differ, other than by whole periods.
 fn crosses<const D: usize>(grid: &Grid<D>, from: &[f64; D], to: &[f64; D]) -> bool {
     (0..D).any(|axis| {
         let moved = to[axis] - from[axis];
@@ -193,8 +193,8 @@ mod tests {
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 
-    /// A row of particles, one per cell: some go to the next cell, some leave the grid, and one has
-    /// no valid position.
+    /// A row with one particle per cell: some particles move to the next cell, some leave the grid,
+    /// and one has an invalid position.
     #[rstest]
     fn particles_are_counted_alike_on_any_number_of_threads(#[values(1, 3)] threads: usize) {
         let total = 2 * FEW + 37;
@@ -218,7 +218,7 @@ mod tests {
         assert_eq!((tracker.crossings, tracker.left_domain), (5, 3));
     }
 
-    /// Moves of one particle in cells of size 1, one after the other, and the crossings of each.
+    /// Successive moves of one particle in cells of size 1, and the crossings of each move.
     #[rstest]
     #[case::within_its_cell(false, &[(0.25, 0), (1.0, 1), (1.75, 0)])]
     #[case::back_and_forth(false, &[(1.0, 1), (0.5, 1)])]

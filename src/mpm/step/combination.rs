@@ -1,4 +1,4 @@
-//! Combinations of the parts of a method.
+//! Rules for combining the parts of a method.
 
 use super::volume_average::VolumeName;
 use crate::mpm::basis::{BasisName, Domain, with_basis};
@@ -14,14 +14,14 @@ use thiserror::Error;
 #[error("{0}")]
 pub struct CombinationError(String);
 
-/// A [`CombinationError`] with a formatted text.
+/// Creates a [`CombinationError`] with a formatted text.
 macro_rules! refusal {
     ($($text:tt)+) => {
         CombinationError(format!($($text)+))
     };
 }
 
-/// Refuses an invalid combination.
+/// Rejects an invalid combination.
 ///
 /// # Errors
 /// One line with both parts and the reason.
@@ -46,8 +46,8 @@ pub fn combine(
              and the mass matrix is `{m}`"
         ));
     }
-    // A linear field reaches node i as m_i v(x_i): the lumped matrix times nodal velocities, which
-    // a consistent one would amplify.
+    // For a linear field, node i receives m_i v(x_i), the product of the lumped matrix and the
+    // nodal velocities. Solving with a consistent matrix would amplify this field.
     if mass == MassName::Consistent && matches!(kind, TransferKind::Field | TransferKind::Fit) {
         return Err(refusal!(
             "the transfer `{t}` gives each node the momentum of its row sum of mass, and the mass \
@@ -79,7 +79,7 @@ pub fn combine(
     Ok(())
 }
 
-/// Refuses an invalid combination for several bodies on one grid, with `contact` or one velocity
+/// Rejects an invalid combination for several bodies on one grid, with `contact` or one velocity
 /// field.
 ///
 /// # Errors
@@ -112,7 +112,7 @@ pub fn combine_bodies(
     }
 }
 
-/// Refuses a precision that several bodies do not have.
+/// Rejects a precision that is not available for several bodies.
 ///
 /// # Errors
 /// One line with the precision and the reason.
@@ -126,7 +126,7 @@ pub fn combine_precision(precision: Precision, bodies: usize) -> Result<(), Comb
     ))
 }
 
-/// Refuses an invalid combination in a body with this state across its plane.
+/// Rejects an invalid combination for a body with this out-of-plane state.
 ///
 /// # Errors
 /// One line with the part and the reason.
@@ -151,11 +151,11 @@ pub fn combine_across(
     ))
 }
 
-/// Refuses volume ratios that mean nothing in this frame, or for a body of this material in a scene
-/// of this `dimension` and state across its plane.
+/// Rejects volume ratios that are invalid in this frame, or for a body with this material,
+/// `dimension` and out-of-plane state.
 ///
 /// # Errors
-/// One line that names the volume ratio and says why it does not go with the other part.
+/// One line with the volume ratio and the reason why it is incompatible with the other part.
 pub fn combine_volume(
     volume: VolumeName,
     frame: FrameName,

@@ -1,4 +1,4 @@
-//! Heat conduction in a body at rest, without stages and columns of mechanics.
+//! Heat conduction in a body at rest, without mechanical stages and columns.
 
 use super::cell_tracker::CellTracker;
 use super::setup::{fields, profile};
@@ -11,7 +11,7 @@ use crate::subject::{
     BodyFields, Checkpoint, Column, Failure, Profile, RunCounters, Samples, Subject,
 };
 
-/// A body at rest: nodal masses are mapped once, and a step integrates the state of the effects.
+/// A body at rest. Nodal masses are mapped once, and a step integrates the state of the effects.
 pub struct HeatSolver<const D: usize> {
     grid: Grid<D>,
     particles: Particles<D>,
@@ -22,11 +22,11 @@ pub struct HeatSolver<const D: usize> {
 }
 
 impl<const D: usize> HeatSolver<D> {
-    /// A body at t = 0.
+    /// Creates a body at t = 0.
     ///
     /// # Errors
-    /// [`Failure::NonFinite`] if the initial state of a particle is; [`Failure::LeftDomain`] if it
-    /// is outside the grid.
+    /// [`Failure::NonFinite`] if the initial state of a particle is not finite;
+    /// [`Failure::LeftDomain`] if a particle is outside the grid.
     pub fn new(
         kernel: Box<dyn Kernel<D>>,
         mut grid: Grid<D>,
@@ -45,7 +45,7 @@ impl<const D: usize> HeatSolver<D> {
         Ok(Self { grid, particles, kernel, effects, time: 0.0, transfers })
     }
 
-    /// The effects, and all columns for particles and nodes.
+    /// Active effects, and all columns of particles and nodes.
     pub fn profile(&self) -> Profile {
         profile(&self.grid, &self.particles, &self.effects, &self.columns())
     }
@@ -57,7 +57,8 @@ impl<const D: usize> HeatSolver<D> {
         columns
     }
 
-    /// See [`Solver::take_visits`](super::solver::Solver::take_visits).
+    /// Number of visited particles, see
+    /// [`Solver::take_visits`](super::solver::Solver::take_visits).
     pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
         Tally::take(&[self.kernel.tally()])
     }
@@ -98,7 +99,7 @@ impl<const D: usize> Subject for HeatSolver<D> {
         passes.map(|pass| (*pass).to_owned()).collect()
     }
 
-    /// The grid has its masses from the start.
+    /// The masses of the grid do not change after the start.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
         let Self { grid: _, particles, kernel: _, effects, time, transfers } = self;
         checkpoint.visit(particles);

@@ -1,20 +1,19 @@
 //! Initial state of the particles: columns, stresses and domains before the first step.
 //!
-//! A body may start deformed ([`Particles::deform`]): stress then follows from F by the material
-//! ([`Material::start_deformed`]), and domains from F by the basis, as if the body had been
-//! deformed to this state. A viscous fluid that starts in motion also has the stress of its
-//! velocities.
+//! A body may start deformed ([`Particles::deform`]). The material then computes the stress from F
+//! ([`Material::start_deformed`]), and the basis computes the domains from F, as if the body had
+//! been deformed to this state. A viscous fluid that starts in motion also has viscous stress.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::Material;
 use crate::subject::{Failure, Site};
 
-/// Adds the columns that a basis of such a `domain` and `material` read and completes the state;
-/// returns the smallest J.
+/// Adds the columns that `material` and a basis with this `domain` read, and completes the state.
+/// Returns the smallest J.
 ///
 /// # Errors
-/// [`Failure::NotOfDeformation`] if F gives a deformed body no stress,
+/// [`Failure::NotOfDeformation`] if F does not determine the stress of a deformed body.
 /// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first invalid particle.
 pub(in crate::mpm) fn complete<const D: usize>(
     particles: &mut Particles<D>,
@@ -38,7 +37,7 @@ pub(in crate::mpm) fn complete<const D: usize>(
     let mut min_j = f64::INFINITY;
     for (p, (vol, vol0)) in particles.vol.iter().zip(&particles.vol0).enumerate() {
         let j = vol / vol0;
-        // Must precede the check of the stress, which is NaN for inverted particles.
+        // This check must precede the check of the stress, which is NaN for inverted particles.
         if deformed && j <= 0.0 {
             return Err(Failure::Inverted { site: Site::Particle(p), j });
         }
@@ -48,11 +47,10 @@ pub(in crate::mpm) fn complete<const D: usize>(
     Ok(if particles.is_empty() { 1.0 } else { min_j })
 }
 
-/// Completes the state of `particles` at the start of a run as a solver does, for a basis that
-/// reads no domains.
+/// Completes the initial state of `particles` like a solver, for a basis that reads no domains.
 ///
 /// # Errors
-/// [`Failure::NotOfDeformation`] if F gives a deformed body no stress,
+/// [`Failure::NotOfDeformation`] if F does not determine the stress of a deformed body.
 /// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first invalid particle.
 pub fn complete_start<const D: usize>(
     particles: &mut Particles<D>,
@@ -70,7 +68,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A square of four particles under u = (0.1 X + 0.2 Y, -0.25 Y), F the same everywhere.
+    /// A square of four particles with u = (0.1 X + 0.2 Y, -0.25 Y) and uniform F.
     fn deformed(f: Matrix<2>) -> Particles<2> {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
         let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
@@ -99,7 +97,7 @@ mod tests {
         }
     }
 
-    /// sigma = 2 eta D of a shear flow, before the first step.
+    /// A shear flow has sigma = 2 eta D before the first step.
     #[test]
     fn a_fluid_in_motion_starts_under_viscous_stress() {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));

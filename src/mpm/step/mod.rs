@@ -1,5 +1,5 @@
-//! The step: a solver is set up from members of the families, its schedule is compiled, and its
-//! passes run.
+//! The step: creates a solver from members of the families, compiles its schedule, and runs its
+//! passes.
 
 pub(in crate::mpm) mod cell_tracker;
 pub(in crate::mpm) mod combination;

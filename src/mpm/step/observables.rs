@@ -1,11 +1,12 @@
 //! Observables of a body: conserved sums, samples of the particles, and the reaction of fixed
 //! walls.
 //!
-//! The reaction follows from the weak form with the functions of fixed nodes: their force would
-//! accelerate them, `m_i a_i = f_i` with a lumped mass, and the wall balances it. So the reaction
-//! is `-sum f_i` over the fixed components, of internal and external forces together. The functions
-//! of these nodes are the only ones that do not vanish on the wall, and their sum there is one: in
-//! the limit of small cells the reaction is the integral of the traction.
+//! The reaction follows from the weak form with the functions of fixed nodes. Without the wall, the
+//! nodal forces would accelerate these nodes (`m_i a_i = f_i` with a lumped mass), so the wall
+//! balances these forces. The reaction is therefore `-sum f_i` over the fixed components of
+//! internal and external forces. Only the functions of these nodes are non-zero on the wall, and
+//! their sum there is one. For small cells the reaction therefore converges to the integral of the
+//! traction.
 
 use super::solver::Solver;
 use crate::mpm::boundary::{Boundary, Side};
@@ -15,8 +16,8 @@ use crate::subject::{Reaction, Samples, Totals};
 
 impl<const D: usize> Particles<D> {
     /// Current mass, momenta and kinetic energy, without the strain energy of the material. `own`
-    /// is the first moment of the velocity field of a particle about itself, if the transfer has
-    /// one (Jiang et al. 2015).
+    /// is the first moment of the velocity field within a particle, if the transfer has such a
+    /// field (Jiang et al. 2015).
     pub fn totals(&self, own: impl Fn(usize) -> Option<Matrix<D>>) -> Totals {
         let mut totals = Totals::default();
         for (p, (m, v)) in self.mass.iter().zip(&self.v).enumerate() {
@@ -28,21 +29,21 @@ impl<const D: usize> Particles<D> {
         totals
     }
 
-    /// Angular momentum of particle p per unit of its mass, as the matrix with that axial vector:
-    /// `v x^T` for the motion of its centre, and the moment `own` about the centre.
+    /// Matrix whose axial vector is the angular momentum of particle p per unit mass: `v x^T` for
+    /// the motion of its centre, plus the moment `own` about the centre.
     fn moment(&self, p: usize, own: Option<Matrix<D>>) -> Matrix<D> {
         dyad(&self.v[p], self.position(p)) + own.unwrap_or_else(Matrix::zeros)
     }
 }
 
-/// `(M_zy - M_yz, M_xz - M_zx, M_yx - M_xy)`: x cross v for `M = v x^T`, in any dimension.
+/// `(M_zy - M_yz, M_xz - M_zx, M_yx - M_xy)`, which is x cross v for `M = v x^T`, in any dimension.
 fn axial<const D: usize>(m: &Matrix<D>) -> [f64; 3] {
     let part = |i: usize, j: usize| if i.max(j) < D { m[(i, j)] - m[(j, i)] } else { 0.0 };
     [part(2, 1), part(0, 2), part(1, 0)]
 }
 
 impl<const D: usize> Particles<D> {
-    /// Appends the state at the reference positions; F only if its column exists.
+    /// Appends the state at the reference positions; F is included only if its column exists.
     pub(in crate::mpm) fn sample(&self, samples: &mut Samples) {
         samples.dimension = D;
         for (p, x0) in self.x0.iter().enumerate() {
@@ -67,16 +68,16 @@ impl<const D: usize> Particles<D> {
 }
 
 impl<const D: usize> Solver<D> {
-    /// Reaction at the beginning of the last step, of all fixed walls, or of that on one face of
-    /// the grid (axis of the normal, and its end).
+    /// Reaction of all fixed walls, or of one face of the grid (axis of the normal, and end of the
+    /// axis), at the beginning of the last step.
     pub fn reaction(&self, of: Option<(usize, Side)>) -> Reaction {
         let force = wall_reaction(&self.setup.grid.force, &self.setup.boundary, of);
         Reaction { time: self.advance.to - 0.5 * self.advance.dt, force }
     }
 }
 
-/// Reaction (N) of all fixed walls, or of that on one face of the grid, to the nodal forces `force`
-/// (N), internal and external together.
+/// Reaction (N) of all fixed walls, or of one face of the grid, to the nodal forces `force` (N),
+/// the sum of internal and external forces.
 pub(in crate::mpm) fn wall_reaction<const D: usize>(
     force: &[Vector<D>],
     boundary: &[Box<dyn Boundary<D>>],

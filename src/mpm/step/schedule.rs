@@ -1,8 +1,8 @@
-//! Schedule of a step: scheme, transfer, conditions and coupling, compiled once to a list of
+//! Schedule of a step. Scheme, transfer, conditions and coupling are compiled once to a list of
 //! passes.
 //!
-//! A pass of P2G or G2P recomputes the weights of all particles. So neighbouring stages share a
-//! pass if no stage between them changes particles (P2G) or nodal velocities (G2P):
+//! Each P2G or G2P pass recomputes the weights of all particles. Neighbouring stages therefore
+//! share a pass if no stage between them changes particles (P2G) or nodal velocities (G2P):
 //!
 //! ```text
 //! USL:  P2G(mass, momentum, force)  G2P(particle velocity, stress, position)
@@ -15,14 +15,14 @@ use crate::mpm::scheme::Stage;
 use crate::subject::Start;
 use std::sync::Arc;
 
-/// One entry of a schedule.
+/// An entry of a schedule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::mpm) enum Pass {
-    /// One pass of P2G for these stages.
+    /// One P2G pass for these stages.
     P2g(&'static [Stage]),
-    /// One pass of G2P for these stages.
+    /// One G2P pass for these stages.
     G2p(&'static [Stage]),
-    /// The rest of a stage, on nodes alone or particles alone.
+    /// Remaining work of a stage on nodes or particles.
     Update(Stage),
     /// Integration of the effects' own state over the step.
     IntegrateState,
@@ -30,23 +30,24 @@ pub(in crate::mpm) enum Pass {
     Couple(CouplingPoint),
 }
 
-/// Points of a step at which bodies are coupled, after all bodies have reached the point.
+/// Points of a step at which bodies are coupled. All bodies must have reached the point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::mpm) enum CouplingPoint {
     /// After particles have moved; nodal masses are up to date.
     Mass,
-    /// After P2G of velocities that are advanced next.
+    /// After P2G of velocities that are then advanced.
     Velocity,
-    /// After P2G of velocities that strain the bodies next.
+    /// After P2G of velocities that then strain the bodies.
     StrainVelocity,
     /// After strains from velocities that are advanced later.
     Strained,
-    /// After accelerations.
+    /// After the accelerations.
     Acceleration,
 }
 
 impl Pass {
-    /// Name of the pass, `P2G(mass, momentum)`. The rest of a stage has the name of the stage.
+    /// Name of the pass, `P2G(mass, momentum)`. The remaining work of a stage has the name of the
+    /// stage.
     pub(in crate::mpm) fn name(self) -> String {
         let of = |kind: &str, stages: &[Stage]| {
             let names: Vec<&str> = stages.iter().map(|stage| stage.name()).collect();
@@ -61,8 +62,8 @@ impl Pass {
         }
     }
 
-    /// The pass as reports list it. A stage that has a pass of P2G or G2P is named there only;
-    /// `state` are the passes of the effects' own state.
+    /// Names of the pass for reports. A stage with a P2G or G2P pass is listed only with this pass.
+    /// `state` lists the passes for the effects' own state.
     fn texts(self, state: &[&str]) -> Vec<String> {
         match self {
             Self::IntegrateState => state.iter().map(|pass| (*pass).to_owned()).collect(),
@@ -75,7 +76,7 @@ impl Pass {
 }
 
 impl CouplingPoint {
-    /// The quantity that is coupled, as reports name it.
+    /// Name in reports of the quantity that is coupled.
     fn name(self) -> &'static str {
         match self {
             Self::Mass => "mass",
@@ -90,24 +91,24 @@ impl CouplingPoint {
 /// Passes of a run.
 #[derive(Debug, Clone, Default)]
 pub(in crate::mpm) struct StepSchedule {
-    /// Passes before the first step, for the accelerations at t = 0 where velocities start half a
-    /// step back.
+    /// Passes before the first step. They compute the accelerations at t = 0 if velocities start
+    /// half a step back.
     pub(in crate::mpm) opening: Arc<[Pass]>,
     /// Passes of each step.
     pub(in crate::mpm) passes: Arc<[Pass]>,
 }
 
-/// Configuration of a run beyond the setup of a body.
+/// Coupling of a body with other bodies.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::mpm) struct Coupled {
     /// Whether several bodies are coupled.
     pub(in crate::mpm) bodies: bool,
-    /// Whether their coupling reads velocities before they advance.
+    /// Whether the coupling reads velocities before they advance.
     pub(in crate::mpm) reads_velocity: bool,
 }
 
 impl StepSchedule {
-    /// The schedule of `setup`; positions stay in a `fixed_configuration`.
+    /// The schedule of `setup`. With `fixed_configuration`, positions do not change.
     pub(in crate::mpm) fn new<const D: usize>(
         setup: &mut Setup<D>,
         coupled: Coupled,
@@ -131,13 +132,14 @@ impl StepSchedule {
         }
     }
 
-    /// Passes of each step, as in reports; `state` are those of the state of effects.
+    /// Names of the passes of each step for reports. `state` lists the passes for the effects' own
+    /// state.
     pub(in crate::mpm) fn texts(&self, state: &[&str]) -> Vec<String> {
         self.passes.iter().flat_map(|pass| pass.texts(state)).collect()
     }
 }
 
-/// Passes of `stages` alone, without effects' own state and without coupling.
+/// Passes of `stages`, without the effects' own state and without coupling.
 pub(in crate::mpm) fn passes_of(stages: &'static [Stage]) -> Vec<Pass> {
     compile(stages, false, false)
 }
@@ -164,14 +166,14 @@ fn compile(stages: &'static [Stage], integrates_state: bool, is_coupled: bool) -
     passes
 }
 
-/// Whether a stage and the next one share a pass: both are of P2G, or both of G2P.
+/// Whether a stage and the next one share a pass, because both are P2G or both are G2P.
 fn fuses(stage: Stage, next: Stage) -> bool {
     use Stage::{Force, Mass, Momentum, ParticleVelocity, Position, Stress};
     matches!((stage, next), (Mass | Momentum | Force, Mass | Momentum | Force))
         || matches!((stage, next), (ParticleVelocity | Stress, Stress | Position))
 }
 
-/// Coupling after the first of `stages`.
+/// Point of coupling after the first of `stages`.
 fn coupling_after(stages: &[Stage]) -> Option<CouplingPoint> {
     match stages {
         [Stage::Mass, ..] => Some(CouplingPoint::Mass),

@@ -1,4 +1,4 @@
-//! Parts of a solver, and their columns as a profile of memory and as fields.
+//! Parts of a solver, and their columns as a memory profile and as fields.
 
 use super::volume_average::VolumeName;
 use crate::mpm::boundary::Boundary;
@@ -12,55 +12,56 @@ use crate::mpm::scheme::{SchemeName, Stage};
 use crate::mpm::transfer::Transfer;
 use crate::subject::{BodyFields, Column, ColumnSize, Holder, Profile, Start, StateField};
 
-/// Parts of a solver of one body.
+/// Parts of a solver for one body.
 pub struct Setup<const D: usize> {
     /// The background grid.
     pub grid: Grid<D>,
-    /// The body, in its initial state.
+    /// The body in its initial state.
     pub particles: Particles<D>,
     /// Basis.
     pub kernel: Box<dyn Kernel<D>>,
-    /// Velocities between particles and grid.
+    /// Transfer of velocities between particles and grid.
     pub transfer: Box<dyn Transfer<D>>,
-    /// From momenta to velocities, from forces to accelerations.
+    /// Mass matrix: converts momenta to velocities, and forces to accelerations.
     pub mass: Box<dyn MassMatrix<D>>,
-    /// Configuration in which the basis lives.
+    /// Configuration in which the basis is evaluated.
     pub frame: FrameName,
-    /// Volume ratio at which the law computes its stress.
+    /// Volume ratio for which the law computes the stress.
     pub volume: VolumeName,
     /// The constitutive law.
     pub material: Box<dyn Material<D>>,
-    /// Effects that the scene lists.
+    /// Effects of the scene.
     pub effects: Vec<Box<dyn Effect<D>>>,
-    /// Boundary conditions on faces of the grid; where faces meet, the last one wins.
+    /// Boundary conditions on faces of the grid. Where faces meet, the last condition applies.
     pub boundary: Vec<Box<dyn Boundary<D>>>,
     /// Order of the stages.
     pub scheme: SchemeName,
-    /// Treatment of the initial velocity.
+    /// Time of the initial velocity.
     pub start: Start,
 }
 
 impl<const D: usize> Setup<D> {
-    /// Whether an effect or a condition reads the velocities of the grid before they advance.
+    /// Whether an effect or a condition reads the grid velocities before they advance.
     pub(in crate::mpm) fn reads_velocity(&self) -> bool {
         self.effects.iter().any(|effect| effect.reads_grid_velocity())
             || self.boundary.iter().any(|condition| condition.reads_velocity())
     }
 
-    /// The stages of a step; `is_read`: something else reads nodal velocities before they advance.
+    /// Stages of a step. `is_read` states whether another part reads nodal velocities before they
+    /// advance.
     pub(in crate::mpm) fn stages(&mut self, is_read: bool) -> &'static [Stage] {
         let G2pRequest { mix, moment, gradient, .. } = self.transfer.g2p_request(0.0);
         let is_taken = mix.is_some() || moment.is_some() || gradient.is_some();
         self.scheme.stages(is_taken || is_read || self.reads_velocity())
     }
 
-    /// Passes of the effects' own state.
+    /// Names of the passes for the effects' own state.
     pub(in crate::mpm) fn state_passes(&self) -> Vec<&'static str> {
         self.effects.iter().flat_map(|effect| effect.state_passes()).copied().collect()
     }
 
-    /// All columns for particles and nodes, with those `of_solver`; the factors of a consistent
-    /// mass matrix, which are recomputed in each step, are excluded.
+    /// All columns for particles and nodes, including the columns `of_solver`. The factors of a
+    /// consistent mass matrix, which are recomputed in each step, are excluded.
     pub(in crate::mpm) fn columns<'a>(
         &'a self,
         of_solver: impl IntoIterator<Item = Column<'a>>,
@@ -77,7 +78,7 @@ impl<const D: usize> Setup<D> {
     }
 }
 
-/// Profile of a step of a body with these effects and columns, without its passes and visits.
+/// Step profile of a body with these effects and columns, without passes and visits.
 pub(in crate::mpm) fn profile<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,
@@ -94,7 +95,8 @@ pub(in crate::mpm) fn profile<const D: usize>(
     }
 }
 
-/// The columns that have numbers for every particle or every node. Of two with one name the first.
+/// Columns that have numbers for every particle or every node. If two columns have the same name,
+/// only the first is included.
 pub(in crate::mpm) fn fields<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,

@@ -1,12 +1,11 @@
 //! A solver whose state is rounded to single precision after each pass.
 //!
-//! Arithmetic within a pass is in double precision, so that a pass rounds each result once, as a
-//! solver does that stores its arrays in single precision and accumulates sums in registers.
-//! Rounded are positions, velocities, volumes, stresses, deformation gradients, temperatures and
-//! affine moments of particles, and mass, velocity, force and acceleration of nodes. Internal
-//! variables of a law and the state of effects and conditions remain in double precision, as do
-//! reference positions, which are labels. The step of [`Solver`] has no part in this: without
-//! rounding, nothing is added to it.
+//! Arithmetic within a pass is in double precision, so a pass rounds each result once. This models
+//! a solver that stores its arrays in single precision and accumulates sums in registers. For
+//! particles, positions, velocities, volumes, stresses, deformation gradients, temperatures and
+//! affine moments are rounded; for nodes, mass, velocity, force and acceleration. Internal
+//! variables of a law and the state of effects and conditions remain in double precision. So do
+//! reference positions, which are labels. The step of [`Solver`] contains no code for rounding.
 
 use super::setup::Setup;
 use super::solver::Solver;
@@ -19,14 +18,14 @@ use crate::subject::{
     BodyFields, Checkpoint, Failure, Reaction, RunCounters, Samples, Subject, Totals,
 };
 
-/// A solver of one body in single precision.
+/// A single-precision solver for one body.
 pub struct SinglePrecision<const D: usize>(Solver<D>);
 
 impl<const D: usize> SinglePrecision<D> {
-    /// A solver at t = 0, whose initial state is rounded.
+    /// Creates a solver at t = 0 with a rounded initial state.
     ///
     /// # Errors
-    /// As [`Solver::new`].
+    /// The errors of [`Solver::new`].
     pub fn new(mut setup: Setup<D>) -> Result<Self, Failure> {
         round_particles(&mut setup.particles);
         let mut solver = Solver::new(setup)?;
@@ -111,7 +110,7 @@ fn round_state<const D: usize>(solver: &mut Solver<D>) {
 
 fn round_particles<const D: usize>(particles: &mut Particles<D>) {
     let Particles {
-        // Labels.
+        // Reference positions are labels.
         x0: _,
         x,
         current_position,
@@ -153,7 +152,7 @@ fn round_matrices<const D: usize>(column: &mut [Matrix<D>]) {
     }
 }
 
-/// Rounds each number to the nearest one in single precision.
+/// Rounds each number to single precision.
 fn round(numbers: &mut [f64]) {
     for number in numbers {
         *number = f64::from(*number as f32);

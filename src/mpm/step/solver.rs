@@ -1,4 +1,4 @@
-//! The solver: the passes of a step. [`schedule`](super::schedule) has their order.
+//! The solver: the passes of a step. [`schedule`](super::schedule) defines their order.
 
 use super::cell_tracker::CellTracker;
 use super::initial;
@@ -19,12 +19,12 @@ use crate::mpm::scheme::Stage;
 use crate::mpm::transfer::{Transfer, g2p};
 use crate::subject::{Column, Failure, Profile, Site};
 
-/// The original MPM at one level of refinement.
+/// The original MPM at one refinement level.
 pub struct Solver<const D: usize> {
     pub(in crate::mpm) setup: Setup<D>,
     pub(in crate::mpm) schedule: StepSchedule,
     pub(in crate::mpm) time: f64,
-    /// Time of the velocities (s): after the first step, half a step behind.
+    /// Time of the velocities (s). After the first step, it is half a step behind.
     pub(in crate::mpm) velocity_time: f64,
     /// The last advance of velocities.
     pub(in crate::mpm) advance: Advance,
@@ -34,17 +34,17 @@ pub struct Solver<const D: usize> {
     pub(in crate::mpm) cell_tracker: CellTracker<D>,
     /// Position of each particle after the step (m), from G2P until positions change.
     pub(in crate::mpm) advected: Vec<Vector<D>>,
-    /// The average of volume ratios, if the method has one.
+    /// Memory of averaged volume ratios, if the method averages them.
     pub(in crate::mpm) volume_average: Option<VolumeAverage<D>>,
 }
 
 impl<const D: usize> Solver<D> {
-    /// A solver at t = 0.
+    /// Creates a solver at t = 0.
     ///
     /// # Errors
-    /// [`Failure::NonFinite`] if the initial state of a particle is; [`Failure::LeftDomain`] if it
-    /// starts outside the grid; [`Failure::Inverted`] or [`Failure::NotOfDeformation`] if the body
-    /// starts deformed in a way that has no meaning.
+    /// [`Failure::NonFinite`] if the initial state of a particle is not finite;
+    /// [`Failure::LeftDomain`] if a particle starts outside the grid; [`Failure::Inverted`] or
+    /// [`Failure::NotOfDeformation`] if the initial deformation is invalid.
     pub fn new(mut setup: Setup<D>) -> Result<Self, Failure> {
         let Setup { grid, particles, kernel, material, effects, volume, .. } = &mut setup;
         let mut volume_average = match volume {
@@ -95,7 +95,7 @@ impl<const D: usize> Solver<D> {
         &self.setup.particles
     }
 
-    /// The transfer, with its state of the particles.
+    /// The transfer, with its particle state.
     pub fn transfer(&self) -> &dyn Transfer<D> {
         self.setup.transfer.as_ref()
     }
@@ -105,13 +105,13 @@ impl<const D: usize> Solver<D> {
         &self.setup.grid
     }
 
-    /// The effects, and all columns for particles and nodes.
+    /// Active effects, and all columns of particles and nodes.
     pub fn profile(&self) -> Profile {
         let Setup { grid, particles, effects, .. } = &self.setup;
         profile(grid, particles, effects, &self.columns())
     }
 
-    /// All columns for particles and nodes.
+    /// All columns of particles and nodes.
     pub(in crate::mpm) fn columns(&self) -> Vec<Column<'_>> {
         let advected = Column::of_particles("advected x", &self.advected);
         let of_average = self.volume_average.iter().flat_map(VolumeAverage::columns);
@@ -119,8 +119,8 @@ impl<const D: usize> Solver<D> {
         self.setup.columns(own.into_iter().chain(of_average))
     }
 
-    /// Parts of passes since the last call, with the particles visited; counted from the first call
-    /// on.
+    /// Parts of passes since the last call, with the number of visited particles. Counting starts
+    /// at the first call.
     pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
         Tally::take(&[self.setup.kernel.tally()])
     }
@@ -148,7 +148,7 @@ impl<const D: usize> Solver<D> {
         Ok(())
     }
 
-    /// The rest of a stage after its pass of P2G or G2P.
+    /// Performs the remaining work of a stage after its P2G or G2P pass.
     fn update(&mut self, stage: Stage, dt: f64) -> Result<(), Failure> {
         match stage {
             Stage::Mass => self.mass()?,
@@ -173,7 +173,7 @@ impl<const D: usize> Solver<D> {
         Ok(())
     }
 
-    /// From momenta to velocities.
+    /// Converts momenta to velocities.
     fn momentum(&mut self) {
         let Setup { grid, particles, kernel, transfer, mass, boundary, .. } = &mut self.setup;
         let mut field = std::mem::take(&mut grid.velocity);
@@ -186,7 +186,7 @@ impl<const D: usize> Solver<D> {
         self.count(passes);
     }
 
-    /// Adds external forces to the internal ones.
+    /// Adds external forces to the internal forces.
     fn force(&mut self) {
         let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
         for effect in effects.iter_mut() {
@@ -212,7 +212,7 @@ impl<const D: usize> Solver<D> {
         self.count(passes);
     }
 
-    /// Applies the effects' velocity hooks after an advance of `dt` (s).
+    /// Calls the velocity hooks of the effects after an advance by `dt` (s).
     pub(in crate::mpm) fn drive(&mut self, dt: f64) {
         for effect in &self.setup.effects {
             effect.modify_velocity(self.velocity_time, dt, &mut self.setup.particles);
@@ -250,7 +250,7 @@ impl<const D: usize> Solver<D> {
     }
 }
 
-/// `v <- v + a dt`.
+/// Computes `v <- v + a dt`.
 fn advance<const D: usize>(v: &mut [Vector<D>], a: &[Vector<D>], dt: f64) {
     PIECES.each(v, &|k, piece| {
         let a = &a[k * PIECES.length..];
@@ -268,7 +268,7 @@ fn advance<const D: usize>(v: &mut [Vector<D>], a: &[Vector<D>], dt: f64) {
 }
 
 impl<const D: usize> Solver<D> {
-    /// Deformation, stress and volume from the velocity gradients of the particles.
+    /// Updates deformation, stress and volume from the velocity gradients of the particles.
     pub(in crate::mpm) fn stress(&mut self, dt: f64) -> Result<(), Failure> {
         let Setup { particles, material, frame, effects, kernel, grid, .. } = &mut self.setup;
         if *frame == FrameName::Total {
@@ -292,7 +292,8 @@ impl<const D: usize> Solver<D> {
             self.jacobians()?;
         }
         let Setup { particles, material, .. } = &self.setup;
-        // A law of F takes J from F: each number of F is a factor in J, which is finite by now.
+        // A law of F computes J from F. Each number of F is a factor in J, which has already been
+        // checked.
         if !material.reads_deformation() {
             particles.deformed_finite()?;
         }

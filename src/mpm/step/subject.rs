@@ -1,12 +1,13 @@
-//! A solver as a [`Subject`]: the step, checkpoints, and the state as a row of numbers.
+//! Implements [`Subject`] for a solver: the step, checkpoints, and the state as a vector of
+//! numbers.
 //!
-//! A step executes the passes of the schedule in order. In checkpoints every field is named, so
-//! that the compiler reports a missing new field; the grid and the advected positions are
-//! recomputed in each step.
+//! A step runs the passes of the schedule in order. Checkpoints name every field, so that the
+//! compiler reports a new field that is missing. The grid and the advected positions are recomputed
+//! in each step.
 //!
-//! The row of numbers is the state that a step reads and changes: velocities, stresses, volumes, F
-//! if it is a column, and the affine state of the transfer. The grid has no state between steps.
-//! State of a material alone (plastic flow) is excluded, and positions and domains are the
+//! The vector contains the state that a step reads and changes: velocities, stresses, volumes, F if
+//! its column exists, and the affine state of the transfer. The grid has no state between steps.
+//! Internal variables of a material (plastic flow) are excluded. Positions and domains are the
 //! configuration.
 
 use super::schedule::{Coupled, Pass, StepSchedule};
@@ -24,17 +25,17 @@ use crate::subject::{
 use nalgebra::SMatrix;
 
 impl<const D: usize> Solver<D> {
-    /// The step of [`Subject::step`]; `after` is called with the name of each completed pass, so
-    /// that a caller can time the passes.
+    /// Performs [`Subject::step`], and calls `after` with the name of each completed pass, so that
+    /// a caller can time the passes.
     ///
     /// # Errors
-    /// As [`Subject::step`].
+    /// The errors of [`Subject::step`].
     pub fn step_by_pass(&mut self, dt: f64, after: &mut dyn FnMut(String)) -> Result<(), Failure> {
         self.begin(dt, &mut |_, pass| after(pass.name()))?;
         self.finish(dt, &mut |_, pass| after(pass.name()))
     }
 
-    /// Runs the passes before the first step, of the length `dt` (s); later steps have none.
+    /// Runs the passes before the first step of length `dt` (s). Later steps have no such passes.
     pub(in crate::mpm) fn begin(
         &mut self,
         dt: f64,
@@ -49,7 +50,7 @@ impl<const D: usize> Solver<D> {
         Ok(())
     }
 
-    /// Runs the passes of a step of length `dt` (s) after [`Self::begin`]. `after` is called with
+    /// Runs the passes of a step of length `dt` (s) after [`Self::begin`], and calls `after` with
     /// the solver after each pass.
     pub(in crate::mpm) fn finish(
         &mut self,
@@ -93,7 +94,7 @@ impl<const D: usize> Solver<D> {
         }
     }
 
-    /// Before the passes of the opening.
+    /// Prepares the passes before the first step.
     pub(in crate::mpm) fn open(&mut self, dt: f64) {
         self.drive(0.0);
         if self.setup.start == Start::HalfStepBack {
@@ -102,7 +103,7 @@ impl<const D: usize> Solver<D> {
         }
     }
 
-    /// After the passes of the opening: `v(-dt/2) = v(0) - dt/2 a(0)`.
+    /// Completes the passes before the first step: `v(-dt/2) = v(0) - dt/2 a(0)`.
     pub(in crate::mpm) fn opened(&mut self, dt: f64) {
         self.started = true;
         if self.setup.start == Start::AtZero {
@@ -163,14 +164,14 @@ impl<const D: usize> Subject for Solver<D> {
     }
 }
 
-/// Vectors and matrices, column after column.
+/// Visits vectors and matrices column by column.
 impl<const R: usize, const C: usize> Memory for SMatrix<f64, R, C> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         f64::visit_each(self.as_mut_slice(), checkpoint);
     }
 }
 
-/// The columns that change during a run.
+/// Visits the columns that change during a run.
 impl<const D: usize> Memory for Particles<D> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let Self {
@@ -269,12 +270,12 @@ impl<const D: usize> Memory for Solver<D> {
     }
 }
 
-/// The columns of matrices of the particles, in their order in the state.
+/// Matrix columns of the particles, in the order of the state vector.
 fn matrices<const D: usize>(particles: &Particles<D>) -> impl Iterator<Item = &Matrix<D>> {
     [&particles.sigma, &particles.def_grad].into_iter().flatten()
 }
 
-/// Affine velocity field of the particles, if the transfer has one.
+/// Affine velocity field of the particles, if the transfer has such a field.
 fn affine<const D: usize>(solver: &Solver<D>) -> Option<Affine<'_, D>> {
     solver.setup.transfer.p2g_request(&solver.setup.particles).momentum?.affine
 }

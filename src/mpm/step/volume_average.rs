@@ -1,8 +1,8 @@
 //! F-bar with an averaged volume ratio, against volumetric locking (Zhao, Jiang & Choo 2023, IJNME
 //! 124).
 //!
-//! Where a particle asks its law for a stress, the law sees the deformation gradient with the
-//! volume ratio of the neighbourhood:
+//! When a law computes the stress of a particle, it reads a deformation gradient with an averaged
+//! volume ratio:
 //!
 //! ```text
 //! Jbar_i = sum_p V0_p J_p N_i(x_p) / sum_p V0_p N_i(x_p)     nodes
@@ -10,13 +10,13 @@
 //! Fbar_p = (Jbar_p/J_p)^(1/D) F_p
 //! ```
 //!
-//! J is that of the end of the step, and the weights are those of its start, at which the nodes
-//! also take forces and give velocity gradients: stresses are known before positions change. F, J
-//! and volumes stay those of the particle; the internal force has its own volume `V0 J` and the
-//! plain gradients. Both averages have the same weights, which sum to one, so that Jbar lies
-//! between the smallest and the largest J, and a uniform J is reproduced.
+//! J belongs to the end of the step. The weights belong to the start of the step, like the weights
+//! for forces and velocity gradients, because stresses are computed before positions change. F, J
+//! and volumes of a particle are not changed; the internal force uses the volume `V0 J` and the
+//! gradients without averaging. Both averages have the same weights, which sum to one. So Jbar is
+//! between the smallest and largest J, and a uniform J is reproduced.
 //!
-//! A law that keeps J alone gets Jbar as its volume. The force does not derive from a stored
+//! A law that stores only J receives Jbar as its volume. The force does not derive from a stored
 //! energy.
 
 use crate::mpm::foundation::algebra::{Matrix, Vector, det};
@@ -38,24 +38,24 @@ named! {
     }
 }
 
-/// Memory of the average; no entry is read before it is written in the same update.
+/// Memory of the average. Each update writes every entry before reading it.
 #[derive(Debug)]
 pub(in crate::mpm) struct VolumeAverage<const D: usize> {
-    /// J and 1 of each particle; after the average the weighted means of J and of 1.
+    /// J and 1 for each particle. After averaging, weighted means of J and of 1.
     ratio: Vec<Vector<D>>,
-    /// Sums of `V0 J N_i` and `V0 N_i` of each node (m^D), then Jbar_i and 1.
+    /// Sums of `V0 J N_i` and `V0 N_i` for each node (m^D), later Jbar_i and 1.
     nodal_ratio: Vec<Vector<D>>,
-    /// The particle's own volume (m^D), in whose place the law sees the averaged one.
+    /// Volume of each particle (m^D) while the law reads the averaged volume.
     own_volume: Vec<f64>,
-    /// The particle's own F, in whose place the law sees Fbar; empty if the law does not read F.
+    /// F of each particle while the law reads Fbar; empty if the law does not read F.
     own_def_grad: Vec<Matrix<D>>,
 }
 
-/// Passes of P2G and G2P of one average.
+/// Number of P2G and G2P passes per average.
 pub(in crate::mpm) const PASSES: u64 = 2;
 
 impl<const D: usize> VolumeAverage<D> {
-    /// For `particles` on `grid`; the law `reads_deformation` or keeps J alone.
+    /// Creates the memory for `particles` on `grid`. The law `reads_deformation` or stores only J.
     ///
     /// # Errors
     /// [`Failure::Solve`] in one dimension.
@@ -76,7 +76,7 @@ impl<const D: usize> VolumeAverage<D> {
         })
     }
 
-    /// `material` as it sees averaged volume ratios.
+    /// Wraps `material` so that it reads averaged volume ratios.
     pub(in crate::mpm) fn law<'a>(
         &'a mut self,
         material: &'a mut dyn Material<D>,
@@ -86,7 +86,7 @@ impl<const D: usize> VolumeAverage<D> {
         AveragedLaw { average: self, material, kernel, grid }
     }
 
-    /// Columns for particles and nodes.
+    /// Columns with entries for particles and nodes.
     pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 4] {
         [
             Column::of_particles("average of J", &self.ratio),
@@ -96,20 +96,20 @@ impl<const D: usize> VolumeAverage<D> {
         ]
     }
 
-    /// Jbar of particle `p` with the volume ratio `j`. Where its weights do not sum to one, as
-    /// outside the grid, its own J has the rest.
+    /// Jbar of particle `p` with the volume ratio `j`. If the weights do not sum to one, as outside
+    /// the grid, the rest of the weight is given to `j`.
     fn mean(&self, p: usize, j: f64) -> f64 {
         let ratio = &self.ratio[p];
         ratio[0] + (1.0 - ratio[1]) * j
     }
 
-    /// Averages `own_volume / V0`, with the weights at the present positions.
+    /// Averages `own_volume / V0`, with the weights at the current positions.
     fn average(&mut self, kernel: &dyn Kernel<D>, grid: &Grid<D>, particles: &mut Particles<D>) {
         let volumes = self.own_volume.iter().zip(&particles.vol0);
         for (ratio, (volume, vol0)) in self.ratio.iter_mut().zip(volumes) {
             *ratio = Vector::from_fn(|axis, _| if axis == 0 { volume / vol0 } else { 1.0 });
         }
-        // P2G of momentum weighs by the mass: a body whose mass is its volume.
+        // P2G of momentum weights by mass, so the reference volume temporarily replaces the mass.
         std::mem::swap(&mut particles.mass, &mut particles.vol0);
         let field = ParticleField { v: &self.ratio, affine: None };
         kernel.p2g_momentum(particles, field, grid, &mut self.nodal_ratio);
@@ -123,7 +123,7 @@ impl<const D: usize> VolumeAverage<D> {
         kernel.g2p(grid, &self.nodal_ratio, particles, (0.0, 1.0), &mut self.ratio);
     }
 
-    /// Puts Jbar V0 in the place of the volumes, and Fbar in that of F if the law reads it.
+    /// Replaces the volumes by Jbar V0, and F by Fbar if the law reads F.
     fn put_average(&mut self, particles: &mut Particles<D>) {
         for p in 0..particles.len() {
             let (vol0, j) = (particles.vol0[p], self.own_volume[p] / particles.vol0[p]);
@@ -137,7 +137,7 @@ impl<const D: usize> VolumeAverage<D> {
         }
     }
 
-    /// Puts back what [`put_average`](Self::put_average) has replaced.
+    /// Restores the columns that [`put_average`](Self::put_average) has replaced.
     fn put_back(&mut self, particles: &mut Particles<D>) {
         particles.vol.copy_from_slice(&self.own_volume);
         if !self.own_def_grad.is_empty() {
@@ -155,7 +155,7 @@ fn root<const D: usize>(ratio: f64) -> f64 {
     }
 }
 
-/// A law that sees averaged volume ratios, for one update.
+/// A law that reads averaged volume ratios during one update.
 pub(in crate::mpm) struct AveragedLaw<'a, const D: usize> {
     average: &'a mut VolumeAverage<D>,
     material: &'a mut dyn Material<D>,
@@ -164,7 +164,8 @@ pub(in crate::mpm) struct AveragedLaw<'a, const D: usize> {
 }
 
 impl<const D: usize> AveragedLaw<'_, D> {
-    /// Lets the law act on `particles` whose own volume is known, with averaged volume ratios.
+    /// Calls `act` with the law and `particles` at averaged volume ratios. The volumes of the
+    /// particles must have been stored.
     fn with_average<T>(
         &mut self,
         particles: &mut Particles<D>,
@@ -204,7 +205,7 @@ impl<const D: usize> Material<D> for AveragedLaw<'_, D> {
         self.material.checkpoint(checkpoint);
     }
 
-    /// Volumes are those of F already.
+    /// Volumes have already been computed from F.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         self.average.own_volume.copy_from_slice(&particles.vol);
         self.with_average(particles, |material, particles| material.start_deformed(particles))
@@ -223,7 +224,7 @@ impl<const D: usize> Material<D> for AveragedLaw<'_, D> {
                 *own = vol * det(&(Matrix::identity() + grad_v * dt));
             }
         }
-        // The volume has advanced already: a law that keeps J alone computes its stress only.
+        // The volume has already advanced, so a law that stores only J computes only its stress.
         let rest = if reads_deformation { dt } else { 0.0 };
         self.with_average(particles, |material, particles| {
             material.update(&mut StressUpdate::new(rest, particles));

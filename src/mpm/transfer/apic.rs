@@ -1,10 +1,10 @@
-//! APIC: the particle carries an affine velocity field.
+//! APIC: each particle has an affine velocity field.
 //!
 //! `v_p = sum_i v_i N_i`, `B_p = sum_i v_i (x) (x_i - x_p) N_i`, and nodes receive
 //! `v_p + B_p D_p^-1 (x_i - x_p)` (Jiang, Schroeder, Selle, Teran & Stomakhin 2015, eqs 8-10;
-//! Jiang, Schroeder & Teran 2017 prove that angular momentum is exact). The state is B, and D is
-//! that of the new position: on the linear basis, where D changes within a cell, the state C = B
-//! D^-1 would lose angular momentum.
+//! Jiang, Schroeder & Teran 2017 prove that angular momentum is exact). The stored state is B, and
+//! D is evaluated at the new position. On the linear basis D changes within a cell, so storing
+//! `C = B D^-1` would lose angular momentum.
 
 use super::contract::{Transfer, TransferKind};
 use crate::mpm::foundation::algebra::Matrix;

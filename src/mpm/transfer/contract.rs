@@ -1,4 +1,4 @@
-//! Contract of a transfer with the rest of the solver, and the passes of G2P for its request.
+//! Interface between a transfer and the rest of the solver, and the G2P passes for its request.
 
 use crate::mpm::boundary::Boundary;
 use crate::mpm::foundation::algebra::{Matrix, Vector};
@@ -8,22 +8,23 @@ use crate::mpm::kernel::contract::{Divergence, G2pRequest, Kernel, P2gRequest, P
 use crate::mpm::scheme::Stage;
 use crate::subject::Column;
 
-/// Kind of a transfer, which decides the methods that it combines with.
+/// Kind of a transfer, which determines the methods with which it can be combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TransferKind {
-    /// Particles carry a velocity.
+    /// Particles have a velocity.
     Velocity,
-    /// Particles carry an affine velocity field.
+    /// Particles have an affine velocity field.
     Field,
-    /// As [`Field`](Self::Field), with gradients of its fit instead of those of the basis.
+    /// Like [`Field`](Self::Field), but gradients come from the fit of the field instead of the
+    /// basis.
     Fit,
     /// A series in the lumped mass matrix.
     Series,
-    /// Fields that are reconstructed in cells.
+    /// Fields reconstructed in cells.
     Cells,
 }
 
-/// Integer parameter of a transfer: its range and its text in messages.
+/// Integer parameter of a transfer, with its range and its text in messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TransferParameter {
     /// Minimum and maximum value.
@@ -33,13 +34,13 @@ pub struct TransferParameter {
 }
 
 impl TransferParameter {
-    /// Terms of a series; each takes two passes over the particles.
+    /// Number of terms of a series. Each term needs two passes over the particles.
     pub(super) const TERMS: Self = Self { range: (1, 64), words: ("a series of", "terms") };
 }
 
 /// Exchange of velocities between particles and grid, by passes of a [`Kernel`]. Methods with a
-/// loop over particles return the number of passes for the work counter: one for each part of a
-/// request, not one for each visit to the nodes.
+/// loop over particles return the number of passes for the work counter. Each part of a request
+/// counts as a pass, even if several parts share a visit to the nodes.
 ///
 /// A transfer stores its own columns.
 pub trait Transfer<const D: usize>: Send + Sync {
@@ -48,23 +49,23 @@ pub trait Transfer<const D: usize>: Send + Sync {
         TransferKind::Velocity
     }
 
-    /// Initialises the transfer for these particles, whose `grad_v` has the gradient of their
+    /// Initialises the transfer for these particles, whose `grad_v` is the gradient of their
     /// initial velocity.
     fn start(&mut self, _: &dyn Kernel<D>, _: &Grid<D>, _: &Particles<D>) {}
 
-    /// Columns for particles or nodes.
+    /// Columns with entries for particles or nodes.
     fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
     }
 
-    /// All parts of P2G. A divergence by fit is combined with velocity gradients by fit.
+    /// All P2G parts. A divergence by fit is combined with velocity gradients by fit.
     fn p2g_request<'a>(&'a self, particles: &'a Particles<D>) -> P2gRequest<'a, D> {
         let momentum = Some(ParticleField { v: &particles.v, affine: None });
         P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) }
     }
 
-    /// P2G for `stages`, in one pass if the transfer can. Mass is among them in the first pass
-    /// after particles have moved.
+    /// Performs P2G for `stages`, in one pass if the transfer can do so. In the first pass after
+    /// particles have moved, `stages` includes mass.
     fn p2g(
         &mut self,
         kernel: &dyn Kernel<D>,
@@ -75,7 +76,7 @@ pub trait Transfer<const D: usize>: Send + Sync {
         p2g(self.p2g_request(particles), kernel, particles, grid, stages)
     }
 
-    /// Improves a nodal field that the lumped mass matrix has solved for.
+    /// Improves a nodal field computed with the lumped mass matrix.
     fn refine(
         &mut self,
         _: &dyn Kernel<D>,
@@ -87,24 +88,24 @@ pub trait Transfer<const D: usize>: Send + Sync {
         0
     }
 
-    /// Filters the velocities of particles before G2P.
+    /// Filters the particle velocities before G2P.
     fn filter_velocities(&mut self, _: &dyn Kernel<D>, _: &Grid<D>, _: &mut Particles<D>) -> u64 {
         0
     }
 
-    /// Parts of G2P that give particles their new velocities after `dt` (s). Its moment or gradient
-    /// is the affine state that the transfer remembers from step to step.
+    /// G2P parts that compute the new particle velocities after `dt` (s). The moment or gradient of
+    /// the request is the affine state that the transfer stores between steps.
     fn g2p_request(&mut self, dt: f64) -> G2pRequest<'_, D>;
 
-    /// First moment of the velocity field around particle `p`, `C_p D_p` (m^2/s): per unit mass,
-    /// its antisymmetric part is the particle's own share of the angular momentum. None where the
-    /// particle carries its velocity only.
+    /// First moment of the velocity field around particle `p`, `C_p D_p` (m^2/s). Its antisymmetric
+    /// part is the internal angular momentum of the particle per unit mass. `None` if the particle
+    /// has only a velocity.
     fn moment(&self, _p: usize) -> Option<Matrix<D>> {
         None
     }
 }
 
-/// One pass of P2G: the parts of `request` that `stages` need.
+/// One P2G pass with the parts of `request` that `stages` need.
 pub(super) fn p2g<const D: usize>(
     request: P2gRequest<'_, D>,
     kernel: &dyn Kernel<D>,
@@ -121,9 +122,10 @@ pub(super) fn p2g<const D: usize>(
     request.parts().count() as u64
 }
 
-/// G2P over `dt` (s) for `stages`: new velocities, velocity gradients into `particles.grad_v`, and
-/// positions after the step into `advected` (m), in one pass. Returns the number of passes of its
-/// parts, without that of positions, which is counted when they are moved.
+/// Performs G2P over `dt` (s) for `stages` in one pass. It computes new velocities, velocity
+/// gradients in `particles.grad_v`, and positions after the step in `advected` (m). Returns the
+/// number of passes for these parts, except the pass for positions, which is counted when the
+/// particles move.
 pub fn g2p<const D: usize>(
     transfer: &mut dyn Transfer<D>,
     kernel: &dyn Kernel<D>,
@@ -165,8 +167,8 @@ pub fn g2p<const D: usize>(
     passes
 }
 
-/// G2P: adds the grid's accelerations over `dt` (s) to velocities and affine states of particles,
-/// with no other change, as at the start of a run half a step back.
+/// Performs G2P that only adds the grid accelerations over `dt` (s) to velocities and affine states
+/// of particles, for a run that starts half a step back.
 pub(in crate::mpm) fn kick<const D: usize>(
     transfer: &mut dyn Transfer<D>,
     kernel: &dyn Kernel<D>,
@@ -177,7 +179,7 @@ pub(in crate::mpm) fn kick<const D: usize>(
     let mut v = std::mem::take(&mut particles.v);
     kernel.g2p(grid, &grid.acceleration, particles, (1.0, dt), &mut v);
     particles.v = v;
-    // Free until the stage of stresses.
+    // This column is not used until the stress stage.
     let mut change = std::mem::take(&mut particles.grad_v);
     let G2pRequest { moment, gradient, .. } = transfer.g2p_request(dt);
     if moment.is_some() {

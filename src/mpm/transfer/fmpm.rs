@@ -1,9 +1,9 @@
-//! FMPM(k): PIC on grid velocities that approximate the consistent mass matrix.
+//! FMPM(k): PIC with grid velocities that approximate the result of the consistent mass matrix.
 //!
-//! The consistent matrix is the lumped one times S+ S, and its inverse is replaced by k terms of
+//! The consistent matrix is the lumped matrix times S+ S. Its inverse is approximated by k terms of
 //! the Neumann series, `v(k) = sum_(j<k) (I - S+ S)^j v(1)` with v(1) from the lumped matrix (Nairn
-//! & Hammerquist 2021, CMAME 374, eqs 20-24). Momentum and force are both solved so; particles then
-//! take the grid's velocity. FMPM(1) is PIC.
+//! & Hammerquist 2021, CMAME 374, eqs 20-24). Momentum and force are both solved in this way; then
+//! the particles receive the grid velocity. FMPM(1) is PIC.
 
 use super::contract::{Transfer, TransferKind, TransferParameter};
 use crate::mpm::boundary::Boundary;
@@ -23,10 +23,10 @@ pub struct Fmpm<const D: usize> {
 }
 
 impl<const D: usize> Fmpm<D> {
-    /// The order k.
+    /// Parameter: the order k.
     pub const PARAMETER: TransferParameter = TransferParameter::TERMS;
 
-    /// FMPM(k) with k = `order`.
+    /// Creates FMPM(k) with k = `order`.
     pub fn new(order: u32) -> Self {
         Self { order, mapped_back: Vec::new(), remainder: Vec::new(), nodal: Vec::new() }
     }

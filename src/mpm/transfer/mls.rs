@@ -1,7 +1,7 @@
-//! MLS-MPM: APIC whose gradients come from the same least-squares fit as its affine field.
+//! MLS-MPM: APIC with gradients from the least-squares fit of its affine field.
 //!
 //! `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - x_p) N_i` and `grad v_p = C_p = B_p D_p^-1` (Hu et
-//! al. 2018, eqs 17-18): grad N_i is not needed.
+//! al. 2018, eqs 17-18). The gradients grad N_i are not needed.
 
 use super::apic::Apic;
 use super::contract::{Transfer, TransferKind};

@@ -1,7 +1,7 @@
-//! Transfers of velocity between particles and grid: the family. A member is one file and one
-//! line below, and another one if suites may give it a parameter.
+//! The family of transfers of velocity between particles and grid. A member is one file and one
+//! line below. A member whose parameter is set in suites has a second line.
 
-/// The transfer that `docs/exercises/transfer.md` adds.
+/// The transfer added by `docs/exercises/transfer.md`.
 #[cfg(test)]
 #[path = "../../../tests/exercises/aflip.rs"]
 mod aflip;
@@ -32,7 +32,7 @@ pub use xpic::Xpic;
 objects! {
     /// Names of the transfers that suites may choose.
     pub enum TransferName;
-    /// Makes the transfer that a suite names.
+    /// Creates the transfer with this name.
     pub fn transfer -> Transfer;
     "flip" => Flip: Flip,
     "flip_99" => Flip99: Blend::new(0.99),
@@ -49,9 +49,9 @@ objects! {
 }
 
 objects_with_parameter! {
-    /// Names of the transfers to which suites give a parameter.
+    /// Names of the transfers with a parameter in suites.
     pub enum WithParameter: TransferParameter;
-    /// Makes the transfer of this name with the value of its parameter.
+    /// Creates the transfer with this name and this value of its parameter.
     fn with_parameter -> Transfer;
     "xpic" => Xpic: Xpic::<D>,
     "fmpm" => Fmpm: Fmpm::<D>,
@@ -65,12 +65,12 @@ impl TransferName {
     }
 }
 
-/// A transfer with its parameter.
+/// A transfer and its parameter, if any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TransferChoice {
-    /// A registered one.
+    /// A registered transfer without a parameter.
     Named(TransferName),
-    /// One with a parameter, in its range.
+    /// A transfer with the value of its parameter, which must be in its range.
     With(WithParameter, u32),
 }
 
@@ -81,7 +81,7 @@ impl From<TransferName> for TransferChoice {
 }
 
 impl TransferChoice {
-    /// The name as reports spell it: `apic`, `fmpm_8`.
+    /// Name in reports: `apic`, `fmpm_8`.
     pub fn name(self) -> String {
         match self {
             Self::Named(name) => name.name().to_owned(),
@@ -89,12 +89,12 @@ impl TransferChoice {
         }
     }
 
-    /// Kind of the transfer, the same in every dimension.
+    /// Kind of the transfer, which is the same in every dimension.
     pub fn kind(self) -> TransferKind {
         self.build::<1>().kind()
     }
 
-    /// Makes the transfer.
+    /// Creates the transfer.
     pub fn build<const D: usize>(self) -> Box<dyn Transfer<D>> {
         match self {
             Self::Named(name) => transfer(name),

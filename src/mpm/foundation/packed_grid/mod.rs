@@ -1,4 +1,4 @@
-//! Nodal fields in the layout of the loops of P2G and G2P.
+//! Nodal fields in the memory layout of the P2G and G2P loops.
 //!
 //! ```text
 //! node                   lane 0   lane 1   lane 2   lane 3   lanes 4, 5, 6, 7
@@ -14,10 +14,10 @@
 //! row     | node 0 | node 1 | ... | node n-1 | MARGIN nodes |     x fastest, then y, then z
 //! ```
 //!
-//! The margin of a periodic axis repeats its first nodes, so that a patch is always a box of
-//! neighbours. Elsewhere it is zero: functions of weight zero may belong to it.
+//! The margin of a periodic axis repeats its first nodes, so that the nodes of a patch always form
+//! a box. The margin of other axes is zero; functions with weight zero may read it.
 //!
-//! Columns of nodes to which packed fields are unpacked.
+//! The module also defines the columns of nodes to which packed fields are unpacked.
 
 mod node;
 
@@ -30,29 +30,29 @@ pub(in crate::mpm) use node::{
 };
 use std::ops::Range;
 
-/// Nodes of a piece of a 1-D grid.
+/// Number of nodes in a piece of a 1-D grid.
 const PIECE: usize = 1 << 12;
 
-/// Packed field of nodes.
+/// Packed nodal field.
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct PackedField<N> {
     nodes: Vec<N>,
     layout: Layout,
 }
 
-/// Nodes along each axis, one if there is no such axis.
+/// Number of nodes along each axis; one for a missing axis.
 fn counts<const D: usize>(grid: &Grid<D>) -> [usize; 3] {
     std::array::from_fn(|axis| grid.counts.get(axis).copied().unwrap_or(1))
 }
 
-/// Vector in the first lanes of a node.
+/// The components of a vector in the first lanes of a node.
 #[inline(always)]
 fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
     std::array::from_fn(|lane| if lane < D { vector[lane] } else { 0.0 })
 }
 
 impl<N: PackedNode> PackedField<N> {
-    /// The field in the shape of `grid`, with undefined values.
+    /// Gives the field the shape of `grid`, with undefined values.
     pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> FieldViewMut<'_, N> {
         let layout = Layout::new(grid);
         self.nodes.resize(layout.strides[3], N::default());
@@ -70,7 +70,7 @@ impl<N: PackedNode> PackedField<N> {
         }
     }
 
-    /// Nodes of the margin of a periodic `axis`, each with the node that it repeats.
+    /// Margin nodes of a periodic `axis`, each with the node that it repeats.
     fn seam<const D: usize>(
         &self,
         grid: &Grid<D>,
@@ -122,7 +122,8 @@ impl PackedField<Node4> {
             } else {
                 values.for_each(|(Node4(here), value)| *here = lanes(value));
             }
-            // Functions of weight zero may belong here: no NaN of an earlier pass may remain.
+            // Functions of weight zero may belong here, so NaN from an earlier pass must be
+            // removed.
             beyond.fill(Node4::default());
         });
         for axis in (0..D).filter(|&axis| grid.periodic[axis]) {
@@ -133,28 +134,28 @@ impl PackedField<Node4> {
     }
 }
 
-/// Nodes of a piece of a 1-D grid, few enough to stay in the cache for all columns.
+/// Number of nodes in a piece of a 1-D grid: all columns of a piece stay in the cache.
 const COLUMN_PIECE: usize = 1 << 9;
 
-/// Targets of unpacking a field: all nodes, or those of some layers across the last axis.
+/// Targets of unpacking: all nodes, or the nodes of some layers across the last axis.
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct Columns<'a, const D: usize> {
-    /// From the last lane of four.
+    /// Receives the last of the four lanes.
     pub(in crate::mpm) mass: Option<&'a mut [f64]>,
-    /// From the first lanes.
+    /// Receives the first lanes.
     pub(in crate::mpm) momentum: Option<&'a mut [Vector<D>]>,
-    /// From the lanes after it, or from the first lanes if there is nothing else.
+    /// Receives the lanes after the momentum, or the first lanes if there is no momentum.
     pub(in crate::mpm) force: Option<&'a mut [Vector<D>]>,
-    /// Nodes of the grid before the first one of these columns.
+    /// Number of grid nodes before the first node of these columns.
     pub(in crate::mpm) before: usize,
 }
 
-/// Layers of nodes across the last axis of a packed field.
+/// Range of all node layers across the last axis of a packed field.
 pub(in crate::mpm) fn layers<const D: usize>(grid: &Grid<D>) -> Range<usize> {
     0..grid.counts[D - 1] + MARGIN
 }
 
-/// Nodes of a layer of the grid.
+/// Number of nodes in a layer of the grid.
 fn nodes_of_layer<const D: usize>(grid: &Grid<D>) -> usize {
     grid.counts[..D - 1].iter().product()
 }
@@ -168,7 +169,7 @@ impl<const D: usize> Columns<'_, D> {
         Columns { mass, momentum, force, before: *before }
     }
 
-    /// Nodes before `layer` of the grid, and nodes from there on.
+    /// Splits into the nodes before `layer` of the grid and the nodes from `layer`.
     pub(in crate::mpm) fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
         let before = self.before;
         let from = layer.min(grid.counts[D - 1]) * nodes_of_layer(grid);
@@ -182,7 +183,7 @@ impl<const D: usize> Columns<'_, D> {
         )
     }
 
-    /// Unpacks these layers, which must be part of the columns.
+    /// Unpacks these layers, which must be within the columns.
     pub(in crate::mpm) fn unpack<N: PackedNode>(
         &mut self,
         grid: &Grid<D>,
@@ -208,7 +209,7 @@ impl<const D: usize> Columns<'_, D> {
         }
     }
 
-    /// Unpacks all layers, on several threads.
+    /// Unpacks all layers on several threads.
     pub(in crate::mpm) fn unpack_all<N: PackedNode>(
         mut self,
         grid: &Grid<D>,
@@ -234,7 +235,7 @@ impl<const D: usize> Columns<'_, D> {
         );
     }
 
-    /// Unpacks `count` nodes in a row, from the one with this index, number `to` of the grid.
+    /// Unpacks `count` nodes of a row, from the node with this index to node `to` of the grid.
     fn unpack_row<N: PackedNode>(
         &mut self,
         field: &FieldViewMut<'_, N>,
@@ -270,7 +271,7 @@ mod tests {
 
     proptest! {
         /// Every place of the packed field represents one node of the grid: packing writes the
-        /// value of the node there, and folding adds it back.
+        /// nodal value to the place, and folding adds the place to the node.
         #[test]
         fn packing_and_folding_are_transposes(
             counts in [1_usize..6, 1..6],

@@ -1,5 +1,5 @@
-//! Nodes of packed fields, with as many numbers as a register, and views of the fields: the whole
-//! field, or consecutive layers.
+//! Nodes of packed fields, which have the size of a register, and views of the whole field or of
+//! consecutive layers.
 
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::simd::{LANES, Plain, Register, Simd};
@@ -10,10 +10,10 @@ pub trait PackedNode: Copy + Debug + Default + Send + Sync {
     /// Whether a node has lanes for momentum, mass and force in any dimension.
     const IS_WIDE: bool;
 
-    /// Numbers of a node.
+    /// Register for the numbers of a node.
     type Lanes<S: Simd>: Register;
 
-    /// The numbers in a register.
+    /// Loads the numbers into a register.
     fn load<S: Simd>(&self, simd: S) -> Self::Lanes<S>;
 
     /// Stores the numbers of a register.
@@ -25,13 +25,13 @@ pub trait PackedNode: Copy + Debug + Default + Send + Sync {
         Self::default().load(simd)
     }
 
-    /// Lanes of momentum and mass alone.
+    /// Lanes of momentum and mass, without a force.
     fn of_inertia<S: Simd>(simd: S, inertia: S::F64x4) -> Self::Lanes<S>;
 
-    /// Lanes of a force alone.
+    /// Lanes of a force, without momentum and mass.
     fn of_force<S: Simd>(simd: S, force: S::F64x4) -> Self::Lanes<S>;
 
-    /// Joins the lanes of momentum and mass with those of a force.
+    /// Joins the lanes of momentum and mass with the lanes of a force.
     fn join<S: Simd>(simd: S, inertia: S::F64x4, force: S::F64x4) -> Self::Lanes<S>;
 
     /// Adds the numbers of another node.
@@ -43,11 +43,11 @@ pub trait PackedNode: Copy + Debug + Default + Send + Sync {
     /// The first four numbers: momentum, and mass in the last lane.
     fn inertia(&self) -> [f64; LANES];
 
-    /// The four numbers that hold a force from lane [`force_lane`] on.
+    /// The four numbers that contain a force, starting at lane [`force_lane`].
     fn force(&self) -> [f64; LANES];
 }
 
-/// First lane of a force among its four lanes. In 1-D these also contain a momentum and a mass.
+/// First lane of a force among its four lanes. In 1-D these also contain momentum and mass.
 pub(in crate::mpm) const fn force_lane(dimension: usize) -> usize {
     if dimension == 1 { 1 } else { 0 }
 }
@@ -146,15 +146,16 @@ impl PackedNode for Node8 {
     }
 }
 
-/// Additional nodes of an axis: one fewer than the functions of a patch along it.
+/// Number of additional nodes along an axis: one less than the maximum number of functions of a
+/// patch.
 pub(in crate::mpm) const MARGIN: usize = 3;
 
-/// Positions of nodes in a packed field.
+/// Memory layout of the nodes in a packed field.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Layout {
-    /// Distance of neighbours along each axis, then the number of nodes.
+    /// Distance between neighbours along each axis, followed by the number of nodes.
     pub(in crate::mpm) strides: [usize; 4],
-    /// Nodes of the field before the first one of the view.
+    /// Number of field nodes before the first node of the view.
     pub(in crate::mpm) before: usize,
 }
 
@@ -169,7 +170,8 @@ impl Layout {
         Self { strides, before: 0 }
     }
 
-    /// Position of the node with these indices in the view; beyond its end for a node before it.
+    /// Position in the view of the node with these indices. For a node before the view, the
+    /// position is beyond the end.
     #[inline(always)]
     pub(in crate::mpm) fn number<const D: usize>(&self, index: &[usize; D]) -> usize {
         let mut number = index[0];
@@ -179,7 +181,7 @@ impl Layout {
         number.wrapping_sub(self.before)
     }
 
-    /// Distance of row `j` of plane `k` from the first row.
+    /// Distance of row `j` in plane `k` from the first row.
     #[inline(always)]
     pub(in crate::mpm) fn row(&self, j: usize, k: usize) -> usize {
         j * self.strides[1] + k * self.strides[2]
@@ -193,7 +195,7 @@ pub struct FieldView<'a> {
     pub(in crate::mpm) layout: Layout,
 }
 
-/// Field, or consecutive layers of it, to which a loop adds.
+/// Field, or consecutive layers of a field, to which a loop adds.
 #[derive(Debug)]
 pub struct FieldViewMut<'a, N> {
     pub(in crate::mpm) nodes: &'a mut [N],
@@ -201,7 +203,7 @@ pub struct FieldViewMut<'a, N> {
 }
 
 impl FieldView<'_> {
-    /// K nodes in a row.
+    /// K nodes of a row.
     #[inline(always)]
     pub(in crate::mpm) fn row<const K: usize>(&self, start: usize) -> &[Node4] {
         &self.nodes[start..start + K]
@@ -215,18 +217,19 @@ impl<N: PackedNode> FieldViewMut<'_, N> {
         FieldViewMut { nodes: self.nodes, layout: self.layout }
     }
 
-    /// K nodes in a row.
+    /// K mutable nodes of a row.
     #[inline(always)]
     pub(in crate::mpm) fn row<const K: usize>(&mut self, start: usize) -> &mut [N] {
         &mut self.nodes[start..start + K]
     }
 
-    /// Zero everywhere.
+    /// Sets all numbers to zero.
     pub(in crate::mpm) fn clear(&mut self) {
         self.nodes.fill(N::default());
     }
 
-    /// Nodes before a layer across the last of D axes, and nodes from there on.
+    /// Splits into the nodes before a layer across the last of D axes and the nodes from this
+    /// layer.
     pub(in crate::mpm) fn split_at<const D: usize>(self, layer: usize) -> (Self, Self) {
         let Self { nodes, layout } = self;
         let before = layout.before.max(layer * layout.strides[D - 1]);

@@ -1,6 +1,6 @@
-//! Registers of four and of eight `f64`: the loops over particles and nodes are written once over
-//! [`F64x4`] and [`Register`], and compiled for plain arrays, AVX2, and AVX-512 (where registers of
-//! eight are used, or 16 registers are too few).
+//! Registers of four and eight `f64`. The loops over particles and nodes are written once with
+//! [`F64x4`] and [`Register`], and compiled for plain arrays, AVX2, and AVX-512. AVX-512 is used
+//! for loops with registers of eight, or if 16 registers are too few.
 //!
 //! ```text
 //! particles   0  1  2  3 | 4  5  6  7 | 8  9 10 11 | 12 13 14 15     one F64Batch: BATCH = 16
@@ -11,13 +11,12 @@
 //!             nodes of eight numbers are two registers of AVX2 or one of AVX-512
 //! ```
 //!
-//! Each lane does the same IEEE operations at every level. Products and sums are fused only where
-//! the source requests it, so that results have the same bits on every processor (tested in
+//! Each lane performs the same IEEE operations at every level. Products and sums are fused only
+//! where the source requests it, so results are bit-identical on every processor (tested in
 //! `tests/it/mpm/kernel`).
 //!
-//! Processor levels, each with its registers.
-//!
-//! Columns of one batch of particles in memory.
+//! The module also defines the processor levels with their registers, and columns of one batch of
+//! particles in memory.
 
 mod register;
 use super::algebra::{Vector, array};
@@ -28,10 +27,10 @@ use std::ops::Range;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 use std::sync::LazyLock;
 
-/// Loop over registers. All functions that it calls must be `#[inline(always)]`: other functions
-/// are compiled for the baseline processor.
+/// Loop over registers. All functions called by the loop must be `#[inline(always)]`, because other
+/// functions are compiled for the baseline processor.
 pub trait SimdPass: Sized {
-    /// Whether the loop runs faster with the registers of AVX-512, 32 in place of 16 and twice as
+    /// Whether the loop runs faster with the registers of AVX-512: 32 instead of 16, and twice as
     /// wide.
     const NEEDS_AVX512: bool;
 
@@ -39,7 +38,8 @@ pub trait SimdPass: Sized {
     fn run<S: Simd>(self, simd: S);
 }
 
-/// Runs `pass` at `level`; see [`Basis::run`](crate::mpm::Basis::run) for where it is compiled.
+/// Runs `pass` at `level`. [`Basis::run`](crate::mpm::Basis::run) describes where the loop is
+/// compiled.
 #[inline(always)]
 pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -68,8 +68,8 @@ pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 static LEVEL: LazyLock<Level> = LazyLock::new(Level::new);
 
-/// Runs `loops` without explicit registers, compiled for AVX2 if the processor has it. The closure
-/// and all functions that it calls must be `#[inline(always)]`.
+/// Runs `loops` without explicit registers, compiled for AVX2 if the processor supports it. The
+/// closure and all functions that it calls must be `#[inline(always)]`.
 #[inline(always)]
 pub(in crate::mpm) fn vectorized<R>(loops: impl FnOnce() -> R) -> R {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -82,23 +82,23 @@ pub(in crate::mpm) fn vectorized<R>(loops: impl FnOnce() -> R) -> R {
     loops()
 }
 
-/// Token of a processor level, proof that its registers exist.
+/// Token of a processor level: proof that its registers are available.
 pub trait Simd: Copy {
     /// Register of four numbers.
     type F64x4: F64x4;
-    /// Register of eight, or two of four.
+    /// Register of eight numbers, or two registers of four.
     type F64x8: Register + Into<[f64; 2 * LANES]>;
 
-    /// Loads an array.
+    /// Loads four numbers.
     fn load(self, values: [f64; LANES]) -> Self::F64x4;
 
-    /// Loads an array.
+    /// Loads eight numbers.
     fn load_eight(self, values: [f64; 2 * LANES]) -> Self::F64x8;
 
     /// Copies one value to all lanes.
     fn splat(self, value: f64) -> Self::F64x4;
 
-    /// Eight numbers, four and four.
+    /// Joins two registers of four numbers.
     fn join(self, low: Self::F64x4, high: Self::F64x4) -> Self::F64x8;
 }
 
@@ -127,7 +127,7 @@ impl Simd for Plain {
     }
 }
 
-/// Registers of four, the same at both levels of x86.
+/// Registers of four numbers, which are identical at both x86 levels.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 macro_rules! four {
     () => {
@@ -179,11 +179,12 @@ impl Simd for fearless_simd::x86::Avx512 {
     }
 }
 
-/// Particles of a batch, whose weights are computed before any of their nodes is visited: enough
-/// to spread the set-up of a batch, few enough that the weights stay in the nearest cache.
+/// Number of particles in a batch. The weights of a batch are computed before any of its nodes is
+/// visited. The batch is large enough to amortise its set-up, and small enough to keep the weights
+/// in the L1 cache.
 pub(in crate::mpm) const BATCH: usize = 16;
 
-/// Registers of a batch.
+/// Number of registers in a batch.
 const REGISTERS: usize = BATCH / LANES;
 
 /// One number for each particle of a batch.
@@ -192,13 +193,13 @@ const REGISTERS: usize = BATCH / LANES;
 pub(in crate::mpm) struct F64Batch(pub(in crate::mpm) [f64; BATCH]);
 
 impl F64Batch {
-    /// All zero.
+    /// All numbers zero.
     pub(in crate::mpm) const ZERO: Self = Self([0.0; BATCH]);
 
     /// The number of particle `lane` of the batch.
     #[inline(always)]
     pub(in crate::mpm) fn get(&self, lane: usize) -> f64 {
-        // The remainder saves the bounds check: lanes are below BATCH.
+        // The remainder avoids a bounds check: lanes are below BATCH.
         self.0[lane % BATCH]
     }
 
@@ -215,13 +216,13 @@ impl F64Batch {
     }
 }
 
-/// The registers that hold these particles of a batch.
+/// Range of registers that contain these particles of a batch.
 #[inline(always)]
 pub(in crate::mpm) fn registers_of(lanes: &Range<usize>) -> Range<usize> {
     lanes.start / LANES..lanes.end.div_ceil(LANES)
 }
 
-/// The D lanes from `first` on as a vector.
+/// D lanes, starting at `first`, as a vector.
 #[inline(always)]
 pub(in crate::mpm) fn components<const D: usize>(
     register: impl Into<[f64; LANES]>,
@@ -260,7 +261,7 @@ macro_rules! registers {
 
             #[inline(always)]
             fn are_in(self, low: f64, high: f64) -> bool {
-                // Not the conjunction of the masks: that is a call which is not inlined.
+                // The conjunction of the masks would be a call that is not inlined.
                 self.simd_ge(low).all_true() && self.simd_lt(high).all_true()
             }
 
@@ -297,11 +298,11 @@ registers!(fearless_simd::x86::Avx2);
 registers!(fearless_simd::x86::Avx512);
 sums!(fearless_simd::f64x8<fearless_simd::x86::Avx512>);
 
-/// Bits of the square root of 1/2, to 32 bits: where numbers are split into `2^k` and a factor.
+/// Leading 32 bits of the square root of 1/2, at which numbers are split into `2^k` and a factor.
 const ROOT_OF_HALF: u64 = 0x3fe6_a09e << 32;
 const ONE: u64 = 0x3ff0_0000 << 32;
 const MANTISSA: u64 = (1 << 52) - 1;
-/// 2^52, whose last bit counts ones: a whole number below it, put into its mantissa, is added.
+/// 2^52, whose last bit has the value one: an integer put into the mantissa is added.
 const COUNTING: u64 = 0x4330_0000 << 32;
 
 const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;

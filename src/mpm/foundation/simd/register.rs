@@ -1,16 +1,16 @@
-//! Registers of four and of eight `f64`: their arithmetic, and a register emulated by an array for
-//! processors without wide registers.
+//! Registers of four and eight `f64` with their arithmetic, and an array that emulates a register
+//! on processors without wide registers.
 
 use crate::mpm::foundation::algebra::floor;
 use std::ops::{Add, AddAssign, Mul, Sub};
 
-/// Numbers in a register of four.
+/// Number of lanes in a register of four.
 pub(in crate::mpm) const LANES: usize = 4;
 
-/// Several `f64`.
+/// A register of several `f64`.
 pub trait Register: Copy + Add<Output = Self> + AddAssign + Mul<f64, Output = Self> {
-    /// `self + a b`, rounded once: IEEE 754's fusedMultiplyAdd, with the same bits on a processor
-    /// without such an instruction.
+    /// `self + a b`, rounded once (fusedMultiplyAdd of IEEE 754). The result is bit-identical on
+    /// processors without this instruction.
     fn plus_product(self, a: Self, b: f64) -> Self;
 }
 
@@ -58,11 +58,11 @@ impl<F: Into<[f64; LANES]>> From<Pair<F>> for [f64; 2 * LANES] {
     }
 }
 
-/// Four `f64`.
+/// A register of four `f64`.
 pub trait F64x4:
     Register + Add<f64, Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Into<[f64; LANES]>
 {
-    /// Largest integer not above each, for magnitudes up to 2^51.
+    /// Largest integer not above each lane, for magnitudes up to 2^51.
     fn floor(self) -> Self;
 
     /// Whether all lanes are in `low..high`; false for NaN.
@@ -71,20 +71,20 @@ pub trait F64x4:
     /// Magnitudes.
     fn abs(self) -> Self;
 
-    /// Each lane, or `limit` where it is not above it.
+    /// Maximum of each lane and `limit`; `limit` for NaN.
     fn at_least(self, limit: f64) -> Self;
 
-    /// Each lane, or `limit` where it is not below it.
+    /// Minimum of each lane and `limit`; `limit` for NaN.
     fn at_most(self, limit: f64) -> Self;
 
     /// Reciprocals.
     fn inverse(self) -> Self;
 
-    /// Reciprocals, zero for lanes that do not exceed `smallest`.
+    /// Reciprocals; zero for lanes that do not exceed `smallest`.
     fn inverse_above(self, smallest: f64) -> Self;
 }
 
-/// Level without wide registers.
+/// Processor level without wide registers.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct Plain;
 
@@ -106,8 +106,8 @@ impl Array {
     }
 }
 
-/// `a b + c`, rounded once. Uses the instruction if every processor of the target has it, otherwise
-/// the version of this crate, because some platform libraries are wrong.
+/// `a b + c`, rounded once. Uses the processor instruction if the target guarantees it, and
+/// otherwise `libm::fma`, because some platform libraries are wrong.
 #[inline(always)]
 fn fused(a: f64, b: f64, c: f64) -> f64 {
     if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {

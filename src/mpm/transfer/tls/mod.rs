@@ -1,12 +1,11 @@
 //! Taylor least squares: integrals over reconstructed fields instead of sums over particles.
 //!
-//! In each cell a linear Taylor polynomial is fitted to the data of the particles, and nodal mass,
-//! momentum and internal force are integrated from it by Gauss's rule (Wobbes, Moeller, Galavi &
-//! Vuik 2019, IJNME 117): the internal force of a uniform stress is zero between any two full
-//! cells, for any number of particles in each. The fits of densities of mass and momentum conserve
-//! their sums in every cell; the stress is a plain fit. Velocities are transferred back as in FLIP.
-//!
-//! A linear Taylor polynomial through the data of the particles in one cell.
+//! In each cell a linear Taylor polynomial is fitted to the particle data. Nodal mass, momentum and
+//! internal force are integrated from the polynomial by Gauss quadrature (Wobbes, Moeller, Galavi &
+//! Vuik 2019, IJNME 117). The internal force of a uniform stress is zero between any two full
+//! cells, for any number of particles in each cell. The fits of mass and momentum density conserve
+//! the sums in every cell; the fit of the stress is unconstrained. Velocities are transferred back
+//! as in FLIP.
 
 mod quadrature_points;
 
@@ -24,11 +23,12 @@ use std::ops::{Add, Mul, Sub};
 #[derive(Debug, Clone, Default)]
 pub struct Tls<const D: usize> {
     quadrature: QuadraturePoints<D>,
-    /// The quadrature points as particles, for the kernel.
+    /// The quadrature points as particles for the kernel.
     points: Option<Particles<D>>,
 }
 
-/// Fills a column of the quadrature points: the own values of particles, and fits at Gauss points.
+/// Fills a column of the quadrature points, with particle values at particles and fits at Gauss
+/// points.
 fn fill<const D: usize, T>(
     quadrature: &QuadraturePoints<D>,
     column: &mut Vec<T>,
@@ -46,7 +46,7 @@ fn fill<const D: usize, T>(
 }
 
 impl<const D: usize> Tls<D> {
-    /// Updates the quadrature points, with volumes and masses.
+    /// Updates the quadrature points with their volumes and masses.
     fn place(&mut self, grid: &Grid<D>, particles: &Particles<D>) {
         let Some(points) = &mut self.points else { return };
         self.quadrature.place(grid, particles);
@@ -84,7 +84,7 @@ impl<const D: usize> Transfer<D> for Tls<D> {
         self.quadrature.columns().into_iter().chain(points).collect()
     }
 
-    /// Each stage integrates other fields, by two passes.
+    /// Each stage integrates other fields, in two passes.
     fn p2g(
         &mut self,
         kernel: &dyn Kernel<D>,
@@ -115,7 +115,7 @@ impl<const D: usize> Transfer<D> for Tls<D> {
     }
 }
 
-/// P2G of the momentum (kg m/s) that is integrated over the `points`, into `grid.velocity`.
+/// P2G of the momentum (kg m/s), integrated over the `points`, into `grid.velocity`.
 fn p2g_momentum<const D: usize>(
     quadrature: &QuadraturePoints<D>,
     points: &mut Particles<D>,
@@ -141,18 +141,18 @@ fn p2g_momentum<const D: usize>(
     grid.velocity = momentum;
 }
 
-/// The particles that a cell holds.
+/// The particles in a cell.
 struct Fit<'a, const D: usize> {
-    /// Positions of all particles (m), inside the grid on periodic axes.
+    /// Positions of all particles (m), wrapped into the grid on periodic axes.
     x: &'a [Vector<D>],
     /// Indices of the particles in the cell, at least one.
     members: &'a [usize],
 }
 
 impl<const D: usize> Fit<'_, D> {
-    /// Value at `point` of the polynomial whose integral over the cell is `sum`, and whose slope
-    /// fits the densities of the particles: `f(x) = mean + g . (x - centre)`, g by least squares
-    /// (Wobbes et al. 2019, with the Taylor basis of degree one).
+    /// Value at `point` of the polynomial `f(x) = mean + g . (x - centre)`. Its integral over the
+    /// cell is `sum`, and g is fitted to the particle densities by least squares (Wobbes et al.
+    /// 2019, with the Taylor basis of degree one).
     fn conserved<T>(
         &self,
         point: &QuadraturePoint<D>,
@@ -183,16 +183,15 @@ impl<const D: usize> Fit<'_, D> {
         self.members.iter().map(|&p| self.x[p] * share).sum()
     }
 
-    /// Second moments of the particles (m^2).
+    /// Second moments of the particles about a point (m^2).
     fn second(&self, about: &Vector<D>) -> Matrix<D> {
         let arm = |p: usize| self.x[p] - about;
         self.members.iter().map(|&p| dyad(&arm(p), &arm(p))).sum()
     }
 
-    /// `mean + g . (x - about)` with the slope g of the best fit; zero slope if the particles do
-    /// not span all axes. A line through the mean of a cell and a single row of particles would
-    /// exist too, but it would be the steeper the closer the row is to the centre, and give
-    /// negative nodal masses.
+    /// `mean + g . (x - about)` with the best-fit slope g; zero slope if the particles do not span
+    /// all axes. For a single row of particles, a line through the cell mean also exists. It would
+    /// be steeper the closer the row is to the centre, and could give negative nodal masses.
     fn sloped<T>(
         &self,
         point: &QuadraturePoint<D>,
@@ -213,7 +212,7 @@ impl<const D: usize> Fit<'_, D> {
     }
 }
 
-/// The inverse of second moments, if every axis has one.
+/// Inverse of the second moments, if the particles span every axis.
 fn spanned<const D: usize>(second: &Matrix<D>, smallest: f64) -> Option<Matrix<D>> {
     let spans = |axis: usize| second[(axis, axis)] > smallest;
     (0..D).all(spans).then(|| second.try_inverse()).flatten()
@@ -226,8 +225,8 @@ mod tests {
     use approx::assert_abs_diff_eq;
     use rstest::rstest;
 
-    /// Eight cells with three particles each; the last particle of the fourth cell has moved into
-    /// the fifth.
+    /// Eight cells with three particles each; the last particle of the fourth cell has moved to the
+    /// fifth cell.
     fn uneven() -> (Grid<1>, Particles<1>) {
         let grid = Grid::new(Vector::zeros(), 1.0, [8], [true], [8]);
         let block = Block { from: Vector::<1>::new(0.0), to: Vector::<1>::new(8.0), density: 2.0 };

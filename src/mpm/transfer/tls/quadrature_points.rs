@@ -1,55 +1,55 @@
-//! Quadrature points: the Gauss points of full cells, and the particles themselves in cells
-//! at the rim of the body, where no polynomial may reach beyond it.
+//! Quadrature points: the Gauss points of full cells, and the particles in cells at the rim of the
+//! body. In rim cells a polynomial would extend beyond the body.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Column, Entry};
 
-/// Gauss's rule along an axis, exact for a cubic B-spline times a linear field.
+/// Gauss quadrature along an axis, exact for a cubic B-spline times a linear field.
 const RULE: [(f64, f64); 3] = [
     (-0.774_596_669_241_483_4, 5.0 / 18.0),
     (0.0, 8.0 / 18.0),
     (0.774_596_669_241_483_4, 5.0 / 18.0),
 ];
 
-/// Second moments below this share of h^2 are rounding.
+/// Second moments below this share of h^2 are rounding errors.
 const SMALLEST: f64 = 1e-6;
 
-/// One point of quadrature.
+/// A quadrature point.
 #[derive(Debug, Clone)]
 pub(in crate::mpm) struct QuadraturePoint<const D: usize> {
     /// Position (m).
     pub(in crate::mpm) x: Vector<D>,
     /// Volume (m^D).
     pub(in crate::mpm) volume: f64,
-    /// The particle, where the point is one.
+    /// The particle, if the point is a particle.
     pub(in crate::mpm) particle: Option<usize>,
-    /// Centre of its cell (m).
+    /// Centre of the cell of the point (m).
     pub(in crate::mpm) centre: Vector<D>,
     /// Second moments of a fit below this value (m^2) count as zero.
     pub(in crate::mpm) smallest: f64,
     pub(in crate::mpm) members: (usize, usize),
 }
 
-/// All points of quadrature, and the particles sorted by cell.
+/// All quadrature points, and the particles sorted by cell.
 #[derive(Debug, Clone, Default)]
 pub(in crate::mpm) struct QuadraturePoints<const D: usize> {
     all: Vec<QuadraturePoint<D>>,
-    /// Position of each particle (m), inside the grid on periodic axes.
+    /// Position of each particle (m), wrapped into the grid on periodic axes.
     x: Vec<Vector<D>>,
     /// Cell of each particle.
     cell: Vec<usize>,
-    /// Particles, cell after cell.
+    /// Particles, cell by cell.
     order: Vec<usize>,
-    /// First place of each cell in `order`, and the end.
+    /// Start of each cell in `order`, and the end of the last cell.
     first: Vec<usize>,
 }
 
 impl<const D: usize> Entry for QuadraturePoint<D> {}
 
 impl<const D: usize> QuadraturePoints<D> {
-    /// Columns, with entries for points, particles and cells.
+    /// Columns with entries for points, particles and cells.
     pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 5] {
         [
             Column::of_particles("quadrature point", &self.all),
@@ -60,7 +60,7 @@ impl<const D: usize> QuadraturePoints<D> {
         ]
     }
 
-    /// Allocates the columns; returns the greatest number of points.
+    /// Allocates the columns; returns the maximum number of points.
     pub(in crate::mpm) fn start(&mut self, grid: &Grid<D>, particles: &Particles<D>) -> usize {
         let cells: usize = grid.cells.iter().product();
         let most = particles.len().min(cells) * RULE.len().pow(D as u32) + particles.len();
@@ -77,17 +77,17 @@ impl<const D: usize> QuadraturePoints<D> {
         &self.all
     }
 
-    /// Positions of all particles (m), inside the grid on periodic axes.
+    /// Positions of all particles (m), wrapped into the grid on periodic axes.
     pub(in crate::mpm) fn x(&self) -> &[Vector<D>] {
         &self.x
     }
 
-    /// The particles in the cell of `point`.
+    /// Particles in the cell of `point`.
     pub(in crate::mpm) fn members(&self, point: &QuadraturePoint<D>) -> &[usize] {
         &self.order[point.members.0..point.members.1]
     }
 
-    /// Finds the points for particles that have moved.
+    /// Computes the points for particles that have moved.
     pub(in crate::mpm) fn place(&mut self, grid: &Grid<D>, particles: &Particles<D>) {
         self.sort(grid, particles);
         self.all.clear();
@@ -128,14 +128,14 @@ impl<const D: usize> QuadraturePoints<D> {
         }
     }
 
-    /// A counting sort, so that particles keep their order within a cell. Particles outside the
-    /// grid are ignored, as in the loops.
+    /// Sorts the particles by counting, so that particles keep their order within a cell. Particles
+    /// outside the grid are ignored, as in the particle loops.
     fn sort(&mut self, grid: &Grid<D>, particles: &Particles<D>) {
         let cells: usize = grid.cells.iter().product();
         self.first.fill(0);
         for ((cell, inside), x) in self.cell.iter_mut().zip(&mut self.x).zip(&particles.x) {
             *inside = Vector::from_fn(|axis, _| {
-                // Not moved on other axes, not even by rounding.
+                // Positions on other axes are not changed, not even by rounding.
                 let turns = if grid.periodic[axis] { grid.turns(x, axis) } else { 0.0 };
                 x[axis] - turns * grid.cells[axis] as f64 * grid.h
             });
@@ -145,7 +145,7 @@ impl<const D: usize> QuadraturePoints<D> {
         for cell in 0..=cells {
             self.first[cell + 1] += self.first[cell];
         }
-        // Each first place advances to that of the next cell, and is restored below.
+        // Each start advances to the start of the next cell, and is restored below.
         for (p, cell) in self.cell.iter().enumerate() {
             self.order[self.first[*cell]] = p;
             self.first[*cell] += 1;
@@ -154,7 +154,7 @@ impl<const D: usize> QuadraturePoints<D> {
         self.first[0] = 0;
     }
 
-    /// Whether every neighbour across a face holds particles too, or is a wall.
+    /// Whether every neighbour across a face contains particles or is a wall.
     fn is_full(&self, index: &[usize; D], grid: &Grid<D>) -> bool {
         (0..D).all(|axis| {
             let n = grid.cells[axis];
@@ -172,7 +172,7 @@ impl<const D: usize> QuadraturePoints<D> {
     }
 }
 
-/// The points of Gauss's rule in a cell, from its centre (m), with their volumes (m^D).
+/// Gauss points in a cell, relative to its centre (m), with their volumes (m^D).
 fn gauss<const D: usize>(h: f64) -> impl Iterator<Item = (Vector<D>, f64)> {
     (0..RULE.len().pow(D as u32)).map(move |k| {
         let (mut rest, mut x, mut volume) = (k, Vector::zeros(), 1.0);
@@ -186,7 +186,7 @@ fn gauss<const D: usize>(h: f64) -> impl Iterator<Item = (Vector<D>, f64)> {
     })
 }
 
-/// Number of a cell, the first axis running fastest.
+/// Index of a cell; the first axis varies fastest.
 fn fold<const D: usize>(index: &[usize; D], counts: &[usize; D]) -> usize {
     (0..D).rev().fold(0, |number, axis| number * counts[axis] + index[axis])
 }
