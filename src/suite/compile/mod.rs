@@ -1,4 +1,4 @@
-//! From the grammar to the model: computes every number, resolves every name and checks the exact
+//! Converts the grammar to the model: computes numbers, resolves names and checks the exact
 //! solution.
 
 pub(crate) mod check;
