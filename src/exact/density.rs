@@ -14,12 +14,10 @@ pub struct Density {
     largest: f64,
 }
 
-/// Number of raster points along each axis at which a density is sampled, including ends and
-/// middle.
+/// Sampling points of a density along each axis, including ends and middle.
 const NODES: usize = 33;
 
-/// Number of quadrature panels along each axis. The density must be positive at the quadrature
-/// points.
+/// Quadrature panels along each axis, at whose points the density must be positive.
 const PANELS: usize = 4;
 
 /// Densities below this share of the largest density count as zero, because 1 - X^2 - Y^2 is not
@@ -104,8 +102,7 @@ impl Density {
         self.largest
     }
 
-    /// The density (kg/m3) at `label`. Negative values are rounding errors on the rim, and become
-    /// zero.
+    /// The density (kg/m3) at `label`. Negative values, rounding on the rim, become zero.
     pub fn at(&self, label: &[f64]) -> f64 {
         self.over(label)
     }
@@ -270,8 +267,7 @@ pub(super) mod tests {
         assert_relative_eq!(kinetic + stored, 0.261_799_388, max_relative = 1e-8);
     }
 
-    /// d/dX and d/dY of X^2 Y. On the rim, a negative density due to rounding has zero value and
-    /// slope.
+    /// d/dX and d/dY of X^2 Y. On the rim, a negative density has zero value and slope.
     #[test]
     fn slopes_are_those_of_the_formula() {
         let density = Density { formula: Some(formula("X^2*Y", 2)), ..Density::from(1.0) };

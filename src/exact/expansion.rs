@@ -156,8 +156,8 @@ mod tests {
         }
     }
 
-    /// A freely expanding body, grad u = theta - 1, has no stress. It also has no force if theta
-    /// varies.
+    /// A freely expanding body, grad u = theta - 1, has neither stress nor force, even for varying
+    /// theta.
     #[rstest]
     #[case(SmallStrainLaw::new(50.0, 0.3).into())]
     #[case(NeoHookeanLaw::new(50.0, 0.3).into())]

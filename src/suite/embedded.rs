@@ -12,8 +12,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     FILES.iter().map(|(name, ..)| *name)
 }
 
-/// Names and paths of the embedded suites, sorted by name. Paths start at the root of the
-/// repository.
+/// Names of the embedded suites with their paths from the repository root, sorted by name.
 pub fn paths() -> impl Iterator<Item = (&'static str, &'static Path)> {
     FILES.iter().map(|(name, path, _)| (*name, Path::new(*path)))
 }

@@ -1,5 +1,4 @@
-//! Checks boundary conditions at points of every face, and prescribed velocities at points of every
-//! set.
+//! Checks boundary conditions at points of faces, and prescribed velocities at points of sets.
 
 use super::event::{AXES, Event, OnFace, SpaceTimeBox};
 use super::friction;

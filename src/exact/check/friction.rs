@@ -93,8 +93,7 @@ mod tests {
     use std::sync::Arc;
 
     /// A layer of height 1 under gravity (3, -4), with shear modulus 100, density 1 and lambda = 0.
-    /// The layer sticks to the wall or slides with friction; shear and pressure increase towards
-    /// the wall.
+    /// It sticks to the wall or slides with friction; shear and pressure increase towards the wall.
     fn layer(coefficient: f64, [x, y]: [&str; 2]) -> Problem {
         let bind = |text: &str, names: &[&str]| {
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), names).unwrap()

@@ -17,8 +17,7 @@ use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
-/// Condition on a face next to another body. The conditions between both bodies are checked by
-/// [`meets`].
+/// Condition on a face next to another body; [`meets`] checks both bodies together.
 #[derive(Debug)]
 pub struct Interface;
 

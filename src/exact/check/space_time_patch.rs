@@ -28,8 +28,7 @@ impl SpaceTimePatch {
         self.centre.len() - 1
     }
 
-    /// A random patch in a box, for a run until `until` (s), with a duration of at most `longest`
-    /// (s).
+    /// A random patch in a box, within a run until `until` (s), for at most `longest` (s).
     pub(crate) fn in_box(
         random: &mut Random,
         from: &[f64],

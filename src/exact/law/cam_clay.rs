@@ -287,8 +287,7 @@ mod tests {
         assert_relative_eq!(plastic_shear, flow * plastic_volume, max_relative = 1e-5);
     }
 
-    /// The path is elastic up to yield, continuous at yield, and undefined if the clay would
-    /// soften.
+    /// Elastic up to yield, continuous at yield, and undefined if the clay would soften.
     #[test]
     fn yield_is_on_the_elastic_path() {
         let law = clay(150.0);

@@ -85,8 +85,7 @@ impl Lame {
         self.lambda + 2.0 * self.mu
     }
 
-    /// `nu/(1 - nu)`: minus the ratio of thickness strain to area strain of a plate in plane
-    /// stress.
+    /// `nu/(1 - nu)`: minus the thickness strain over the area strain of a plate in plane stress.
     pub(super) fn thinning(&self) -> f64 {
         self.lambda / self.modulus()
     }

@@ -15,8 +15,7 @@ macro_rules! laws {
             pub use $file::$law;
         )?)+
 
-        /// The equation of motion `rho0 u_tt = Div P(grad u) + rho0 b`, given by its constitutive
-        /// law.
+        /// The equation of motion `rho0 u_tt = Div P(grad u) + rho0 b` with one of the laws.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum Equation {
             $($(

@@ -57,8 +57,7 @@ impl Round {
         [inner, outer].into_iter().filter(|rim| rim.radius > 0.0)
     }
 
-    /// A random direction with uniform distribution (Archimedes: the height on a sphere is
-    /// uniform).
+    /// A random direction, uniform because the height on a sphere is uniform (Archimedes).
     fn direction(&self, random: &mut Random) -> [f64; 3] {
         let angle = random.between(-PI, PI);
         let height = if self.centre.len() == 2 { 0.0 } else { random.between(-1.0, 1.0) };
@@ -200,8 +199,7 @@ fn direction(angle: f64, height: f64) -> [f64; 3] {
     [flat * libm::cos(angle), flat * libm::sin(angle), height]
 }
 
-/// Quadrature panels between two kinks. With four panels, a kink just outside the interval causes
-/// an error of 1e-9.
+/// Quadrature panels between two kinks. With four, a kink just outside causes an error of 1e-9.
 const PANELS: usize = 8;
 
 /// Volume of the intersection of a ball with this `radius` and the box between `ends`. This is the
@@ -303,8 +301,7 @@ mod tests {
         }
     }
 
-    /// The traced polygon is closed and has the area of the body. The hole has opposite
-    /// orientation.
+    /// The traced polygon is closed and has the area of the body; holes have opposite orientation.
     #[rstest]
     fn the_drawn_rims_are_those_of_the_body(#[values(0.0, 0.4)] inner: f64) {
         let trace = Round { centre: vec![1.0, 2.0], inner, outer: 1.5 }.trace();
@@ -358,8 +355,7 @@ mod tests {
             ..ProptestConfig::default()
         })]
 
-        /// Splits the box at a point, so that faces, edges and corners of the parts are inside or
-        /// outside the ball.
+        /// Splits the box at a point with faces, edges and corners inside and outside the ball.
         #[test]
         fn the_parts_of_a_box_have_its_volume(
             at in prop::array::uniform3(-1.1..1.1_f64),

@@ -1,5 +1,4 @@
-//! Converts the grammar to the model: computes numbers, resolves names and checks the exact
-//! solution.
+//! Converts the grammar to the model: numbers, names, and checks of the exact solution.
 
 pub(crate) mod check;
 pub(crate) mod convergence;

@@ -1,5 +1,4 @@
-//! JSON Schema of a suite, generated from the types of the grammar. Editors support its version,
-//! draft 7.
+//! JSON Schema (draft 7, which editors support), generated from the types of the grammar.
 
 use crate::suite::grammar::{
     ConvergenceSpec, GradientSpec, InternalForceSpec, SpectrumSpec, StabilitySpec,

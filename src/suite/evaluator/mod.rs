@@ -312,8 +312,7 @@ pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
 const HARMLESS: [f64; 2] = [1.0, 0.5];
 
 impl Evaluator<'_> {
-    /// A diagnostic about an invalid number from the formula at `path`. Lists the parameters of the
-    /// formula.
+    /// A diagnostic about an invalid number at `path`, with the parameters of its formula.
     pub(crate) fn unusable(
         &self,
         path: &Path,

@@ -113,8 +113,7 @@ fn name_in(head: &str) -> &str {
 }
 
 impl Evaluator<'_> {
-    /// Declares the table `name`. Returns its text, and its value if the table's argument is a
-    /// parameter.
+    /// Declares the table `name`. Returns its text, and its value if its argument is a parameter.
     pub(super) fn declare_table(
         &mut self,
         path: &Path,

@@ -6,8 +6,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde::de::value::{Error, StrDeserializer};
 
-/// Keys and their sample values. A prefix (`owner.key`) marks a key whose sample depends on its
-/// owner.
+/// Keys and their sample values. `owner.key` is a key whose sample depends on its owner.
 pub(crate) const SAMPLES: &[(&str, &str)] = &[
     // Every study.
     ("suite", "my-suite"),

@@ -43,8 +43,7 @@ impl ConvergencePlan {
             plan.cases.retain(is_stated);
         } else {
             plan.cases = unstated(&plan, solver);
-            // A reference solves the equation of the material; formulas may solve a simplified
-            // equation.
+            // A reference solves the material's equation; formulas may solve a simplified one.
             let has_reference = plan.cases.iter().any(|case| case.against == Against::Reference);
             if has_reference && terms.is_some() {
                 plan.cases.retain(|case| case.against != Against::Exact);
@@ -58,8 +57,7 @@ impl ConvergencePlan {
         plan
     }
 
-    /// Sets the gate of a case. An expectation of the suite remains, unless the author's `terms`
-    /// replace it.
+    /// Sets the gate of a case. The suite's own expectation remains, unless `terms` replace it.
     fn gate(&self, case: &mut Case, solver: ExternalMethod<'_>, terms: &GateTerms) {
         let has_terms = terms.order.is_some() || terms.error_below.is_some();
         if case.expectation.is_some() && terms.skip.is_none() && !has_terms {

@@ -192,8 +192,7 @@ pub struct AnyMethod {
     pub because: String,
 }
 
-/// Without the key `any_method`, the gate requires the order of the solver, with the law of the
-/// scene.
+/// Without the key `any_method`, the gate requires the solver's order and the scene's law.
 impl Default for AnyMethod {
     fn default() -> Self {
         let (order, error_below, because) = (None, None, String::new());

@@ -56,8 +56,7 @@ impl RefinePlan {
 }
 
 impl LevelPlan {
-    /// The level with half the spacing along `axis`, otherwise unchanged; `None` if the level has
-    /// no such spacing.
+    /// The level with half the spacing along `axis`; `None` if it has no such spacing.
     pub fn halved(self, axis: Axis, dimension: usize) -> Option<Self> {
         match axis {
             Axis::Space => Some(Self { cells: 2 * self.cells, h: 0.5 * self.h, ..self }),

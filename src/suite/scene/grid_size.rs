@@ -47,8 +47,7 @@ impl Scene {
     }
 }
 
-/// Cell size (m) for `cells` cells along the first axis of the stated grid, or of the body without
-/// a stated grid.
+/// Cell size (m) for `cells` cells along the first axis of the stated grid, otherwise of the body.
 pub(crate) fn cell_size(scene: &Scene, cells: u64) -> f64 {
     let (from, to) = scene.grid.as_ref().map_or((&scene.from, &scene.to), |(from, to)| (from, to));
     (to[0] - from[0]) / cells as f64

@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 
-/// Position in a file: line, column and length. They are counted in characters; line and column
-/// start at one.
+/// Position in a file (line and column from one) and length, counted in characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
     line: usize,
@@ -59,8 +58,7 @@ impl Place {
     }
 }
 
-/// The byte range of the line that contains `offset`, without its line break. `offset` must be a
-/// character boundary.
+/// The byte range, without line break, of the line at `offset`, a character boundary.
 pub(crate) fn line_around(text: &str, offset: usize) -> Range<usize> {
     let start = text[..offset].rfind('\n').map_or(0, |at| at + 1);
     let end = text[offset..].find('\n').map_or(text.len(), |at| offset + at);

@@ -28,8 +28,7 @@ pub(crate) struct CheckedShape<'s> {
 }
 
 impl<'s> CheckedShape<'s> {
-    /// Checks the shape of `source`, and stores the value of the top-level key `key`, which selects
-    /// the type.
+    /// Checks the shape of `source`. Stores the value of the top-level key `key`.
     ///
     /// # Errors
     /// The first shape error, with its position.
@@ -44,8 +43,7 @@ impl<'s> CheckedShape<'s> {
         &self.top
     }
 
-    /// Parses the file into a type. The error of a missing key shows a sample value if `sample` has
-    /// one.
+    /// Parses the file into a type. The error for a missing key shows a value from `sample`.
     ///
     /// # Errors
     /// The first error in the file, with its position.
@@ -81,8 +79,7 @@ pub(crate) fn read_again<T: DeserializeOwned>(text: &str) -> Option<T> {
     serde_yaml::from_str(text).ok()
 }
 
-/// Function that returns a valid sample value. Arguments: the owner of the key (empty for the whole
-/// file), and the key.
+/// Returns a valid value for a key. Arguments: owner of the key (empty: the whole file), and key.
 pub(crate) type SampleOf<'a> = dyn Fn(&str, &str) -> Option<&'static str> + 'a;
 
 /// Converts an error of the library to a diagnostic at the same position.
@@ -153,8 +150,7 @@ impl<'a> Fault<'a> {
             Some(rest) => ("key", rest),
             None => ("name", problem.strip_prefix("unknown variant `")?),
         };
-        // The name comes from the file and may contain anything. The expected text comes from this
-        // crate.
+        // The name may contain anything from the file; the expected text is from this crate.
         let (name, valid) =
             rest.rsplit_once("`, expected ").or_else(|| rest.rsplit_once("`, there are no "))?;
         let valid: Vec<&str> = valid.split('`').skip(1).step_by(2).collect();
@@ -202,8 +198,7 @@ impl<'a> Fault<'a> {
         })
     }
 
-    /// Error for a named choice with unexpected settings or missing settings, or for several
-    /// choices.
+    /// Error for a named choice with unexpected or missing settings, or for several choices.
     fn wrong_settings(self, unexpected: &str, wanted: &str) -> Option<Diagnostic> {
         let (fault, name) = self.at_first_name();
         match (unexpected, wanted) {

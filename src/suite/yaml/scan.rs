@@ -1,5 +1,4 @@
-//! Scans a file before parsing: checks the nesting depth and refuses features that suites do not
-//! need.
+//! Scans a file before parsing: checks its nesting depth and refuses unsupported features.
 //!
 //! The cost of the YAML parser is quadratic in the nesting depth, and its own limit applies too
 //! late. The scan follows the parser's rules for the start of tokens only, and builds no values. If
@@ -26,8 +25,7 @@ pub(crate) enum Style {
 }
 
 impl Scalar {
-    /// The byte range of the value, if the file contains it verbatim: without escapes or folded
-    /// lines.
+    /// The byte range of the value, if it is verbatim: without escapes or folded lines.
     pub(crate) fn verbatim(&self, text: &str) -> Option<Range<usize>> {
         let Range { start, end } = self.range;
         let (inside, altered) = match self.style {
@@ -249,8 +247,7 @@ impl Scanner<'_> {
         !self.open.is_empty()
     }
 
-    /// Column in bytes. Bytes are sufficient because only ASCII text precedes a block key or dash
-    /// on its line.
+    /// Column in bytes: only ASCII text precedes a block key or dash on its line.
     pub(crate) fn column(&self) -> usize {
         self.at - self.line_start
     }
@@ -308,8 +305,7 @@ impl Scanner<'_> {
             .with_label(&format!("no matching `{closing}`")))
     }
 
-    /// Error for a bracket that is closed by a bracket of another kind. The first bracket is the
-    /// unclosed one.
+    /// Error for a bracket closed by one of another kind. The first bracket is the unclosed one.
     pub(crate) fn crossed(&self, start: usize, byte: u8) -> Diagnostic {
         let (bracket, byte) = (&self.text[start..=start], byte as char);
         let closing = Place::of(self.text, self.here());

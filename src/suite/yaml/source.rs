@@ -34,7 +34,8 @@ impl Source {
     ///
     /// # Errors
     /// If the output cannot be read, is too large or not UTF-8, or if [`Source::from_text`] refuses
-    /// it.
+    /// If reading fails, if the output is too large or not UTF-8, or if [`Source::from_text`]
+    /// refuses it.
     pub fn from_reader(name: &str, reader: impl Read) -> Result<Self, Diagnostic> {
         Self::from_bytes(name, limited(name, reader)?)
     }
@@ -144,8 +145,7 @@ fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Diagnostic> {
     limited(name, File::open(path).map_err(|error| unreadable(&error))?)
 }
 
-/// All bytes of a reader, up to the maximum. The size of a device or a pipe is unknown in advance,
-/// and a file may grow.
+/// All bytes of a reader, up to the maximum. The size may be unknown in advance, or grow.
 fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     let mut bytes = Vec::new();
     let read = reader.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);

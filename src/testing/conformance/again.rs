@@ -7,8 +7,7 @@ use crate::subject::{Checkpoint, Samples, Subject, SubjectError};
 /// Creates the subject in its initial state.
 pub(super) type Make<'a> = &'a dyn Fn() -> Result<Box<dyn Subject>, SubjectError>;
 
-/// Reports a breach if a second call of `sample` gives different samples, or appends to the given
-/// ones.
+/// Reports a breach if a second call of `sample` changes the given samples or appends to them.
 pub(super) fn sample(subject: &dyn Subject, first: &Samples) -> Option<Breach> {
     let mut second = first.clone();
     subject.sample(&mut second);

@@ -21,8 +21,7 @@ pub(super) const ELASTIC: [&str; 5] =
 pub(super) const ANY: [&str; 7] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2", "newtonian", "linear_fluid"];
 
-/// Cell size (m), a power of two. Lattice points can then lie on cell faces without rounding
-/// errors.
+/// Cell size (m): a power of two, so lattice points can lie on cell faces without rounding.
 pub(super) const H: f64 = 0.125;
 
 /// Stiffness factor without visible effect, even at nodes whose mass is only a rounding error.
@@ -215,8 +214,7 @@ impl BoxScene {
         suite.map_err(|diagnostic| diagnostic.to_string().into())
     }
 
-    /// A run of this crate's MPM with PIC and the named basis, which shows the effect of averaging
-    /// alone.
+    /// A run of this crate's MPM with PIC and the named basis, to show averaging alone.
     ///
     /// # Errors
     /// One line with the reason why this run is not possible.

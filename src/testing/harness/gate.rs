@@ -37,16 +37,14 @@ impl Gate {
             Ok(files) => files,
             Err(error) => return nothing(format!("{shown}: {error}")),
         };
-        // Checks suites in parallel: an exact solution takes 0.1 s to check, and there may be many
-        // suites.
+        // In parallel: checking an exact solution takes 0.1 s, and there may be many suites.
         let found: Vec<_> = files.par_iter().map(|file| self.of_file(file)).collect();
         let (mut trials, mut suites) = (Vec::new(), Vec::new());
         for (cases, suite) in found {
             trials.extend(cases);
             suites.extend(suite);
         }
-        // Reports come last, because each waits for all cases of its suite and blocks its thread
-        // meanwhile.
+        // Reports come last: each blocks its thread until all cases of its suite are complete.
         trials.extend(suites.iter().map(report));
         if self.with_overview {
             trials.extend(self.of_all(suites));
@@ -217,8 +215,7 @@ fn trials(
     });
     let case = |(index, case): (usize, &&str)| {
         let shared = Arc::clone(&shared);
-        // A suite without expectations is ignored, because it must not look like a gate that
-        // passed.
+        // A suite without expectations is ignored; it must not look like a passing gate.
         Trial::ignorable_test(format!("{}::{case}", suite.name), move || shared.hold(index))
             .with_ignored_flag(suite.explores())
     };

@@ -109,8 +109,7 @@ pub(crate) fn refuse_foreign(
     Ok(())
 }
 
-/// Refuses the FEM, as method or reference, for a scene with an effect that the FEM does not
-/// support.
+/// Refuses the FEM, as method or reference, for a scene with an effect that it does not support.
 fn refuse_fem_without(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

@@ -183,8 +183,7 @@ fn no_reaction(evaluator: &Evaluator<'_>, path: &Path, face: &SceneFace) -> Diag
     evaluator.diagnostic(path, &message)
 }
 
-/// Refuses a consistent mass matrix, because it adds the inertia of other nodes to the wall
-/// reaction.
+/// Refuses a consistent mass matrix, which adds the inertia of other nodes to the wall reaction.
 fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let is_consistent = |method: &MethodSpec| match method {
         MethodSpec::Mpm { mass: Some(mass), .. } => mass.as_slice().contains(&MassName::Consistent),

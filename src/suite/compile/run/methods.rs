@@ -1,5 +1,4 @@
-//! Converts entries of `methods` to named methods, with one method for each combination of list
-//! values.
+//! Converts entries of `methods` to named methods, one for each combination of list values.
 
 use crate::fem::Sampling;
 use crate::mpm::{FrameName, MassName, SchemeName, VolumeName};

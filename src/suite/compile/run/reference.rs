@@ -156,8 +156,7 @@ fn with_step(
     Ok(LevelPlan { h, dt, ..level })
 }
 
-/// Refuses bodies whose particles do not form a lattice, because motion is interpolated on lattices
-/// only.
+/// Refuses bodies whose particles form no lattice, because only lattices are interpolated.
 fn one_lattice(
     evaluator: &Evaluator<'_>,
     path: &Path,

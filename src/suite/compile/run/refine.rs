@@ -81,8 +81,7 @@ fn is_list(spec: Option<&OneOrMany<NumberText>>) -> bool {
     spec.is_some_and(|list| list.as_slice().len() > 1)
 }
 
-/// The refined axis. Two lists are allowed only for cells and time steps, which then have one entry
-/// per level.
+/// The refined axis. Only cells and time steps may both be lists, with one entry per level.
 fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic> {
     let path = Path::top("refine");
     let [cells, dt, ppc] = [Some(&spec.cells), spec.dt.as_ref(), spec.ppc.as_ref()].map(is_list);

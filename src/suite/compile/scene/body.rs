@@ -220,8 +220,7 @@ fn plane(
     Ok(plane)
 }
 
-/// Refuses a material whose law is not implemented for the plane state; `path` is the path of the
-/// material.
+/// Refuses a material (at `path`) whose law is not implemented for the plane state.
 fn knows(
     evaluator: &Evaluator<'_>,
     path: &Path,

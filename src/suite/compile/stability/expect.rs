@@ -24,8 +24,7 @@ pub(crate) fn named(
     spec.figures.as_slice().iter().map(find).collect()
 }
 
-/// Expectation for every row from entry number `i` of `expect`. `rows` are the parameter values of
-/// each row.
+/// Expectations from entry `i` of `expect`, one for each of the `rows` of parameter values.
 pub(crate) fn rows(
     evaluator: &Evaluator<'_>,
     template: &SetupTemplate,

@@ -204,9 +204,8 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     Err(diagnostic.with_help("remove what the scene states of it; `perturb` starts the run"))
 }
 
-/// Maximum energy of a stable run, relative to the initial energy. Just below the limit of a
-/// leapfrog scheme, the exchange between velocities and stresses from a random start stays below
-/// it.
+/// Maximum energy of a stable run, relative to the initial energy. It exceeds the exchange between
+/// velocities and stresses from a random start just below the limit of a leapfrog scheme.
 const STABLE_BELOW: f64 = 1e3;
 
 /// Energy above which a run is unstable, relative to the initial energy.
@@ -240,8 +239,7 @@ fn scales(
     Ok(Scales { speed, modulus, stable_below, unstable_above, centred, null_space })
 }
 
-/// Whether a requested figure needs the null space of the grid, which is implemented for one body
-/// only.
+/// Whether a requested figure needs the grid's null space, implemented for one body only.
 fn of_null_space(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

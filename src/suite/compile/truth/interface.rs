@@ -1,5 +1,4 @@
-//! Checks exact solutions of several bodies: the solution of each body, and the conditions on
-//! common faces.
+//! Checks exact solutions of several bodies: each solution, and conditions on common faces.
 //!
 //! Boxes meet face to face along an axis: the high face of one box and the low face of the next
 //! have the same extent. They touch or have a gap between them. Conditions for other faces and for

@@ -34,8 +34,7 @@ impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
     }
 }
 
-/// Context for compiling a boundary condition: its path in the file, and the dimension of the
-/// scene.
+/// Context for compiling a boundary condition: its path in the file, and the scene's dimension.
 pub(crate) struct FaceEntry<'a> {
     pub(crate) evaluator: &'a Evaluator<'a>,
     /// Path of the condition's value.

@@ -63,8 +63,7 @@ struct ViscosityLoad {
     speed: f64,
 }
 
-/// No term of the equation of motion: artificial viscosity belongs to the method, not to the
-/// problem.
+/// No term of the equation of motion: artificial viscosity belongs to the method.
 impl Term for ViscosityLoad {}
 
 impl SceneLoad for ViscosityLoad {

@@ -23,8 +23,7 @@ const SLIVER: f64 = 1.0 / (1_u64 << 44) as f64;
 const RIGID: f64 = 1e-6;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    // In every eighth step all particles lie on faces again, because all numbers have only a few
-    // bits.
+    // All numbers have only a few bits, so all particles lie on faces again every eighth step.
     let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
         let from = [0.75 + 0.25 * H, 0.25 + 0.25 * H, 0.5 + 0.25 * H];
         let mut scene = BoxScene::of_cells(kind, from, 4.0, 6.0);

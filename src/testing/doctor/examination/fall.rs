@@ -44,8 +44,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         shown_vector(times(0.5 * end * end, g), d)
     );
     let mut findings: Vec<SolverFinding> = of_speed(patient, &course, g).into_iter().collect();
-    // Positions follow from velocities. A defect of the velocities explains wrong positions; a
-    // remark does not.
+    // A defect of velocities explains wrong positions; a remark does not.
     if findings.iter().all(|finding| finding.weight == FindingWeight::Remark) {
         findings.extend(of_distance(patient, &course, g));
     }

@@ -31,8 +31,7 @@ const STRETCHED: f64 = 0.5;
 /// Initial displacement gradient of a body that starts deformed.
 const START: [[f64; 3]; 3] = [[0.1, -0.3, 0.0], [0.2, 0.0, -0.1], [0.0, 0.1, 0.1]];
 
-/// Maximum error of a component, relative to the largest component; finite steps of a rate form
-/// cause errors.
+/// Maximum error of a component, relative to the largest one; rate forms have a step error.
 const NEAR: f64 = 0.04;
 
 const STEPS: u64 = 25;
@@ -264,8 +263,7 @@ fn of_stress(
              or leave it out of its `laws`",
         ));
     }
-    // The stress for F^T instead of F. Isotropic laws give this stress if they use F^T F instead of
-    // F F^T.
+    // The stress for F^T: isotropic laws give it if F^T F replaces F F^T.
     let (of_transpose, _) = law_at(scene, &transposed(f, d))?;
     let factor = mean[0] / stress[0];
     let scaled: Vec<f64> = stress.iter().map(|s| factor * s).collect();

@@ -30,8 +30,7 @@ pub(super) const ENDS: Examination = Examination {
     examine: examine_ends,
 };
 
-/// Length along the periodic axis (cells) of a moving body, and of a body whose ends push each
-/// other.
+/// Length (cells) along the periodic axis: of a moving body, and of one whose ends push each other.
 const CELLS: f64 = 4.0;
 const LONG: f64 = 12.0;
 

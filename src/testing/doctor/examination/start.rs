@@ -105,8 +105,7 @@ impl Forces {
         let d = scene.dimension;
         let particles = &course.problem.particles;
         let (sigma, f) = (&particles.stress[..d * d], &particles.deformation_gradient[..d * d]);
-        // P = J sigma F^-T. The first column of P is sigma times the first column of the cofactors
-        // of F.
+        // P = J sigma F^-T: its first column is sigma times the first column of F's cofactors.
         let cofactor: Vec<f64> = (0..d)
             .map(|k| {
                 let mut replaced = f.to_vec();

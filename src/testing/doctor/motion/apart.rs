@@ -84,8 +84,7 @@ fn lost(motion: &UniformMotion<'_>, k: usize) -> (f64, f64) {
     losses.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)))
 }
 
-/// Smallest and largest displacement of points in the first step, relative to that due to the
-/// velocity.
+/// Smallest and largest displacement of points in the first step, relative to v dt.
 fn first_share(motion: &UniformMotion<'_>) -> (f64, f64) {
     let v = motion.velocity;
     let scale = dot(v, v) * motion.course.times[1];

@@ -18,8 +18,7 @@ pub(super) struct UniformMotion<'a> {
 }
 
 impl UniformMotion<'_> {
-    /// Largest errors of displacements (relative to the distance) and velocities (relative to the
-    /// speed).
+    /// Largest errors of displacements, relative to the distance, and velocities, to the speed.
     pub(super) fn off(&self) -> (f64, f64) {
         let most = |all: &dyn Fn(usize) -> f64| {
             (0..=self.course.last()).map(all).fold(0.0, f64::max) / size(self.velocity)

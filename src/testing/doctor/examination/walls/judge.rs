@@ -31,8 +31,7 @@ const SMOOTH: f64 = 0.2;
 /// Maximum missing part of a wall force under gravity, as a share of the weight of a cell.
 const WEIGHT: f64 = 0.3;
 
-/// Maximum excess of a wall force under gravity, as a share of the weight of a cell; averaging
-/// (PIC) has 0.14.
+/// Maximum excess of that force, as a share of the weight of a cell; averaging (PIC) has 0.14.
 const CARRIED: f64 = 0.4;
 
 /// Maximum error of displacements in a uniform stretch. Correct clients with quadratic functions

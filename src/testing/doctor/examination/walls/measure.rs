@@ -44,8 +44,7 @@ pub(super) struct Wall {
     /// Immediate force under gravity, relative to the weight of one cell. This is the force that is
     /// missing at all times.
     pub(super) offset: Option<f64>,
-    /// Displacement through the wall, relative to that of a free body while a wave crosses one
-    /// cell.
+    /// Displacement through the wall, over that of a free body while a wave crosses a cell.
     pub(super) through: Option<f64>,
     /// Largest displacement in the first step, relative to that due to the velocity.
     pub(super) jump: Option<f64>,
@@ -55,8 +54,7 @@ pub(super) struct Wall {
     /// Error of the displacements in a uniform stretch from the wall, relative to the displacement
     /// at a distance of one cell.
     pub(super) stretch: f64,
-    /// Column `stress` next to the wall at the end of the first run, relative to the expected
-    /// value.
+    /// Column `stress` next to the wall at the end of the first run, over the expected value.
     pub(super) column: Option<f64>,
 }
 
@@ -136,8 +134,7 @@ pub(super) fn walls_across(
     };
     Ok(sides.map(|side| {
         let force = |run: usize| side.force(&courses[run], &scenes[run], axis, c);
-        // The first run pushes the high wall and pulls the low wall; the second run does the
-        // opposite.
+        // The first run pushes the high wall and pulls the low wall; the second the reverse.
         let (push, pull) = if side.high { (0, 1) } else { (1, 0) };
         let of_run = |run: usize| (run == 0 || axis == 0).then(|| force(run));
         let run_along = if axis == 0 { 2 } else { 1 };
