@@ -55,8 +55,8 @@ pub trait FacePoint {
     /// The first violation.
     fn friction(&self, coefficient: f64) -> Result<(), Violation>;
 
-    /// Requires that x is one period further along the axis than on the opposite face, and that
-    /// grad u, and therefore P, equals that on the opposite face.
+    /// Requires that x is one period further along the axis than on the opposite face. Also
+    /// requires that grad u, and therefore P, is equal on both faces.
     ///
     /// # Errors
     /// The first violation.

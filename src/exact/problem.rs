@@ -52,8 +52,8 @@ pub struct Problem {
     pub heat: Option<Conduction>,
     /// All faces of the body.
     pub faces: Vec<Face>,
-    /// Default of initial conditions that are not stated: those of the motion if true, otherwise
-    /// zero.
+    /// Default of initial conditions that are not stated: the initial state of the motion if true,
+    /// zero if false.
     pub follows_motion: bool,
     /// Initial stress of the reference configuration.
     pub initial_stress: InitialStress,
@@ -126,7 +126,7 @@ impl Problem {
         now
     }
 
-    /// Adds the out-of-plane derivatives to those of a plane motion.
+    /// Adds the out-of-plane derivatives to the in-plane derivatives of a motion.
     pub(super) fn complete(&self, label: &[f64], now: &mut Derivatives) {
         complete_in_plane(self.plane, &self.equation, label, now);
     }

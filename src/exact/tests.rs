@@ -176,7 +176,7 @@ fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
-/// The weak form on its own detects that the force is that of plane strain.
+/// The weak form on its own detects a force for plane strain instead of the given state.
 #[rstest]
 fn the_weak_form_sees_what_happens_across(
     #[values(PlaneState::Stress, PlaneState::Axisymmetric)] plane: PlaneState,
@@ -286,8 +286,8 @@ fn the_stress_of_several_bodies_is_that_of_each() {
     }
 }
 
-/// A plate with nu = 0, stretched and sheared by F = ((1, 0.2 t), (0, 1 + 0.3 t)), with the
-/// condition P N = mu (F - F^-T) N on its top.
+/// A stretched and sheared plate with nu = 0 and F = ((1, 0.2 t), (0, 1 + 0.3 t)). The correct
+/// condition for its top is P N = mu (F - F^-T) N.
 fn sheared(top: Arc<dyn Condition>) -> Problem {
     let names = ["X", "Y", "t"];
     let face = |name, axis, high, condition| Face { name, axis, high, period: 1.0, condition };

@@ -70,8 +70,8 @@ pub(crate) fn largest(values: &[f64; 3]) -> f64 {
 /// Number of events in the body and the run, if terms are large only in a small part of them.
 pub(crate) const EVENTS: usize = 4096;
 
-/// Number of events on a face, or on another part of a problem with fewer dimensions, if terms are
-/// large only in a small part of the body and the run.
+/// Number of events on a face, or on another part with fewer dimensions, if terms are large only in
+/// a small part of the body and the run.
 pub(crate) const FACE_EVENTS: usize = 1024;
 
 /// Divisor of [`EVENTS`] and [`FACE_EVENTS`] if terms are large in much of the body and the run.

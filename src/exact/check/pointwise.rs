@@ -59,7 +59,7 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
     found.into_iter().try_for_each(LargestViolation::into_result)
 }
 
-/// Component i of an initial condition: the `stated` value if any. The default is that of the
+/// Component i of an initial condition: the `stated` value if any, otherwise the value of the
 /// motion (which must be finite) or zero.
 fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion: f64) -> f64 {
     if stated.is_empty() && problem.follows_motion {

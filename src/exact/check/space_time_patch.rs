@@ -42,8 +42,8 @@ impl SpaceTimePatch {
         Self::over(random, centre, half, until, longest)
     }
 
-    /// A patch with the given centre and half-lengths (m) in space, at a random time of a run until
-    /// `until` (s), with a duration of at most `longest` (s).
+    /// A patch with the given centre and half-lengths (m) in space. Its time interval is random,
+    /// within a run until `until` (s), and at most `longest` (s) long.
     pub(super) fn over(
         random: &mut Random,
         mut centre: Vec<f64>,

@@ -9,8 +9,8 @@ use super::number::Number;
 use super::program::{Instruction, Operand, read, run};
 use super::scope::Scope;
 
-/// Register counts that fit on the stack. There are two sizes, so that short formulas do not clear
-/// many registers; formulas with more registers allocate.
+/// Register counts that fit on the stack, in two sizes: short formulas need not clear many
+/// registers. Formulas with more registers allocate.
 const FEW: usize = 8;
 const MANY: usize = 32;
 
@@ -30,8 +30,8 @@ impl Formula {
     /// Resolves the names in `expr`: first as one of the `variables`, then in `scope`.
     ///
     /// # Errors
-    /// When a name is unknown, duplicate or misused, when functions call each other in a cycle,
-    /// when the bounds of a sum are not constant integers, or when a limit is exceeded.
+    /// When a name is unknown, duplicate or misused, when functions form a cycle, when the bounds
+    /// of a sum are not constant integers, or when a limit is exceeded.
     pub fn bind(expr: &Expr, scope: &Scope, variables: &[&str]) -> Result<Self, FormulaError> {
         for (position, variable) in variables.iter().enumerate() {
             scope.fresh(variable, 0..variable.len())?;
@@ -56,7 +56,7 @@ impl Formula {
     /// The value at `variables`, in the order of [`Formula::bind`].
     ///
     /// # Panics
-    /// If the number of variables differs from that of [`Formula::bind`].
+    /// If the number of variables differs from the number in [`Formula::bind`].
     pub fn eval<T: Number>(&self, variables: &[T]) -> T {
         assert_eq!(variables.len(), self.variables, "variables of `{}`", self.source);
         let zero = T::from(0.0);

@@ -123,12 +123,12 @@ pub(super) struct PartProgram {
 /// Formulas of the same variables, ending with the time, split into three parts.
 #[derive(Debug, Clone)]
 pub(super) struct Split {
-    /// Steps that depend only on position. Its variables are those of the formulas.
+    /// Steps that depend only on position. They use the variables of the formulas.
     pub(super) place: PartProgram,
-    /// Steps that depend at most on time. Its variables are those of the formulas.
+    /// Steps that depend at most on time. They use the variables of the formulas.
     pub(super) time: PartProgram,
-    /// The remaining steps. Its variables are the values stored by `time`, followed by those stored
-    /// by `place`.
+    /// The remaining steps. They use the values stored by `time`, followed by those stored by
+    /// `place`.
     pub(super) rest: PartProgram,
     /// Locations of the formula values after running `rest`.
     pub(super) results: Vec<Operand>,

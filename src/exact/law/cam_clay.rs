@@ -130,7 +130,7 @@ impl CamClayLaw {
     }
 
     /// State at the ratio whose distance from the K0 line has decreased by the factor `exp(-u)`
-    /// since yield: `ln(p/p_y)`, the compaction after yield, and the ratio.
+    /// since yield. Returns `ln(p/p_y)`, the compaction after yield, and the ratio.
     fn beyond_yield(&self, u: f64) -> [f64; 3] {
         let (start, m2, [limit, weight]) =
             (self.ratio_at_yield(), self.slope * self.slope, self.poles[0]);

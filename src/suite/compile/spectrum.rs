@@ -254,7 +254,7 @@ fn expectation(
     Ok((SpectrumExpectation { phase_within, damping_within }, because))
 }
 
-/// Refuses a solver whose prediction is that of an unknown case.
+/// Refuses a solver that refers to the prediction of an unknown case.
 fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Result<(), Diagnostic> {
     let names: Vec<&str> = plan.cases.iter().map(|case| case.name.as_str()).collect();
     let Some((solver, case)) =

@@ -203,7 +203,7 @@ impl Default for AnyMethod {
 /// Gate terms for one suite, from the configuration file of a solver's author.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct GateTerms {
-    /// Formal order, which replaces the one that the solver states.
+    /// Formal order that replaces the order stated by the solver.
     pub formal_order: Option<f64>,
     /// Required order on this suite.
     pub order: Option<f64>,

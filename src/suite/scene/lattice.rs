@@ -56,8 +56,8 @@ pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
 }
 
 /// Whether `holds` returns true for any particle of a `body` with a free rim. Its arguments are the
-/// particle position (m) and the particle's share of a lattice cell. The grid is that of `scene`
-/// with cell size `h`.
+/// particle position (m) and the particle's share of a lattice cell. The grid of `scene` has cells
+/// of size `h`.
 pub(crate) fn any_particle(
     body: &Scene,
     scene: &Scene,

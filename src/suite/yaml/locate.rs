@@ -80,8 +80,8 @@ impl Source {
 
     /// The position of a byte range within a text value, such as one name in a formula.
     ///
-    /// If the file does not contain the value verbatim (escapes, several lines), the position is
-    /// that of the whole value.
+    /// If the file does not contain the value verbatim (escapes, several lines), returns the
+    /// position of the whole value.
     pub fn within(&self, path: &[Step], bytes: Range<usize>) -> Option<Place> {
         let at = self.find(path, Sought::Value)?;
         let verbatim = self.scalar_at(at).and_then(|scalar| scalar.verbatim(self.text()));

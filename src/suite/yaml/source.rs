@@ -33,9 +33,8 @@ impl Source {
     /// Reads the output of a program, up to the maximum file size of a suite.
     ///
     /// # Errors
-    /// If the output cannot be read, is too large or not UTF-8, or if [`Source::from_text`] refuses
-    /// If reading fails, if the output is too large or not UTF-8, or if [`Source::from_text`]
-    /// refuses it.
+    /// If reading fails, or the output is too large, not UTF-8, or refused by
+    /// [`Source::from_text`].
     pub fn from_reader(name: &str, reader: impl Read) -> Result<Self, Diagnostic> {
         Self::from_bytes(name, limited(name, reader)?)
     }

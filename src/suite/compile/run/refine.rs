@@ -112,7 +112,7 @@ fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic
 
 pub(crate) const STEP_OF_EACH_H: &str = "or give the time step in `run`, as a formula of h";
 
-/// The entries of a key of `refine`, followed by those of `full` if the key is refined.
+/// The entries of a key of `refine`. If the key is refined, the entries of `full` follow.
 fn listed<'w>(spec: &'w ConvergenceSpec, key: Axis, refined: Axis) -> Vec<Located<&'w NumberText>> {
     let refine = &spec.refine;
     let (name, list) = match key {

@@ -38,8 +38,8 @@ pub(crate) fn names_coordinate(diagnostic: &Diagnostic) -> bool {
 /// The varying density of a body whose shape is that of `scene`.
 ///
 /// # Errors
-/// A diagnostic about the formula, about a position in the body where the density is not positive,
-/// or about a part of the scene that does not support a varying density.
+/// A diagnostic about the formula, a position in the body with a density that is not positive, or a
+/// part of the scene that does not support a varying density.
 pub(crate) fn varying(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,

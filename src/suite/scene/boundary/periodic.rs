@@ -3,7 +3,7 @@
 use super::contract::{BoundaryCondition, BuildBoundary};
 use crate::exact::{Condition, FacePoint, Violation};
 
-/// State equal to that of the opposite face, one period away.
+/// The face has the state of the opposite face, one period away.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PeriodicFace;
 

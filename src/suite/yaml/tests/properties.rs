@@ -70,7 +70,7 @@ fn paths(value: &Value, path: &mut Vec<Step>, all: &mut Vec<Vec<Step>>) {
     }
 }
 
-/// Whether the message is that of valid YAML that suites may not use.
+/// Whether the message is about valid YAML that suites may not use.
 fn refused_on_purpose(message: &str) -> bool {
     ["not supported", "second document", "not allowed", "tab used"]
         .iter()

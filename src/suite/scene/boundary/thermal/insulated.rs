@@ -35,7 +35,7 @@ impl HeatCondition for Insulated {
 
 impl<const D: usize> BuildThermal<D> for Insulated {}
 
-/// Temperature and heat flux equal to those of the opposite face.
+/// The face has the temperature and heat flux of the opposite face.
 #[derive(Debug)]
 pub(crate) struct PeriodicTemperature;
 

@@ -20,8 +20,8 @@ const ABSENT: f64 = 0.1;
 /// in their tangential condition.
 const UNEVEN: f64 = 0.05;
 
-/// Displacement through the wall that counts as a missing wall, relative to the displacement of a
-/// free body in the time a wave crosses one cell.
+/// Displacement through the wall above which the wall counts as missing. Unit: displacement of a
+/// free body while a wave crosses one cell.
 const THROUGH: f64 = 0.8;
 
 /// Maximum relative error of the force under gravity, which begins smoothly. Averaging (PIC) with
