@@ -1,7 +1,7 @@
 //! Checks Coulomb friction at a point of a face. The wall exerts pressure but no tension, the face
 //! does not penetrate the wall, and sliding is resisted by mu times the pressure.
 //!
-//! Forces are per reference area, which is immaterial in Coulomb's law.
+//! Forces are per reference area, which does not affect Coulomb's law.
 
 use super::event::{AXES, Event};
 use crate::exact::condition::Face;

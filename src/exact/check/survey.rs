@@ -16,8 +16,8 @@ const ROUNDS: usize = 8;
 /// Number of events added per round.
 const ADDED: usize = 16;
 
-/// Minimum share of events with at least half of the largest magnitude for which evenly distributed
-/// events resolve that magnitude.
+/// Evenly distributed events resolve a magnitude if at least this share of them has half of its
+/// largest value or more.
 const RESOLVED: f64 = 1.0 / 16.0;
 
 /// Maximum distance of an added event in the first round, relative to the body and the run. Each

@@ -132,7 +132,7 @@ pub(crate) struct Sums {
     pub(crate) gain: f64,
     pub(crate) loss: f64,
     pub(crate) size: f64,
-    /// Minimum scale of the sum.
+    /// Minimum scale of an imbalance.
     pub(crate) smallest: f64,
     /// The largest magnitude at a point, and the position and time of that point.
     peak: f64,

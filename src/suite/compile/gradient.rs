@@ -268,8 +268,8 @@ fn differentiated(
     Ok(Differentiated { parameter, name: name.clone(), motion, velocity_factor: factor })
 }
 
-/// Whether `value` equals the parameter in `scene`. For an initial velocity, whether the velocity
-/// is proportional to the suite parameter: its relative `growth` is then 1.
+/// Whether `value` equals the parameter in `scene`. For an initial velocity, whether its relative
+/// `growth` is 1, which means that it is proportional to the suite parameter.
 fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) -> bool {
     let of_material = || {
         let parameters = scene.material.keyed_parameters();

@@ -66,12 +66,12 @@ impl SpectrumPlan {
         LevelPlan { cells: self.cells, h: self.h, dt, ppc: Some(self.ppc) }
     }
 
-    /// The initial state of the run of `wave`.
+    /// The scene at the start of the run of `wave`.
     pub(crate) fn started(&self, wave: &Wave) -> Scene {
         Scene { initial_velocity: vec![wave.velocity.clone()], ..self.scene.clone() }
     }
 
-    /// The particle lattice, translated by `shift`.
+    /// The translation of the particle lattice by `shift`.
     pub(crate) fn lattice(&self) -> LatticeEdits {
         LatticeEdits { shift: vec![self.shift], ..LatticeEdits::default() }
     }

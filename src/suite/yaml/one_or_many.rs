@@ -9,8 +9,8 @@ use std::marker::PhantomData;
 
 /// A setting that a suite may vary. `scheme: [musl, usl]` gives one case for each entry.
 ///
-/// It is never empty. `T` may be a number, text, a struct or an enum, but not a list, because the
-/// first bracket always opens the list of alternatives.
+/// The list is never empty. `T` may be a number, text, a struct or an enum. It must not be a list,
+/// because the first bracket always opens the list of alternatives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OneOrMany<T> {
     values: Vec<T>,

@@ -77,7 +77,7 @@ fn no_face(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Diagnostic {
     diagnostic.with_help("remove it, or judge the `reaction`")
 }
 
-/// Refuses an energy for a law, of the solver or of the exact solution, that has no stored energy.
+/// Refuses an energy that the law of the solver or of the exact solution does not define.
 fn stored_energy(
     evaluator: &Evaluator<'_>,
     path: &Path,

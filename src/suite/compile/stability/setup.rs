@@ -204,8 +204,8 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     Err(diagnostic.with_help("remove what the scene states of it; `perturb` starts the run"))
 }
 
-/// Maximum energy of a stable run, relative to the initial energy. It exceeds the exchange between
-/// velocities and stresses from a random start just below the limit of a leapfrog scheme.
+/// Maximum energy of a stable run, relative to the initial energy. It allows for the exchange
+/// between velocities and stresses after a random start just below the limit of a leapfrog scheme.
 const STABLE_BELOW: f64 = 1e3;
 
 /// Energy above which a run is unstable, relative to the initial energy.

@@ -66,7 +66,7 @@ fn refuse_methods_of_other_bodies(
     Err(evaluator.diagnostic(&Path::top("methods").then(i), &message).with_help(help))
 }
 
-/// Refuses quantities of a motion in the judge, observe, expect and exact keys.
+/// Refuses keys that judge, observe, expect or state quantities of a motion.
 fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     if spec.judge.of.is_of_motion() {
         let message = "nothing moves, and what is judged belongs to a motion";

@@ -29,8 +29,8 @@ impl LoadKeys for BodyForceSpec {
     }
 }
 
-/// Force per unit mass (m/s2), one formula for each component. The formulas have the variables of
-/// the coordinates and t, and the displacement if one of them uses it.
+/// Force per unit mass (m/s2), one formula for each component. Variables are the coordinates and t,
+/// and the displacement if one of the formulas uses it.
 #[derive(Debug)]
 struct BodyForceLoad(Vec<Formula>);
 

@@ -114,8 +114,8 @@ impl LoadEntry<'_> {
         self.evaluator.vector(path, texts, d, &coordinates_and_time(d))
     }
 
-    /// One formula for each component, of the coordinates and t, and the displacement if one of the
-    /// formulas uses it.
+    /// One formula for each component. Variables are the coordinates and t, and the displacement if
+    /// one of the formulas uses it.
     pub(crate) fn of_displacement(
         &self,
         path: &Path,

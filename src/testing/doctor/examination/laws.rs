@@ -3,8 +3,8 @@
 //!
 //! A body with negligible stiffness moves with `v = L (X - C)`: stretch, shear and rotation become
 //! of order one. In the middle of the body, F is compared with the displacement gradient. The
-//! stress is compared with the law's stress for this F, which is the initial stress of a body with
-//! the initial displacement `(F - I) (X - C)`.
+//! stress is compared with the initial stress of a body with the initial displacement
+//! `(F - I) (X - C)`, which is the law's stress for this F.
 
 use super::stress::{impulses, inside};
 use crate::mpm::det_of_rows;

@@ -3,9 +3,9 @@
 //!
 //! Weights that sum to one transfer a uniform velocity exactly, so the examination `translation`
 //! does not test the transfer of a velocity gradient. Here the velocity is `v = L (X - C)`, a
-//! rotation or a stretch about the centre C, and the moment `M = sum m (X - C) x v`, or
-//! `sum m (X - C) . v`, measures its transfer. A transfer that averages (PIC) loses
-//! `beta d D sum m L` of it in each step. D is the second moment of the weights along an axis, 1/4
+//! rotation or a stretch about the centre C. Its transfer is measured by the moment
+//! `M = sum m (X - C) x v`, or `sum m (X - C) . v`. A transfer that averages (PIC) loses
+//! `beta d D sum m L` of M in each step. D is the second moment of the weights along an axis, 1/4
 //! h2 for quadratic and 1/3 h2 for cubic B-splines, and beta is the share of PIC. An affine
 //! transfer loses `1 - a` times as much if its matrix C is wrong by the factor a. It loses twice as
 //! much of a rotation if C is transposed, and nothing if C is correct (Jiang et al. 2015, eq. 8 to

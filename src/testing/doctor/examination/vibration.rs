@@ -1,9 +1,9 @@
 //! Examination of a free vibrating body, whose energy must not grow.
 //!
-//! A body that starts with a uniform stretch rate vibrates for two periods. The kinetic energy
-//! stays near or below its initial value if the scheme computes the strain from the velocity after
-//! the forces (USL, MUSL), or the forces from the stress after the strain (USF). If a scheme
-//! computes both from the beginning of the step, as in forward Euler, each step multiplies the
+//! A body that starts with a uniform stretch rate vibrates for two periods. Its kinetic energy
+//! stays near or below the initial value for two kinds of schemes: the strain is computed from the
+//! velocity after the forces (USL, MUSL), or the forces from the stress after the strain (USF). If
+//! both are computed from the beginning of the step, as in forward Euler, each step multiplies the
 //! amplitude of a mode of frequency w by `sqrt(1 + w2 dt2)`.
 
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};

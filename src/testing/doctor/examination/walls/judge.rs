@@ -228,8 +228,8 @@ fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     None
 }
 
-/// Finding on a column `stress` that does not show the wall force. The stress is uniform, so the
-/// order of the points does not matter.
+/// Finding on a column `stress` that does not show the wall force. A wrong order of the points is
+/// visible only where the stress is not uniform.
 fn of_column(wall: &Wall) -> Option<SolverFinding> {
     let column = wall.column.filter(|column| !THROWN.contains(column))?;
     Some(SolverFinding::defect(
