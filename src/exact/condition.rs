@@ -68,9 +68,9 @@ pub trait FacePoint {
 pub struct Face {
     /// Name of the face in suites.
     pub name: &'static str,
-    /// Axis of its normal.
+    /// Axis of the face normal.
     pub axis: usize,
-    /// Whether it is the face with the larger coordinate.
+    /// Whether this is the face with the larger coordinate.
     pub high: bool,
     /// Period along the face normal (m), if the axis is periodic. Equals the length of the
     /// reference body, unless a periodic body starts deformed.

@@ -103,7 +103,7 @@ struct HeatedPoint<'a> {
     face: &'a HeatFace,
     event: Event,
     now: TemperatureDerivatives,
-    /// Heat that enters (W/m^(D-1)).
+    /// Heat inflow (W/m^(D-1)).
     inflow: f64,
     sizes: &'a HeatMagnitudes,
 }

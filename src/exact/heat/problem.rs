@@ -14,9 +14,9 @@ use std::sync::Arc;
 pub struct HeatFace {
     /// Name of the face in suites.
     pub name: &'static str,
-    /// Axis of its normal.
+    /// Axis of the face normal.
     pub axis: usize,
-    /// Whether it is the face with the larger coordinate.
+    /// Whether this is the face with the larger coordinate.
     pub high: bool,
     /// Thermal condition on the face.
     pub condition: Arc<dyn ThermalCondition>,

@@ -19,7 +19,7 @@ pub struct GradientPlan {
     pub parameters: Vec<Differentiated>,
     /// Index of the level whose parameters are perturbed.
     pub level: usize,
-    /// Interval of one parameter.
+    /// Interval of one parameter to sweep, if any.
     pub sweep: Option<SweepPlan>,
     /// The cases.
     pub cases: Vec<GradientCase>,
@@ -44,7 +44,7 @@ pub struct Differentiated {
 pub struct SweepPlan {
     /// The parameter to vary.
     pub parameter: GradientParameter,
-    /// Half of the interval, as a share of the value of the parameter.
+    /// Half the interval, relative to the value of the parameter.
     pub within: f64,
     /// Number of points.
     pub points: u64,

@@ -33,7 +33,7 @@ pub struct ForceCase {
     pub basis: BasisName,
     /// Expectation of the force; `None` if the suite states no expectations.
     pub expected: Option<ForceExpectation>,
-    /// The reason for expecting it.
+    /// Reason for the expectation.
     pub because: String,
 }
 

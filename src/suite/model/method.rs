@@ -173,7 +173,7 @@ pub struct ExternalMethod<'a> {
     pub name: &'a str,
     /// Theoretical order of the displacements in h.
     pub formal_order: f64,
-    /// Precision of its numbers.
+    /// Precision of the numbers.
     pub precision: Precision,
 }
 
@@ -184,7 +184,7 @@ pub struct AnyMethod {
     pub order: Option<f64>,
     /// Errors at or below this bound are accepted without an order.
     pub error_below: Option<f64>,
-    /// Whether nothing deforms, so that a solver may use any law.
+    /// Whether nothing deforms; a solver may then use any law.
     pub any_law: bool,
     /// Whether the gate has requirements for external solvers.
     pub gated: bool,
