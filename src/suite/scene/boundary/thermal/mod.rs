@@ -20,7 +20,7 @@ conditions! {
     Insulated = "insulated" is insulated::Insulated;
     /// The temperature (K).
     Temperature = "temperature" of temperature::TemperatureSpec;
-    /// Heat inflow (W/m^(D-1)).
+    /// Heat that enters (W/m^(D-1)).
     Flux = "flux" of flux::FluxSpec;
     /// Heat that enters in proportion to a difference of temperatures.
     Convection = "convection" of convection::ConvectionSpec;
