@@ -1,61 +1,62 @@
-//! Faces of a body, and conditions on the motion there.
+//! Faces of a body, and conditions on their motion.
 
 use super::formula::Formula;
 use super::violation::Violation;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// A condition on a face of the body, checked point by point.
+/// A condition on a face of the body, checked pointwise.
 pub trait Condition: Debug + Send + Sync {
-    /// Holds the motion at `point` to the condition.
+    /// Checks the motion at `point`.
     ///
     /// # Errors
     /// The first violation.
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation>;
 }
 
-/// A point of a face at a time of the run, with elementary requirements, which form the conditions.
-/// There are few of them, because each residual needs a scale of the whole motion.
+/// A point of a face at one time, with the elementary requirements that make up conditions. Their
+/// number is small, because each residual needs a scale from the whole motion.
 pub trait FacePoint {
     /// Number of space dimensions.
     fn dimension(&self) -> usize;
 
-    /// Axis of the normal.
+    /// Axis of the face normal.
     fn axis(&self) -> usize;
 
-    /// A formula of the coordinates and t, here and now.
+    /// Value of a formula of the coordinates and t at this point and time.
     fn value(&self, formula: &Formula) -> f64;
 
-    /// `J F^-T n`, the present area per reference area. Where strains are small it is n.
+    /// `J F^-T n`, the current area vector per reference area. In small-strain theory, this is n.
     fn present_area(&self) -> [f64; 3];
 
-    /// `u_i = 0`, on a face that is `what`.
+    /// Requires `u_i = 0`; `what` describes the face in messages.
     ///
     /// # Errors
     /// The violation.
     fn held(&self, i: usize, what: &str) -> Result<(), Violation>;
 
-    /// `(u_t)_i = given` (m/s).
+    /// Requires `(u_t)_i = given` (m/s).
     ///
     /// # Errors
     /// The violation.
     fn velocity(&self, i: usize, given: f64) -> Result<(), Violation>;
 
-    /// `(P n)_i = given` (Pa), on a face that is `what`.
+    /// Requires `(P n)_i = given` (Pa); `what` describes the face in messages.
     ///
     /// # Errors
     /// The violation.
     fn traction(&self, i: usize, what: &str, given: f64) -> Result<(), Violation>;
 
-    /// u . n = 0 and no tension. The tangential traction is `coefficient` times the pressure,
-    /// against the velocity; where the face does not move, it is at most this value.
+    /// Requires u . n = 0 and no tension. The tangential traction must be `coefficient` times the
+    /// pressure, opposite to the velocity. If the face does not move, the traction must not exceed
+    /// this value.
     ///
     /// # Errors
     /// The first violation.
     fn friction(&self, coefficient: f64) -> Result<(), Violation>;
 
-    /// x lies one period further along the axis than on the opposite face, and grad u, and so P, is
-    /// equal on both.
+    /// Requires that x is one period further along the axis than on the opposite face. Also
+    /// requires that grad u, and therefore P, is equal on both faces.
     ///
     /// # Errors
     /// The first violation.
@@ -65,15 +66,15 @@ pub trait FacePoint {
 /// One face of a box-shaped body.
 #[derive(Debug, Clone)]
 pub struct Face {
-    /// Name that a suite gives it.
+    /// Name of the face in suites.
     pub name: &'static str,
-    /// Axis of its normal.
+    /// Axis of the face normal.
     pub axis: usize,
-    /// Whether it is the face with the larger coordinate.
+    /// Whether this is the face with the larger coordinate.
     pub high: bool,
-    /// Length (m) of the axis on which the body moves: its period, if the axis is periodic. It is
-    /// that of the body itself, unless a periodic body starts deformed.
+    /// Period along the face normal (m), if the axis is periodic. Equals the length of the
+    /// reference body, unless a periodic body starts deformed.
     pub period: f64,
-    /// Condition on the motion there.
+    /// Condition on the motion of the face.
     pub condition: Arc<dyn Condition>,
 }

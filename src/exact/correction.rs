@@ -1,10 +1,11 @@
-//! The first correction of a linearised motion: the linear response to the residual of its law.
+//! First-order correction of a linearised motion: the linear response to the residual of its law.
 //!
 //! A linearised motion u leaves the residual force `r = Div P(u) + rho0 b - rho0 u_tt`, and
-//! tractions on faces. The motion that solves the problem is u + d, where to first order
-//! `rho0 d_tt = M d_XX + r`, with d = 0 where a face is held, and the residual traction on others.
-//! It is computed along the one axis along which the motion varies: on linear elements with a
-//! lumped mass matrix by central differences in time, and by integration for a body at rest.
+//! residual tractions on faces. The true motion is u + d, where to first order
+//! `rho0 d_tt = M d_XX + r`. The boundary conditions are d = 0 on held faces, and the residual
+//! traction on other faces. The correction d is computed along the only axis along which the motion
+//! varies. Motions use linear elements, a lumped mass matrix and central differences in time;
+//! bodies at rest use integration.
 
 use super::check::event::Event;
 use super::condition::{Face, FacePoint};
@@ -15,27 +16,27 @@ use super::violation::Violation;
 use crate::subject::PlaneState;
 use std::cell::Cell;
 
-/// Maximum number of residuals that are evaluated.
+/// Maximum number of residual evaluations.
 const EVALUATIONS: f64 = 2e5;
 
 /// Minimum and maximum number of elements.
 const ELEMENTS: (f64, f64) = (32.0, 256.0);
 
-/// Time step, relative to the time in which a wave crosses an element.
+/// Time step, relative to the time in which a wave crosses one element.
 const COURANT: f64 = 0.9;
 
 /// Requirement of a condition on a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Demand {
-    /// The displacement or the velocity is given.
+    /// The displacement or the velocity is prescribed.
     Held,
-    /// The difference of the given traction and the traction of the motion (Pa).
+    /// Prescribed traction minus the traction of the motion (Pa).
     Traction(f64),
     /// Another requirement, for which no correction is computed.
     Other,
 }
 
-/// A point of a face that records the requirement of its condition along the normal.
+/// A point of a face that records what its condition requires along the normal.
 struct DemandPoint<'a> {
     problem: &'a Problem,
     face: &'a Face,
@@ -98,12 +99,12 @@ impl FacePoint for DemandPoint<'_> {
     }
 }
 
-/// The body along the axis along which its motion varies.
+/// The body, reduced to the axis along which its motion varies.
 struct Line<'a> {
     problem: &'a Problem,
     axis: usize,
     elements: usize,
-    /// Length of an element (m).
+    /// Element length (m).
     h: f64,
     /// Reference positions of the nodes (m).
     labels: Vec<Vec<f64>>,
@@ -153,7 +154,7 @@ impl<'a> Line<'a> {
         point.demand.get()
     }
 
-    /// Nodal forces (Pa) of the residual at a time, and whether both ends are held.
+    /// Nodal forces (Pa) of the residual at time `t`, and whether each end is held.
     fn forces(&mut self, t: f64) -> Option<(Vec<f64>, [bool; 2])> {
         let last = self.elements;
         let weight = |node: usize| if node == 0 || node == last { 0.5 } else { 1.0 };
@@ -176,10 +177,10 @@ impl<'a> Line<'a> {
         Some((forces, held))
     }
 
-    /// The correction (m) of a state of rest: equilibrium of the nodal forces.
+    /// The correction (m) of a state of rest, from equilibrium of the nodal forces.
     fn at_rest(&mut self, t: f64) -> Option<Vec<f64>> {
         let (forces, held) = self.forces(t)?;
-        // Without the reaction at the low end, the force in an element is minus the sum of the
+        // Without the reaction at the low end, the force in an element is minus the sum of all
         // nodal forces below it.
         let mut below = 0.0;
         let mut sums = Vec::with_capacity(self.elements);
@@ -202,7 +203,7 @@ impl<'a> Line<'a> {
         Some(d.into_iter().map(|d| d - shift).collect())
     }
 
-    /// The correction at the time `until`, from a start with zero correction.
+    /// The correction at time `until`, starting from zero.
     fn in_motion(&mut self, until: f64, steps: usize) -> Option<FirstCorrection> {
         let (problem, last) = (self.problem, self.elements);
         let (dt, stiffness) = (until / steps as f64, problem.modulus() / self.h);
@@ -223,7 +224,7 @@ impl<'a> Line<'a> {
             }
             let rates = problem.terms.iter().map(|term| term.resistance(t, 1.0, &|| 0.0));
             let damping = -rates.sum::<f64>();
-            // Velocities start half a step late.
+            // Velocities start with half a step.
             let share = if step == 0 { 0.5 } else { 1.0 };
             for node in 0..=last {
                 let is_held = (node == 0 && held[0]) || (node == last && held[1]);
@@ -237,12 +238,12 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Root mean square over the body of the first correction (m) of a linearised motion.
+/// Root mean square over the body of a linearised motion's first correction (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstCorrection {
-    /// At the end of the run.
+    /// Value at the end of the run.
     pub at_end: f64,
-    /// The largest of the run.
+    /// Largest value during the run.
     pub largest: f64,
 }
 

@@ -1,33 +1,33 @@
-//! Reference density of a body: a constant, or a function of the place.
+//! Reference density of a body: constant or a function of position.
 
 use super::formula::{Formula, Number, Slope};
 use super::gauss::points;
 use super::outline::Outline;
 use super::tensor::unit;
 
-/// rho0 (kg/m3).
+/// Reference density rho0 (kg/m3).
 #[derive(Debug, Clone)]
 pub struct Density {
-    /// A formula of the coordinates; `None`: the density is `largest` everywhere.
+    /// A formula of the coordinates; `None` if the density is `largest` everywhere.
     formula: Option<Formula>,
     smallest: f64,
     largest: f64,
 }
 
-/// Nodes along each axis of the raster on which a density is examined, ends and middle included.
+/// Sampling points of a density along each axis, including ends and middle.
 const NODES: usize = 33;
 
-/// Panels along each axis of the quadrature points at which a density must be positive.
+/// Quadrature panels along each axis, at whose points the density must be positive.
 const PANELS: usize = 4;
 
-/// Densities below this share of the largest count as zero: 1 - X^2 - Y^2 is not exactly zero on
-/// the rim of a disk.
+/// Densities below this share of the largest density count as zero, because 1 - X^2 - Y^2 is not
+/// exactly zero on the rim of a disk.
 const ROUNDING: f64 = 1e-12;
 
-/// A place inside the body where a density is not positive, with its value (kg/m3).
+/// A position in the body where the density is not positive, with its value (kg/m3).
 #[derive(Debug, Clone, PartialEq)]
 pub struct NoDensity {
-    /// The place (m).
+    /// The position (m).
     pub label: Vec<f64>,
     /// The value of the formula (kg/m3).
     pub value: f64,
@@ -40,11 +40,11 @@ impl From<f64> for Density {
 }
 
 impl Density {
-    /// The density `formula` of the coordinates, in a body between the corners `from` and `to` or,
-    /// inside these, in its `outline`.
+    /// The density given by `formula`, a formula of the coordinates. The body is the box from
+    /// `from` to `to`, or its part inside `outline`.
     ///
     /// # Errors
-    /// A place inside the body where the density is not above zero. On the rim it may be zero.
+    /// A position inside the body where the density is not positive. On the rim it may be zero.
     pub fn of_place(
         formula: Formula,
         from: &[f64],
@@ -82,17 +82,17 @@ impl Density {
         Ok(Self { formula: Some(formula), smallest, largest })
     }
 
-    /// The density (kg/m3), if it is the same everywhere.
+    /// The density (kg/m3) if it is uniform.
     pub fn uniform(&self) -> Option<f64> {
         self.formula.is_none().then_some(self.largest)
     }
 
-    /// The formula of a density that varies.
+    /// The formula of a varying density.
     pub fn formula(&self) -> Option<&Formula> {
         self.formula.as_ref()
     }
 
-    /// Smallest density in the body or on its rim (kg/m3), where it may be zero.
+    /// Smallest density in the body or on its rim (kg/m3); it may be zero on the rim.
     pub fn smallest(&self) -> f64 {
         self.smallest
     }
@@ -102,7 +102,7 @@ impl Density {
         self.largest
     }
 
-    /// The density (kg/m3) at `label`. A negative value, which is rounding on the rim, is zero.
+    /// The density (kg/m3) at `label`. Negative values, rounding on the rim, become zero.
     pub fn at(&self, label: &[f64]) -> f64 {
         self.over(label)
     }
@@ -112,7 +112,7 @@ impl Density {
         Number::max(formula.eval(label), T::from(0.0))
     }
 
-    /// The density (kg/m3) at `label`, with its slopes (kg/m4).
+    /// The density (kg/m3) at `label` and its gradient (kg/m4).
     pub(super) fn with_slopes(&self, label: &[f64]) -> Slope<3> {
         let place: [Slope<3>; 3] = std::array::from_fn(|axis| {
             let value = label.get(axis).copied().unwrap_or(0.0);
@@ -121,8 +121,8 @@ impl Density {
         self.over(&place[..label.len()])
     }
 
-    /// Mass (kg) of the part of a body that is inside the box around `centre` with the half-lengths
-    /// `half` (m), by quadrature over the points of the box that the body `holds`.
+    /// Mass (kg) of the part of a body inside a box with the given centre and half-lengths (m).
+    /// Computed by quadrature over the points of the box for which `holds` returns true.
     pub fn mass(&self, centre: &[f64], half: &[f64], holds: impl Fn(&[f64]) -> bool) -> f64 {
         let axes: Vec<(f64, f64)> = centre.iter().zip(half).map(|(x, h)| (x - h, x + h)).collect();
         let all = points(&axes, 1).into_iter().filter(|(label, _)| holds(label));
@@ -144,7 +144,7 @@ pub(super) mod tests {
         Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "Z"][..d]).unwrap()
     }
 
-    /// A density in the box from -1 to 1 along `d` axes.
+    /// A density in the box from -1 to 1 along each of `d` axes.
     pub(crate) fn in_box(text: &str, d: usize) -> Result<Density, NoDensity> {
         Density::of_place(formula(text, d), &vec![-1.0; d], &vec![1.0; d], None)
     }
@@ -171,7 +171,7 @@ pub(super) mod tests {
         assert!(Density::of_place(cloud, &from, &to, Some(&disk)).is_ok());
     }
 
-    /// The integral of 1 + 2 X Y^2 over the box from (0, 1) to (1, 3), and over its half X < 1/2.
+    /// The integrals of 1 + 2 X Y^2 over the box from (0, 1) to (1, 3), and over its half X < 1/2.
     #[test]
     fn mass_is_the_integral_over_the_part_inside() {
         let density = Density { formula: Some(formula("1 + 2*X*Y^2", 2)), ..Density::from(1.0) };
@@ -181,7 +181,7 @@ pub(super) mod tests {
         assert!(half > 1.0 && half < 0.5 * mass);
     }
 
-    /// A gas cloud on the line, p = rho^3/4 and rho0^2 = 1 - X^2, with the motion x = a X.
+    /// A one-dimensional gas cloud with p = rho^3/4, rho0^2 = 1 - X^2 and the motion x = a X.
     fn cloud(a: &str, density: &str) -> Problem {
         let mut problem = bar(&format!("({a} - 1)*X"), free());
         problem.faces[0].condition = free();
@@ -193,8 +193,8 @@ pub(super) mod tests {
         }
     }
 
-    /// The acceleration constant is 3/4. Without the slope of the density nothing accelerates the
-    /// gas, and a factor that is wrong by 1 % leaves a residual.
+    /// The acceleration constant is 3/4. Without the density gradient no force accelerates the gas;
+    /// an error of 1 % in a factor leaves a residual.
     #[test]
     fn gas_cloud_solves_its_equation() {
         let sound = cloud("sqrt(1 + 0.75*t^2)", "sqrt(1 - X^2)");
@@ -211,8 +211,8 @@ pub(super) mod tests {
         }
     }
 
-    /// In a solid the density enters the inertia only, `b = u_tt - Div P/rho0`. The force at fixed
-    /// places equals that at a point, and passes the check with the weak form.
+    /// In a solid, the density enters only the inertia, `b = u_tt - Div P/rho0`. The force at fixed
+    /// positions equals that at single points, and passes the check in weak form.
     #[test]
     fn manufactured_force_has_the_density_of_the_place() {
         let density = Density::of_place(formula("2 + X*Y", 2), &[0.0; 2], &[1.0; 2], None).unwrap();
@@ -230,8 +230,8 @@ pub(super) mod tests {
         assert_relative_eq!(force[0] - uniform[0], change, max_relative = 1e-10);
     }
 
-    /// The kinetic and the stored energy of a cloud with K = 1/4 and A = 1 in the plane: I a'^2/2
-    /// and C I/(2 a^2) with C = 1 and I = pi/6.
+    /// Kinetic and stored energy of a cloud with K = 1/4 and A = 1 in the plane: I a'^2/2 and C
+    /// I/(2 a^2), where C = 1 and I = pi/6.
     #[test]
     fn energies_of_a_round_cloud_have_their_closed_forms() {
         let plane = |text: &str| {
@@ -267,7 +267,7 @@ pub(super) mod tests {
         assert_relative_eq!(kinetic + stored, 0.261_799_388, max_relative = 1e-8);
     }
 
-    /// d/dX and d/dY of X^2 Y; on the rim a negative density of rounding has no value and no slope.
+    /// d/dX and d/dY of X^2 Y. On the rim, a negative density has zero value and slope.
     #[test]
     fn slopes_are_those_of_the_formula() {
         let density = Density { formula: Some(formula("X^2*Y", 2)), ..Density::from(1.0) };

@@ -1,5 +1,5 @@
-//! Stresses and forces of an [`Equation`] with any law, and completion of the derivatives of a
-//! plane motion by the state across the plane.
+//! Stresses and forces of an [`Equation`] for any law. Also completes the derivatives of a plane
+//! motion by the out-of-plane state.
 
 use super::formula::{Number, Slope};
 use super::law::Equation;
@@ -8,12 +8,12 @@ use super::tensor::{Tensor, cofactor, pushed_forward, sum, tensor, unit};
 use crate::subject::PlaneState;
 
 impl Equation {
-    /// Whether the law has finite strains; a law of small strains has no deformed configuration.
+    /// Whether the law is for finite strains. A small-strain law has no deformed configuration.
     pub fn is_finite(&self) -> bool {
         self.small_strain_modulus().is_none()
     }
 
-    /// Cauchy stress (Pa), `sigma = P F^T / J`. In small-strain theory it equals P.
+    /// Cauchy stress (Pa), `sigma = P F^T / J`. In small-strain theory, this is P.
     pub fn cauchy(&self, grad: &Tensor<f64>) -> Tensor<f64> {
         let piola = self.piola(grad);
         if !self.is_finite() {
@@ -22,9 +22,9 @@ impl Equation {
         pushed_forward(&piola, grad)
     }
 
-    /// Present area vector of a unit of area on a face of the reference body, normal to `axis`,
-    /// outwards on its `high` or low side: `J F^-T N` (Nanson's formula). Where strains are small,
-    /// N.
+    /// Current area vector of a unit area on a reference face with its normal along `axis`,
+    /// pointing outwards from the `high` or low side: `J F^-T N` (Nanson's formula). In
+    /// small-strain theory, this is N.
     pub fn present_area(&self, grad: &Tensor<f64>, axis: usize, high: bool) -> [f64; 3] {
         let outwards = if high { 1.0 } else { -1.0 };
         let f: Tensor<f64> = if self.is_finite() {
@@ -35,8 +35,9 @@ impl Equation {
         std::array::from_fn(|i| outwards * cofactor(&f, i, axis))
     }
 
-    /// Div P (N/m3) from the gradient and its derivatives, `second[k][a][b] = d2 u_k/dX_a dX_b`,
-    /// for a motion that varies along the first `dimension` axes only.
+    /// Div P (N/m3) from the displacement gradient and its derivatives,
+    /// `second[k][a][b] = d2 u_k/dX_a dX_b`. The motion must vary only along the first `dimension`
+    /// axes.
     pub fn divergence(
         &self,
         dimension: usize,
@@ -56,7 +57,7 @@ impl Equation {
         }
     }
 
-    /// Div P in D dimensions: P once, with its slopes along all axes.
+    /// Div P in D dimensions, from one evaluation of P with derivatives along all axes.
     fn divergence_in<const D: usize>(
         &self,
         grad: &Tensor<f64>,
@@ -69,8 +70,8 @@ impl Equation {
     }
 }
 
-/// Adds the displacement gradient across the plane, `F_33 - 1`, and its derivatives along the plane
-/// to those of a motion in the plane.
+/// Adds the out-of-plane displacement gradient, `F_33 - 1`, and its in-plane derivatives to the
+/// derivatives of a plane motion.
 pub(super) fn complete_in_plane(
     plane: PlaneState,
     equation: &Equation,
@@ -83,7 +84,7 @@ pub(super) fn complete_in_plane(
             let varying: Tensor<Slope<2>, 2> = tensor(|i, j| {
                 Slope::new(now.grad[i][j], [now.second[i][j][0], now.second[i][j][1]])
             });
-            // A scene with a law without this state has already been refused.
+            // A scene whose law does not support this state has already been refused.
             let Some(across) = equation.free_gradient(&varying) else { return };
             now.grad[2][2] = across.value();
             now.second[2][2] = [across.d(0), across.d(1), 0.0];
@@ -91,7 +92,7 @@ pub(super) fn complete_in_plane(
         PlaneState::Axisymmetric => {
             let (radius, [along_r, along_z, _]) = (label[0], now.grad[0]);
             (now.grad[2][2], now.second[2][2]) = if radius == 0.0 {
-                // The limits on the axis, where u_r = 0.
+                // The limits on the axis of revolution, where u_r = 0.
                 let [along_rr, along_rz, _] = now.second[0][0];
                 (along_r, [0.5 * along_rr, along_rz, 0.0])
             } else {
@@ -109,7 +110,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Fewer dimensions are three with zeros.
+    /// A problem in one or two dimensions equals a three-dimensional one with zeros.
     #[rstest]
     fn plane_and_uniaxial_strain_are_special_cases(
         #[values(
@@ -130,7 +131,7 @@ mod tests {
         assert_eq!(solid.divergence(dimension, &grad, &second), whole);
     }
 
-    /// Simple shear along X, u_X = g Y: the top keeps its area and its normal, and the right end
+    /// Simple shear along X, u_X = g Y. The top face keeps its area and normal; the right face
     /// rotates, `n da = (1, -g) dA` (Nanson).
     #[test]
     fn the_face_of_a_sheared_body_turns() {
@@ -144,8 +145,8 @@ mod tests {
         assert_eq!(small.present_area(&grad, 0, true), [1.0, 0.0, 0.0]);
     }
 
-    /// The stress across a plate is zero, and the derivative of the stretch agrees with its
-    /// difference.
+    /// The out-of-plane stress of a plate is zero, and the derivative of its stretch agrees with a
+    /// finite difference.
     #[rstest]
     fn a_plate_is_free_across(
         #[values(
@@ -172,8 +173,8 @@ mod tests {
         assert_relative_eq!(here.second[2][2][0], slope, max_relative = 1e-8, epsilon = 1e-9);
     }
 
-    /// On the axis the hoop strain and its derivatives are the limits for r -> 0: for
-    /// `u_r = a r + b r^2 + c r z` the hoop strain `u_r/r` is `a + b r + c z`.
+    /// On the axis, the hoop strain and its derivatives are the limits for r -> 0. For
+    /// `u_r = a r + b r^2 + c r z`, the hoop strain `u_r/r` is `a + b r + c z`.
     #[rstest]
     fn the_hoop_is_smooth_on_the_axis(#[values(0.0, 1e-3, 0.5)] radius: f64) {
         let (a, b, c, z) = (0.1, 0.3, 0.2, 0.7);

@@ -1,20 +1,20 @@
 //! Thermal expansion in the equation of motion.
 //!
-//! With the stretch `theta = 1 + alpha (T - T0)` that temperature makes on every axis, `P =
-//! theta^(D-1) P_e(F/theta)`: the derivative of the energy `theta^D W(F/theta)` of the expanded
-//! body. In a theory of small strains it is `P = C : eps - (3 lambda + 2 mu)(theta - 1) I`.
+//! Temperature stretches every axis by `theta = 1 + alpha (T - T0)`. Then
+//! `P = theta^(D-1) P_e(F/theta)`, which is the derivative of the energy `theta^D W(F/theta)` of
+//! the expanded body. In small-strain theory, `P = C : eps - (3 lambda + 2 mu)(theta - 1) I`.
 
 use super::formula::{Number, Slope};
 use super::heat::TemperatureDerivatives;
 use super::law::Equation;
 use super::tensor::{Tensor, sum, tensor, unit};
 
-/// Expansion by temperature.
+/// Thermal expansion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expansion {
     /// alpha (1/K).
     pub coefficient: f64,
-    /// T0 (K), at which a body that is not deformed is free of stress.
+    /// Reference temperature T0 (K), at which an undeformed body is stress-free.
     pub reference: f64,
 }
 
@@ -52,7 +52,7 @@ fn piola<T: Number, const D: usize>(
     tensor(|i, j| area * stress[i][j])
 }
 
-/// P (Pa) of a body in `dimension` dimensions; further components are zero.
+/// P (Pa) of a body in `dimension` dimensions; the other components are zero.
 pub(super) fn swollen_piola(
     equation: &Equation,
     dimension: usize,
@@ -72,7 +72,7 @@ pub(super) fn swollen_piola(
     }
 }
 
-/// Cauchy stress (Pa): that of F/theta, or P itself for small strains.
+/// Cauchy stress (Pa) at F/theta. For small strains, this is P.
 pub(super) fn swollen_cauchy(
     equation: &Equation,
     dimension: usize,
@@ -93,7 +93,7 @@ pub(super) fn swollen_cauchy(
     equation.cauchy(&elastic)
 }
 
-/// Div P (N/m3), as [`Equation::divergence`] gives it without expansion.
+/// Div P (N/m3), like [`Equation::divergence`] but with thermal expansion.
 pub(super) fn swollen_divergence(
     equation: &Equation,
     dimension: usize,
@@ -144,7 +144,7 @@ mod tests {
 
     const GRAD: Tensor<f64> = [[0.1, 0.2, 0.0], [-0.05, 0.03, 0.0], [0.0; 3]];
 
-    /// Nothing expands where theta = 1.
+    /// A body with theta = 1 does not expand.
     #[rstest]
     #[case(SmallStrainLaw::new(50.0, 0.3).into())]
     #[case(NeoHookeanLaw::new(50.0, 0.3).into())]
@@ -156,8 +156,8 @@ mod tests {
         }
     }
 
-    /// A body that expands freely has no stress, and neither has it a force where theta varies:
-    /// grad u = theta - 1.
+    /// A freely expanding body, grad u = theta - 1, has neither stress nor force, even for varying
+    /// theta.
     #[rstest]
     #[case(SmallStrainLaw::new(50.0, 0.3).into())]
     #[case(NeoHookeanLaw::new(50.0, 0.3).into())]
@@ -178,7 +178,7 @@ mod tests {
         assert!(force[0].abs() < 1e-12, "{force:?}");
     }
 
-    /// P derives from the energy `theta^D W(F/theta)`, and `sigma = P F^T/J`.
+    /// P is the derivative of the energy `theta^D W(F/theta)`, and `sigma = P F^T/J`.
     #[test]
     fn cauchy_stress_belongs_to_the_first_piola_kirchhoff_stress() {
         let (equation, theta) = (Equation::from(NeoHookeanLaw::new(50.0, 0.0)), 1.1);

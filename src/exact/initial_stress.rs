@@ -1,26 +1,26 @@
-//! Initial stress, in the reference configuration.
+//! Initial stress in the reference configuration.
 //!
-//! With a law of finite strains it is a second Piola-Kirchhoff stress S0, `P = P_law(F) + F S0`.
-//! This is the derivative of the energy `W_law(F) + S0 : E`, `E = (F^T F - I)/2`, which is
+//! For a finite-strain law, this is a second Piola-Kirchhoff stress S0, with `P = P_law(F) + F S0`.
+//! P is then the derivative of the energy `W_law(F) + S0 : E`, `E = (F^T F - I)/2`, which is
 //! invariant under rotation (Merodio, Ogden & Rodriguez 2013, Int. J. Non-Linear Mech. 56). Small
-//! waves along S0 then have `rho0 c^2 = M + S0`. With a law of small strains `P = C : eps + S0`,
-//! which neglects `grad u S0` against `C : eps`: S0 must be much smaller than the moduli, as
-//! strains must be much smaller than one.
+//! waves along S0 satisfy `rho0 c^2 = M + S0`. For a small-strain law, `P = C : eps + S0`, which
+//! neglects `grad u S0` against `C : eps`. S0 must therefore be much smaller than the moduli, just
+//! as strains must be much smaller than 1.
 
 use super::formula::{Formula, Number, Slope};
 use super::tensor::{Tensor, pushed_forward, sum, tensor, unit};
 
-/// S0 (Pa), a symmetric tensor field on the reference body.
+/// Initial stress S0 (Pa), a symmetric tensor field on the reference body.
 #[derive(Debug, Clone, Default)]
 pub struct InitialStress {
-    /// Row, column and value of each component that is stated, a formula of the coordinates; the
-    /// column is not before the row. Others are zero.
+    /// Row, column and value of each stated component, where the value is a formula of the
+    /// coordinates and row <= column. Other components are zero.
     components: Vec<(usize, usize, Formula)>,
 }
 
 impl InitialStress {
-    /// The field with these components: row, column and formula of the coordinates, each on one
-    /// side of the diagonal only.
+    /// The field with these components: row, column and formula of the coordinates. Each component
+    /// is given on one side of the diagonal only.
     pub fn new(components: Vec<(usize, usize, Formula)>) -> Self {
         Self { components }
     }
@@ -30,7 +30,7 @@ impl InitialStress {
         self.components.is_empty()
     }
 
-    /// Row, column and formula of each component that is stated.
+    /// Row, column and formula of each stated component.
     pub fn components(&self) -> &[(usize, usize, Formula)] {
         &self.components
     }
@@ -49,13 +49,13 @@ impl InitialStress {
         stress
     }
 
-    /// Its part of P (Pa), of finite strains or of small ones.
+    /// Contribution to P (Pa), for finite or small strains.
     pub(super) fn piola(&self, label: &[f64], grad: &Tensor<f64>, is_finite: bool) -> Tensor<f64> {
         let stress = self.at(label);
         if is_finite { pulled(grad, &stress) } else { stress }
     }
 
-    /// Its part of the Cauchy stress (Pa), `F S0 F^T/J`.
+    /// Contribution to the Cauchy stress (Pa), `F S0 F^T/J`.
     pub(crate) fn cauchy(
         &self,
         label: &[f64],
@@ -69,7 +69,7 @@ impl InitialStress {
         pushed_forward(&piola, grad)
     }
 
-    /// Its part of Div P (N/m3), with `second[k][a][b] = d2 u_k/dX_a dX_b`.
+    /// Contribution to Div P (N/m3), with `second[k][a][b] = d2 u_k/dX_a dX_b`.
     pub(super) fn divergence(
         &self,
         label: &[f64],
@@ -139,7 +139,7 @@ mod tests {
     fn cauchy_stress_belongs_to_the_first_piola_kirchhoff_stress() {
         let (s0, det) = (plane(), 1.1 * 1.05 + 0.3 * 0.2);
         let found = s0.cauchy(&[2.0, 5.0], &GRAD, true);
-        // F S0 F^T by hand, row X: F = ((1.1, 0.2), (-0.3, 1.05)).
+        // F S0 F^T by hand, row X, with F = ((1.1, 0.2), (-0.3, 1.05)).
         let row = [1.1 * 4.0 + 0.2 * 10.0, 1.1 * 10.0 + 0.2 * 8.0];
         assert_relative_eq!(found[0][0], (row[0] * 1.1 + row[1] * 0.2) / det, max_relative = 1e-14);
         assert_relative_eq!(
@@ -159,7 +159,7 @@ mod tests {
         Problem { initial_stress, ..held(dimension) }
     }
 
-    /// The manufactured force includes the stress, which enters the weak form in another way.
+    /// The manufactured force contains the stress, which enters the weak form differently.
     #[rstest]
     fn a_manufactured_force_balances_it(#[values(1, 2, 3)] dimension: usize) {
         let (problem, bare) = (prestressed(dimension), held(dimension));
@@ -172,7 +172,7 @@ mod tests {
         assert_eq!(found[0], force);
     }
 
-    /// A stress without balancing force.
+    /// A stress without a balancing force is refused.
     #[test]
     fn a_truth_without_its_force_is_none() {
         let equation = SmallStrainLaw::new(10.0, 0.3).into();

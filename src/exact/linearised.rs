@@ -1,13 +1,13 @@
-//! A motion that solves the linearised problem only.
+//! Motions that solve only the linearised problem.
 
-/// The residual that a linearised motion may leave in the equations with the law: the equation of
-/// motion and tractions. Conditions that are linear in u are still checked to the tolerance of the
-/// problem.
+/// The residual that a linearised motion may have in the conditions that involve the law: the
+/// equation of motion and tractions. Conditions that are linear in u are still checked with the
+/// tolerance of the problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linearised {
-    /// Largest residual, relative to the terms of the condition.
+    /// Maximum residual, relative to the terms of the condition.
     pub tolerance: f64,
-    /// Why a linearised motion is good enough.
+    /// Reason for accepting a linearised motion.
     pub because: String,
 }
 
@@ -25,9 +25,9 @@ mod tests {
     use crate::exact::{Problem, Survey};
     use rstest::rstest;
 
-    /// A wave of small amplitude in Tait's fluid, between walls: the residual is K u_XX times 8
-    /// u_X, compared with a sum of inertia and stress of 2 K u_XX; the product of sine and cosine
-    /// is at most 1/2.
+    /// A small-amplitude wave in Tait's fluid between walls. The residual is K u_XX times 8 u_X,
+    /// compared with a sum of inertia and stress of 2 K u_XX. The product of sine and cosine is at
+    /// most 1/2.
     #[rstest]
     #[case(1e-3)]
     #[case(1e-6)]
@@ -47,7 +47,7 @@ mod tests {
         }
     }
 
-    /// A linear law leaves rounding only, and a condition without the law has no residual.
+    /// A linear law leaves only rounding errors, and conditions without the law have no residual.
     #[test]
     fn the_residual_is_that_of_the_law() {
         let wave = "sin(pi*X)*cos(pi*t)/50";

@@ -1,8 +1,8 @@
-//! Exact solutions, and the check that they solve their problem.
+//! Exact solutions, and the check that they solve their problems.
 //!
 //! A suite states its solution as formulas ([`formula`]) and its continuum problem as a
-//! [`Problem`]. [`check`](Problem::check) inserts the formulas into the problem before any solver
-//! runs. The module imports no solver.
+//! [`Problem`]. [`check`](Problem::check) substitutes the formulas into the problem before any
+//! solver runs. The module imports no solver.
 
 mod check;
 mod condition;

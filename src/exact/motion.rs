@@ -1,17 +1,17 @@
-//! A motion given by formulas: displacement, velocity and every derivative that a check needs.
+//! A motion given by formulas: displacement, velocity and all derivatives that checks need.
 
 use super::formula::{Formula, Hoisted, Jet, Number, NumberBatch, Slope};
 use super::truth::Truth;
 use crate::dimension::with_dimension;
 
-/// A displacement field u(X, t) with one formula for each component. Each is a function of the
-/// reference coordinates (one per component) and of t, in this order.
+/// A displacement field u(X, t) with one formula for each component. Each formula depends on the
+/// reference coordinates (one per component) and t, in this order.
 #[derive(Debug, Clone)]
 pub struct Motion {
     components: Vec<Formula>,
 }
 
-/// Derivatives of a motion at one point and time; components and axes beyond the dimension are
+/// Derivatives of a motion at one point and time. Components and axes beyond the dimension are
 /// zero.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Derivatives {
@@ -30,12 +30,12 @@ pub struct Derivatives {
 }
 
 impl Motion {
-    /// A motion from its components.
+    /// A motion with these components.
     pub fn new(components: Vec<Formula>) -> Self {
         Self { components }
     }
 
-    /// The formulas, as the suite gives them.
+    /// The text of the formulas.
     pub fn source(&self) -> String {
         self.components.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
     }
@@ -45,7 +45,7 @@ impl Motion {
         self.components.iter().all(Formula::is_smooth)
     }
 
-    /// Whether it is not the same all along the axis.
+    /// Whether the motion varies along `axis`.
     pub fn varies_along(&self, axis: usize) -> bool {
         self.components.iter().any(|component| component.reads(axis))
     }
@@ -60,7 +60,7 @@ impl Motion {
         self.components[i].eval(&variables(label, t)[..=label.len()])
     }
 
-    /// All derivatives, by automatic differentiation with respect to all coordinates and t.
+    /// The motion and its derivatives, by automatic differentiation in all coordinates and t.
     pub fn derivatives(&self, label: &[f64], t: f64) -> Derivatives {
         with_dimension!(self.dimension(), D => self.over_jets::<{ D + 1 }>(label, t))
     }
@@ -72,15 +72,15 @@ impl Motion {
         })
     }
 
-    /// The motion at `labels` with first derivatives only, at a third of the cost of
-    /// [`Self::at_places`]: second derivatives are not written.
+    /// Like [`Self::at_places`], but with first derivatives only, at a third of the cost. Second
+    /// derivatives are not written.
     pub fn slopes_at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Slope<{ D + 1 }>>(labels, Slope::variable))
         })
     }
 
-    /// The derivatives over jets of N variables: N - 1 coordinates, and time as the last.
+    /// The derivatives from jets of N variables: N - 1 coordinates, then time.
     fn over_jets<const N: usize>(&self, label: &[f64], t: f64) -> Derivatives {
         let seeds: [Jet<N>; N] =
             std::array::from_fn(|a| Jet::variable(if a + 1 == N { t } else { label[a] }, a));
@@ -103,14 +103,14 @@ impl Motion {
     }
 }
 
-/// A motion at places that have been given once, at one time after another.
+/// A motion at fixed positions, for one time after another.
 pub trait Places: Send {
-    /// Moves on to the time `t` (s).
+    /// Sets the time to `t` (s).
     fn set_time(&mut self, t: f64);
 
-    /// Writes the derivatives at a place, by its index in `labels`, with the bits of
-    /// [`Motion::derivatives`]; components and axes beyond the dimension are not written. Does not
-    /// allocate.
+    /// Writes the derivatives at the position with this index in `labels`. They are bit-identical
+    /// to those of [`Motion::derivatives`]. Components and axes beyond the dimension are not
+    /// written. Does not allocate.
     fn derivatives(&mut self, place: usize, into: &mut Derivatives);
 }
 
@@ -140,7 +140,7 @@ impl<const N: usize> Places for Hoisted<Slope<N>> {
     }
 }
 
-/// The derivatives from the jets of the components, whose last variable is the time.
+/// The derivatives from the jets of all components; the last jet variable is time.
 #[inline]
 fn gather<const N: usize>(components: impl Iterator<Item = Jet<N>>, all: &mut Derivatives) {
     let time = N - 1;
@@ -158,7 +158,7 @@ fn gather<const N: usize>(components: impl Iterator<Item = Jet<N>>, all: &mut De
     }
 }
 
-/// The coordinates followed by the time, as formulas take them: the first D + 1 numbers.
+/// The coordinates followed by the time. Formulas use the first D + 1 numbers.
 pub fn variables(label: &[f64], t: f64) -> [f64; 4] {
     let mut all = [0.0; 4];
     all[..label.len()].copy_from_slice(label);
@@ -178,7 +178,7 @@ impl Truth for Motion {
         for (labels, into) in
             labels.chunks(d * NumberBatch::LEN).zip(into.chunks_mut(d * NumberBatch::LEN))
         {
-            // Lanes without a point repeat the last point.
+            // Batch lanes without a point repeat the last point.
             let last = labels.len() / d - 1;
             let mut all = [NumberBatch::from(t); 4];
             for axis in 0..d {
@@ -204,7 +204,7 @@ impl Truth for Motion {
     }
 }
 
-/// The block of a tensor that belongs to `dimension` dimensions, row after row.
+/// Writes the leading `dimension` x `dimension` block of a tensor, row by row.
 pub(super) fn write(tensor: &[[f64; 3]; 3], dimension: usize, into: &mut [f64]) {
     for (i, row) in into.chunks_exact_mut(dimension).enumerate() {
         row.copy_from_slice(&tensor[i][..dimension]);

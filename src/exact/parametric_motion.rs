@@ -1,12 +1,12 @@
-//! A motion as a function of one parameter of its formulas.
+//! A motion as a function of one formula parameter.
 
 use super::formula::{Formula, Jet};
 use super::gauss::points;
 
-/// Panels of the quadrature along each axis, by the dimension.
+/// Quadrature panels along each axis, by dimension.
 const PANELS: [usize; 3] = [16, 8, 3];
 
-/// A displacement whose formulas have a parameter as a variable.
+/// A displacement whose formulas contain a parameter as a variable.
 #[derive(Debug, Clone)]
 pub struct ParametricMotion {
     /// Lowest corner of the body (m).
@@ -19,7 +19,7 @@ pub struct ParametricMotion {
     pub value: f64,
 }
 
-/// Displacement and velocity at one place and time, with their derivatives with respect to the
+/// Displacement and velocity at one position and time, with their derivatives with respect to the
 /// parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParametricState {
@@ -55,8 +55,8 @@ impl ParametricMotion {
         self.places().iter().map(|(label, weight)| (self.at(label, t), *weight)).collect()
     }
 
-    /// The factor c in `dv/dq = c v`, where v is the velocity at t = 0 and q the parameter.
-    /// `None` if the velocity does not scale with a function of the parameter.
+    /// The factor c in `dv/dq = c v`, where v is the velocity at t = 0 and q the parameter. `None`
+    /// if the derivative is not such a multiple of v.
     pub fn velocity_factor(&self) -> Option<f64> {
         let states = self.states(0.0);
         let sum = |product: &dyn Fn(&ParametricState) -> f64| -> f64 {
@@ -76,7 +76,7 @@ impl ParametricMotion {
         (rest <= 1e-20 * slopes).then_some(factor)
     }
 
-    /// Whether the displacement at t = 0 vanishes.
+    /// Whether the displacement is zero at t = 0.
     pub fn starts_at_rest_position(&self) -> bool {
         self.states(0.0).iter().all(|(state, _)| state.displacement.iter().all(|u| *u == 0.0))
     }

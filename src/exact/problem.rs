@@ -1,9 +1,9 @@
 //! Continuum problem of an exact solution: geometry, equation of motion, loads and conditions.
 //!
-//! The stress is the sum of that of the law, with thermal expansion, and the initial stress.
+//! The stress is the sum of the law's stress (with thermal expansion) and the initial stress.
 //!
-//! Manufactured forces are shared by runs: the cases of a study differ in their methods, but most
-//! have particles at the same places and take the same steps.
+//! Runs share manufactured forces. The cases of a study differ in their methods, but most of them
+//! have the same particle positions and time steps.
 
 use super::condition::Face;
 use super::density::Density;
@@ -23,52 +23,51 @@ use crate::subject::PlaneState;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// An initial-boundary-value problem on a box or a body of another outline, with its stated
-/// solution.
+/// An initial-boundary-value problem on a box or another outline, and its stated solution.
 #[derive(Debug, Clone)]
 pub struct Problem {
-    /// Lowest corner of the body, or of the box around it (m).
+    /// Lowest corner of the body or its bounding box (m).
     pub from: Vec<f64>,
     /// Highest corner (m).
     pub to: Vec<f64>,
-    /// The shape of a body that is not a box; such a body has no faces.
+    /// Shape of the body, unless it is a box. Such a body has no faces.
     pub outline: Option<Arc<dyn Outline>>,
-    /// The problems of the single bodies, which are boxes; empty if there is one body.
+    /// Problems of the individual bodies, which are boxes; empty if there is one body.
     pub bodies: Vec<Self>,
-    /// State across the plane of a body in two dimensions.
+    /// Plane state of a two-dimensional body.
     pub plane: PlaneState,
     /// Reference density.
     pub density: Density,
     /// The equation of motion.
     pub equation: Equation,
-    /// Terms of the loads on the body.
+    /// Terms of the loads in the equation of motion.
     pub terms: Vec<Arc<dyn Term>>,
-    /// Whether the motion is an equilibrium: independent of t, checked with the loads at the end of
-    /// the run, and not checked against initial conditions.
+    /// Whether the motion is an equilibrium. An equilibrium does not depend on t, is checked with
+    /// the loads at the end of the run, and need not satisfy the initial conditions.
     pub at_rest: bool,
-    /// Whether an additional body force makes the motion a solution: a manufactured solution
-    /// (Roache 2002).
+    /// Whether an additional body force makes the motion a solution (method of manufactured
+    /// solutions, Roache 2002).
     pub manufactured: bool,
-    /// The heat problem of a body that conducts heat.
+    /// The heat problem of a heat-conducting body.
     pub heat: Option<Conduction>,
-    /// Every face of the body.
+    /// All faces of the body.
     pub faces: Vec<Face>,
-    /// Whether the body starts as the motion does: then an initial condition that is not stated
-    /// follows from the motion, and otherwise it is zero.
+    /// Default of initial conditions that are not stated: the initial state of the motion if true,
+    /// zero if false.
     pub follows_motion: bool,
-    /// Stress of the reference configuration.
+    /// Initial stress of the reference configuration.
     pub initial_stress: InitialStress,
-    /// Initial displacement (m), formulas of the coordinates and t (= 0); empty: not stated.
+    /// Initial displacement (m), formulas of the coordinates and t (= 0); empty if not stated.
     pub initial_displacement: Vec<Formula>,
-    /// Initial velocity (m/s), formulas of the coordinates and t (= 0); empty: not stated.
+    /// Initial velocity (m/s), formulas of the coordinates and t (= 0); empty if not stated.
     pub initial_velocity: Vec<Formula>,
     /// End of the run (s).
     pub until: f64,
-    /// The claimed solution.
+    /// The stated solution, which must be checked.
     pub motion: Motion,
-    /// Largest residual that passes, relative to the terms of the condition.
+    /// Maximum residual, relative to the terms of the condition.
     pub tolerance: f64,
-    /// The residual that the law may leave, if the motion solves the linearised problem only.
+    /// The allowed residual of the law, if the motion solves only the linearised problem.
     pub linearised: Option<Linearised>,
     /// Cache of manufactured forces for the runs of this problem, if any.
     pub shared_forces: Option<Arc<SharedForces>>,
@@ -80,17 +79,17 @@ impl Problem {
         self.from.len()
     }
 
-    /// Largest residual that passes of a condition that the law enters, relative to its terms.
+    /// Maximum residual of a condition that involves the law, relative to its terms.
     pub(super) fn law_tolerance(&self) -> f64 {
         self.linearised.as_ref().map_or(self.tolerance, |linearised| linearised.tolerance)
     }
 
-    /// Whether the body holds a point of the box around it.
+    /// Whether the body contains a point of its bounding box.
     pub fn holds(&self, label: &[f64]) -> bool {
         self.outline.as_ref().is_none_or(|outline| outline.holds(label))
     }
 
-    /// The problem of the body at `label`.
+    /// The problem of the body that contains `label`.
     fn body_at(&self, label: &[f64]) -> &Self {
         let inside = |body: &&Self| {
             let ends = body.from.iter().zip(&body.to);
@@ -99,40 +98,40 @@ impl Problem {
         self.bodies.iter().find(inside).unwrap_or(self)
     }
 
-    /// Stiffest modulus at rest (Pa) in the body: a bound for stresses of a given strain.
+    /// Largest modulus at rest in the body (Pa), which bounds the stress for a given strain.
     pub fn modulus(&self) -> f64 {
         self.equation.modulus() * self.equation.density_factor(self.density.largest())
     }
 
-    /// Largest speed (m/s) of a wave of small strain in the body: `sqrt((lambda + 2 mu)/rho0)` of a
-    /// solid. A density that is zero on the rim gives infinity, unless the law depends on it.
+    /// Largest speed of a small-strain wave in the body (m/s): `sqrt((lambda + 2 mu)/rho0)` for a
+    /// solid. A zero density on the rim gives infinity, unless the law depends on the density.
     pub fn wave_speed(&self) -> f64 {
         let speed = |density: f64| {
             let modulus = self.equation.modulus() * self.equation.density_factor(density);
             (modulus / density).sqrt()
         };
-        // Without density and pressure the speed is not a number, which `max` ignores.
+        // Without density and pressure the speed is NaN, which `max` ignores.
         speed(self.density.largest()).max(speed(self.density.smallest()))
     }
 
-    /// The time (s) whose loads belong to the motion at time `t`.
+    /// The time (s) of the loads that belong to the motion at time `t`.
     pub(super) fn loaded(&self, t: f64) -> f64 {
         if self.at_rest { self.until } else { t }
     }
 
-    /// All derivatives of the motion, with those across a plane.
+    /// The motion and its derivatives, including out-of-plane derivatives.
     pub fn derivatives(&self, label: &[f64], t: f64) -> Derivatives {
         let mut now = self.motion.derivatives(label, t);
         self.complete(label, &mut now);
         now
     }
 
-    /// Adds the derivatives across a plane to those of the motion in it.
+    /// Adds the out-of-plane derivatives to the in-plane derivatives of a motion.
     pub(super) fn complete(&self, label: &[f64], now: &mut Derivatives) {
         complete_in_plane(self.plane, &self.equation, label, now);
     }
 
-    /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0`, less the terms of the loads.
+    /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0` minus the terms of the loads.
     pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
         let now = self.derivatives(label, t);
         let balance = self.balance(label, t, &now);
@@ -142,7 +141,7 @@ impl Problem {
         })
     }
 
-    /// The whole body force (m/s2) at `label` and `t`, where the motion's derivatives are `now`.
+    /// The total body force (m/s2) at `label` and `t`, where `now` are the motion's derivatives.
     pub(super) fn force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         if self.manufactured {
             return self.balance(label, t, now);
@@ -153,13 +152,13 @@ impl Problem {
         })
     }
 
-    /// The body force that the motion needs, `u_tt - Div P / rho0`.
+    /// The body force that the motion requires, `u_tt - Div P / rho0`.
     pub(super) fn balance(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         let (stress, density) = (self.divergence(label, t, now), self.density.at(label));
         std::array::from_fn(|i| now.acceleration[i] - stress[i] / density)
     }
 
-    /// Whether the whole body force takes second derivatives of the motion.
+    /// Whether the total body force depends on second derivatives of the motion.
     pub(super) fn force_is_of_second_order(&self) -> bool {
         self.manufactured || self.terms.iter().any(|term| term.resists_imbalance())
     }
@@ -169,19 +168,21 @@ impl Problem {
         self.uniform(i, t) + self.placed(i, label, t, u)
     }
 
-    /// Component i of the stated forces that are the same everywhere (m/s2).
+    /// Component i of the stated forces that are uniform in space (m/s2).
     pub(super) fn uniform(&self, i: usize, t: f64) -> f64 {
         let uniform = self.terms.iter().filter(|term| term.is_uniform());
         uniform.fold(0.0, |sum, term| sum + term.stated(i, &[], t, &[0.0; 3]))
     }
 
-    /// Component i of the stated forces (m/s2) that depend on place or displacement `u` (m).
+    /// Component i of the stated forces (m/s2) that depend on position or on the displacement `u`
+    /// (m).
     pub(super) fn placed(&self, i: usize, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
         let placed = self.terms.iter().filter(|term| !term.is_uniform());
         placed.fold(0.0, |sum, term| sum + term.stated(i, label, t, u))
     }
 
-    /// Component i of the forces against the motion (m/s2); `stated` is the stated force (m/s2).
+    /// Component i of the forces that oppose the motion (m/s2); `stated` is the stated force
+    /// (m/s2).
     pub(super) fn resistance(
         &self,
         i: usize,
@@ -196,7 +197,7 @@ impl Problem {
     }
 }
 
-/// The motion, with the stress that the law at the place makes of it.
+/// The motion, with the stress from the law of the body at each position.
 impl Truth for Problem {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
         self.motion.displacement(label, t, into);
@@ -233,14 +234,14 @@ impl Truth for Problem {
 }
 
 impl Problem {
-    /// Stretch by temperature at one point and time.
+    /// Thermal stretch at one point and time.
     pub(super) fn swelling(&self, label: &[f64], t: f64) -> Option<Swelling> {
         let heat = self.heat.as_ref()?;
         let expansion = self.terms.iter().find_map(|term| term.expansion())?;
         Some(expansion.swelling(&heat.temperature.derivatives(label, t)))
     }
 
-    /// P (Pa), where the motion's derivatives are `now`.
+    /// P (Pa), where `now` are the motion's derivatives.
     pub(super) fn piola(&self, label: &[f64], t: f64, now: &Derivatives) -> Tensor<f64> {
         let piola = match self.swelling(label, t) {
             None => {
@@ -258,7 +259,8 @@ impl Problem {
         tensor(|i, j| piola[i][j] + initial[i][j])
     }
 
-    /// Cauchy stress (Pa) at `label`, a place of this body, where the motion's gradient is `grad`.
+    /// Cauchy stress (Pa) at the position `label` of this body, for the displacement gradient
+    /// `grad`.
     pub(super) fn cauchy(&self, label: &[f64], grad: &Tensor<f64>) -> Tensor<f64> {
         let (sigma, factor) = (self.equation.cauchy(grad), self.factor_at(label));
         let sigma = tensor(|i, j| factor * sigma[i][j]);
@@ -269,7 +271,7 @@ impl Problem {
         tensor(|i, j| sigma[i][j] + initial[i][j])
     }
 
-    /// Div P (N/m3), where the motion's derivatives are `now`.
+    /// Div P (N/m3), where `now` are the motion's derivatives.
     pub(super) fn divergence(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         let slopes = (&now.grad, &now.second);
         let axes = if self.plane == PlaneState::Strain { self.dimension() } else { 3 };
@@ -289,8 +291,8 @@ impl Problem {
         std::array::from_fn(|i| force[i] + initial[i])
     }
 
-    /// Div P (N/m3) of the law, `f Div P1 + P1 grad f` with the stress P1 at unit density and the
-    /// factor f of the density.
+    /// Contribution of the law to Div P (N/m3), `f Div P1 + P1 grad f`, where P1 is the stress for
+    /// unit density and f the density factor.
     fn divergence_of_law(
         &self,
         axes: usize,
@@ -310,12 +312,12 @@ impl Problem {
         })
     }
 
-    /// Factor of the density at `label` in stresses and energies of the law.
+    /// Density factor of the law's stresses and energies at `label`.
     pub(super) fn factor_at(&self, label: &[f64]) -> f64 {
         self.equation.density_factor(self.density.at(label))
     }
 
-    /// The part of Div P (N/m3) of a body of revolution without a derivative:
+    /// Terms of Div P (N/m3) without derivatives in a body of revolution:
     /// `((P_rR - P_tT)/R, P_zR/R)` at the radius R (Malvern 1969, appendix II). Zero for other
     /// bodies.
     pub(super) fn hoop_force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
@@ -326,8 +328,8 @@ impl Problem {
         [(piola[0][0] - piola[2][2]) / radius, piola[1][0] / radius, 0.0]
     }
 
-    /// Length (m/rad) of the ring at `label` (1 unless the body is one of revolution), and the hoop
-    /// stress (Pa) that acts against each component of a displacement.
+    /// Ring length (m/rad) at `label`, which is 1 unless the body is one of revolution. Also the
+    /// hoop stress (Pa) that opposes each displacement component.
     pub(super) fn ring(&self, label: &[f64], piola: &Tensor<f64>) -> (f64, [f64; 3]) {
         match self.plane {
             PlaneState::Axisymmetric => (label[0], [piola[2][2], 0.0, 0.0]),
@@ -339,23 +341,23 @@ impl Problem {
 /// Maximum number of stored `f64` (32 MiB). The largest built-in suite needs three quarters of it.
 const MOST: usize = 1 << 22;
 
-/// Cache of forces by places and time, filled by the first run that needs them. If the cache is
-/// full, each run computes its own.
+/// Cache of forces by positions and time, filled by the first run that needs them. If the cache is
+/// full, each run computes its own forces.
 #[derive(Debug, Default)]
 pub struct SharedForces(Mutex<Tables>);
 
 #[derive(Debug, Default)]
 struct Tables {
-    /// The coordinates of places, one after the other.
+    /// Sets of positions, each with all coordinates in sequence.
     places: Vec<Vec<f64>>,
-    /// Forces at all places of a set, by the number of the set and the bits of the time.
+    /// Forces at all positions of a set. Key: index of the set and bits of the time.
     forces: BTreeMap<(usize, u64), Arc<[f64]>>,
     /// Number of stored `f64`.
     size: usize,
 }
 
 impl SharedForces {
-    /// The number of the set `places`: equal for sets with equal bits.
+    /// Index of the set `places`; bit-identical sets have the same index.
     pub(in crate::exact) fn number_of(&self, places: Vec<f64>) -> usize {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let bits = f64::to_bits;
@@ -369,45 +371,45 @@ impl SharedForces {
         })
     }
 
-    /// The forces at the time `t` (s), if they are known.
+    /// The stored forces at time `t` (s), if any.
     pub(in crate::exact) fn get(&self, places: usize, t: f64) -> Option<Arc<[f64]>> {
         let tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         tables.forces.get(&(places, t.to_bits())).cloned()
     }
 
-    /// Stores forces, if the cache is not full.
+    /// Stores forces unless the cache is full.
     pub(in crate::exact) fn put(&self, places: usize, t: f64, forces: Vec<f64>) {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if tables.size + forces.len() <= MOST {
             let size = forces.len();
-            // Another run may have stored these forces meanwhile.
+            // Another run may have stored the same forces in the meantime.
             if tables.forces.insert((places, t.to_bits()), forces.into()).is_none() {
                 tables.size += size;
             }
         }
     }
 
-    /// Clears all forces; they are recomputed if a run needs them again.
+    /// Removes all forces; runs recompute the forces they need.
     pub fn clear(&self) {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        // Running studies still use the numbers of their places.
+        // The sets of positions remain, because running studies still use their indices.
         tables.size = tables.places.iter().map(Vec::len).sum();
         tables.forces.clear();
     }
 }
 
-/// The manufactured body force at places that have been given once.
+/// The manufactured body force at fixed positions.
 pub struct Forcing {
     problem: Problem,
     places: Box<dyn Places>,
-    /// The places (m), if a term, the stress or the density depends on them.
+    /// The positions (m), if a term, the stress or the density depends on them.
     labels: Vec<Vec<f64>>,
-    /// Forces computed by other runs, with the number of the set of places.
+    /// Forces computed by other runs, and the index of the set of positions.
     shared: Option<(Arc<SharedForces>, usize)>,
 }
 
 impl Forcing {
-    /// The force of `problem` at `labels` (m), D numbers each.
+    /// The force of `problem` at `labels` (m), with D numbers each.
     pub fn new<'a>(problem: &Problem, labels: impl Iterator<Item = &'a [f64]>) -> Self {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
@@ -423,7 +425,7 @@ impl Forcing {
         Self { problem: problem.clone(), places, labels, shared }
     }
 
-    /// Writes the force (m/s2) at each place at time `t` (s), as given by
+    /// Writes the force (m/s2) at each position and time `t` (s), equal to
     /// [`Problem::manufactured_force`]. Allocates only for shared forces.
     pub fn at<T>(&mut self, t: f64, into: &mut [T], make: impl Fn([f64; 3]) -> T) {
         let dimension = self.problem.dimension();

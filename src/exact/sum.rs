@@ -1,17 +1,17 @@
-//! Exact sums over the body and over faces of it.
+//! Exact sums over the body and over its faces.
 
 use super::condition::Face;
 use super::gauss::points;
 use super::motion::Derivatives;
 use super::problem::Problem;
 
-/// Up to three components, and the size that an error of their sum is small against.
+/// Up to three components, and the size relative to which an error of their sum is measured.
 type ValueAndSize = ([f64; 3], f64);
 
-/// A quantity per unit of reference volume, or of the area of a face, with its size.
+/// A quantity and its size, per unit of reference volume or face area.
 pub type SumDensity = fn(&SumPoint<'_>) -> ([f64; 3], f64);
 
-/// A point at a time of the run.
+/// A point at one time.
 pub struct SumPoint<'a> {
     problem: &'a Problem,
     face: Option<&'a Face>,
@@ -27,7 +27,7 @@ impl SumPoint<'_> {
         0.5 * self.problem.density.at(self.label) * square
     }
 
-    /// The energy W that P derives from (J/m3); NaN of a law without one.
+    /// Energy W with derivative P (J/m3); NaN for a law without energy.
     pub fn stored_energy(&self) -> f64 {
         let energy = self.problem.equation.energy(&self.now.grad).unwrap_or(f64::NAN);
         self.problem.factor_at(self.label) * energy
@@ -51,7 +51,7 @@ impl SumPoint<'_> {
         std::array::from_fn(|i| self.label.get(i).map_or(0.0, |x| density * x * x))
     }
 
-    /// x (m); zero on axes that the body does not have.
+    /// Current position x (m); zero on missing axes.
     fn position(&self) -> [f64; 3] {
         std::array::from_fn(|i| self.label.get(i).map_or(0.0, |x| x + self.now.u[i]))
     }
@@ -76,18 +76,18 @@ impl SumPoint<'_> {
 pub enum SumRegion {
     /// The whole body.
     Body,
-    /// Faces of a box, by their numbers.
+    /// Faces of a box, given by their numbers.
     Faces(Vec<usize>),
 }
 
-/// Maximum number of points, after the last refinement.
+/// Maximum number of quadrature points after the last refinement.
 const MOST_POINTS: usize = 1 << 16;
 
-/// Maximum change by the last refinement, over the size of the sum: far below any judged
-/// discretisation error, far above rounding.
+/// Maximum change due to the last refinement, relative to the size of the sum. It is far below any
+/// judged discretisation error and far above rounding errors.
 const TOLERANCE: f64 = 1e-10;
 
-/// Intervals of the raster of times at which a size is taken, and which the points are made for.
+/// Number of intervals between the times at which sizes and quadrature errors are computed.
 const TIMES: usize = 20;
 
 /// A sum whose exact value is known at any time of the run.
@@ -99,7 +99,7 @@ pub struct BodySum {
     size: f64,
 }
 
-/// A point of the quadrature.
+/// A quadrature point.
 #[derive(Debug)]
 struct SumSite {
     body: usize,
@@ -108,11 +108,11 @@ struct SumSite {
     weight: f64,
 }
 
-/// Why a sum over a body has no exact value to compare with. Each message continues a sentence that
+/// Why a sum over a body has no exact value for comparison. Each message continues a sentence that
 /// starts with the name of the sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum SumError {
-    /// The sum is zero at all times, so that relative errors are undefined.
+    /// The sum is zero at all times, so relative errors are undefined.
     #[error("is zero throughout")]
     Zero,
     /// The maximum number of quadrature points does not reach the tolerance.
@@ -124,11 +124,11 @@ pub enum SumError {
 }
 
 impl BodySum {
-    /// The sum of `density` over a `region` of the body of `problem`, with a number of points that
-    /// is sufficient during the whole run.
+    /// The sum of `density` over a `region` of the body of `problem`, with enough quadrature points
+    /// for the whole run.
     ///
     /// # Errors
-    /// The sum is zero throughout the run, or quadrature does not converge.
+    /// If the sum is zero throughout the run, or if the quadrature does not converge.
     pub fn new(
         problem: &Problem,
         region: &SumRegion,
@@ -202,7 +202,7 @@ impl BodySum {
     }
 }
 
-/// Points of the quadrature with `panels` on each axis of each body.
+/// Quadrature points with `panels` on each axis of each body.
 fn sites(bodies: &[Problem], region: &SumRegion, panels: usize) -> Vec<SumSite> {
     let of_body = |(body, problem): (usize, &Problem)| match region {
         SumRegion::Body => inside(problem, panels)
@@ -225,7 +225,7 @@ fn intervals(problem: &Problem) -> Vec<(f64, f64)> {
     problem.from.iter().copied().zip(problem.to.iter().copied()).collect()
 }
 
-/// Labels and weights in the body.
+/// Positions and weights in the body.
 fn inside(problem: &Problem, panels: usize) -> Vec<(Vec<f64>, f64)> {
     let Some(outline) = &problem.outline else { return points(&intervals(problem), panels) };
     let charts = outline.charts().into_iter().enumerate();
@@ -239,7 +239,7 @@ fn inside(problem: &Problem, panels: usize) -> Vec<(Vec<f64>, f64)> {
     charts.flat_map(on_chart).collect()
 }
 
-/// Labels and weights on a face of a box.
+/// Positions and weights on a face of a box.
 fn on_face(problem: &Problem, face: &Face, panels: usize) -> Vec<(Vec<f64>, f64)> {
     let mut axes = intervals(problem);
     let (low, high) = axes.remove(face.axis);
@@ -269,7 +269,7 @@ mod tests {
         (value, value.iter().map(|component| component.abs()).sum())
     }
 
-    /// A bar of E = rho = 2 that swings between two walls.
+    /// A bar with E = rho = 2 that oscillates between two walls.
     fn swinging() -> Problem {
         bar("sin(pi*X)*sin(pi*t)/100", fixed())
     }
@@ -296,9 +296,8 @@ mod tests {
         }
     }
 
-    /// The half that is three times as heavy counts three times.
-    /// A line with the density 2 + X that is stretched by 1 + t from the origin: `sum m x^2` is
-    /// (1 + t)^2 times `int (2 + X) X^2 dX` = 11/12.
+    /// A line with density 2 + X is stretched by 1 + t from the origin. Then `sum m x^2` is (1 +
+    /// t)^2 times `int (2 + X) X^2 dX` = 11/12.
     #[test]
     fn second_moments_have_the_density_of_the_place() {
         let formula = Formula::bind(&Expr::parse("2 + X").unwrap(), &Scope::new(), &["X"]).unwrap();
@@ -329,7 +328,8 @@ mod tests {
         assert_relative_eq!(of(&problem), 2.0 * of(&whole), max_relative = 1e-12);
     }
 
-    /// A round body of density 2 that rotates about the origin, its centre: `w I`.
+    /// A round body of density 2 that rotates about its centre at the origin has the angular
+    /// momentum `w I`.
     #[rstest]
     #[case::disk(2, 0.0, PI / 2.0)]
     #[case::annulus(2, 0.5, PI / 2.0 * (1.0 - 0.0625))]

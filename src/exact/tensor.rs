@@ -1,12 +1,12 @@
-//! Tensors over any [`Number`], the logarithmic strain and the rotation of a deformation.
+//! Tensors over any [`Number`], logarithmic strain and rotation of a deformation.
 
 use super::formula::Number;
 
-/// Stress or gradient; components beyond the dimension D are zero, so that a motion in fewer than
-/// three dimensions is one of plane or uniaxial strain.
+/// Stress or gradient. Components beyond the dimension D are zero, which means plane or uniaxial
+/// strain in fewer than three dimensions.
 pub(super) type Tensor<T, const D: usize = 3> = [[T; D]; D];
 
-/// Largest number of terms of the series below: enough for stretches up to about ten.
+/// Maximum number of terms of the series below, sufficient for stretches up to about ten.
 const MOST_TERMS: i32 = 1000;
 
 #[inline]
@@ -34,8 +34,8 @@ pub(super) fn unit<T: Number>(i: usize, j: usize) -> T {
     T::from(f64::from(u8::from(i == j)))
 }
 
-/// Cofactor of f_ij: `F^-T = cof(F)/det(F)`. In fewer than three dimensions it is that of F
-/// extended by ones on the diagonal.
+/// Cofactor of f_ij: `F^-T = cof(F)/det(F)`. In fewer than three dimensions, F is extended by ones
+/// on the diagonal.
 #[inline]
 pub(super) fn cofactor<T: Number, const D: usize>(f: &Tensor<T, D>, i: usize, j: usize) -> T {
     match D {
@@ -50,26 +50,26 @@ pub(super) fn cofactor<T: Number, const D: usize>(f: &Tensor<T, D>, i: usize, j:
     }
 }
 
-/// det F, by its first row and the cofactors of that.
+/// det F, from its first row and the cofactors of that row.
 #[inline]
 pub(super) fn det<T: Number, const D: usize>(f: &Tensor<T, D>, cofactor: &Tensor<T, D>) -> T {
     sum::<T, D>(|j| f[0][j] * cofactor[0][j])
 }
 
-/// The Cauchy stress that belongs to a P, `P F^T/J`, in the units of P.
+/// The Cauchy stress `P F^T/J` for a given P, in the units of P.
 pub(super) fn pushed_forward(piola: &Tensor<f64>, grad: &Tensor<f64>) -> Tensor<f64> {
     let f: Tensor<f64> = tensor(|i, j| grad[i][j] + f64::from(u8::from(i == j)));
     let det: f64 = (0..3).map(|b| f[0][b] * cofactor(&f, 0, b)).sum();
     tensor(|i, j| (0..3).map(|k| piola[i][k] * f[j][k]).sum::<f64>() / det)
 }
 
-/// det F in a plane, of the displacement gradient.
+/// det F in a plane, from the displacement gradient.
 pub(super) fn area<T: Number>(grad: &Tensor<T, 2>) -> T {
     let f: Tensor<T, 2> = tensor(|i, j| grad[i][j] + unit(i, j));
     f[0][0] * f[1][1] - f[0][1] * f[1][0]
 }
 
-/// `det(I + grad) - 1`, by the invariants of grad, without cancellation for small values.
+/// `det(I + grad) - 1`, from the invariants of grad, without cancellation for small values.
 pub(super) fn dilation(grad: &Tensor<f64>) -> f64 {
     let minors: Tensor<f64> = tensor(|i, j| cofactor(grad, i, j));
     det(grad, &minors) + sum::<f64, 3>(|i| grad[i][i] + minors[i][i])
@@ -85,17 +85,18 @@ pub(super) fn product<T: Number, const D: usize>(
 
 /// The logarithmic strain `eps = ln(b)/2`, `b = F F^T`.
 ///
-/// From `tanh(eps) = X = (b - I)(b + I)^-1` by the series of the inverse, `X + X^3/3 + X^5/5 + ...`
-/// (Higham 2008, *Functions of Matrices*, section 11.4): this avoids eigenvalues, which are not
-/// differentiable where they coincide. NaN if [`MOST_TERMS`] terms do not suffice. If the shear and
-/// its derivatives vanish, the strains are logarithms, which is faster.
+/// Computed from `tanh(eps) = X = (b - I)(b + I)^-1` by the series of the inverse function,
+/// `X + X^3/3 + X^5/5 + ...` (Higham 2008, *Functions of Matrices*, section 11.4). This avoids
+/// eigenvalues, which are not differentiable where they coincide. NaN if [`MOST_TERMS`] terms do
+/// not suffice. If the shear and its derivatives vanish, the strains are logarithms, which is
+/// faster.
 pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     if !is_sheared(f) {
         return tensor(|i, j| if i == j { Number::ln(f[i][i]) } else { T::from(0.0) });
     }
     let b: Tensor<T, D> = tensor(|i, j| sum::<T, D>(|k| f[i][k] * f[j][k]));
     let shifted: Tensor<T, D> = tensor(|i, j| b[i][j] + unit(i, j));
-    // b + I is symmetric, and so are its cofactors.
+    // b + I and its cofactors are symmetric.
     let cofactors: Tensor<T, D> = tensor(|i, j| cofactor(&shifted, i, j));
     let determinant = det(&shifted, &cofactors);
     let inverse = tensor(|i, j| cofactors[i][j] / determinant);
@@ -114,7 +115,7 @@ pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<
     tensor(|_, _| T::from(f64::NAN))
 }
 
-/// The rotation R of the polar decomposition `F = R U`, by Newton's iteration `R <- (R + R^-T)/2`,
+/// The rotation R of the polar decomposition `F = R U`, from Newton's iteration `R <- (R + R^-T)/2`
 /// starting at F (Higham 2008, *Functions of Matrices*, section 8.3). If the shear and its
 /// derivatives vanish, R is the identity. NaN if [`MOST_TERMS`] iterations do not suffice.
 pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
@@ -127,7 +128,7 @@ pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T,
         let cofactors: Tensor<T, D> = tensor(|i, j| cofactor(&before, i, j));
         let det = det(&before, &cofactors);
         turn = tensor(|i, j| half * (before[i][j] + cofactors[i][j] / det));
-        // Each step squares the error of the values; the derivatives need one step more.
+        // Each step squares the error of the values; the derivatives need one more step.
         let step: Tensor<T, D> = tensor(|i, j| turn[i][j] - before[i][j]);
         if size(&step) <= 1e-12 {
             return turn;
@@ -136,7 +137,7 @@ pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T,
     tensor(|_, _| T::from(f64::NAN))
 }
 
-/// Whether a component off the diagonal, or a derivative of one, is not zero.
+/// Whether an off-diagonal component or one of its derivatives is nonzero.
 fn is_sheared<T: Number, const D: usize>(f: &Tensor<T, D>) -> bool {
     (0..D).any(|i| (0..D).any(|j| j != i && f[i][j] != T::from(0.0)))
 }

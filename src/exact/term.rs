@@ -1,25 +1,25 @@
-//! Terms of loads in the equation of motion, and the parts of the body on which they act.
+//! Terms of loads in the equation of motion, and parts of the body on which loads act.
 
 use super::expansion::Expansion;
 use super::formula::Formula;
 use std::fmt::Debug;
 
 /// The terms of a load in the equation of motion, `rho0 u_tt = Div P + rho0 b`, and in the check of
-/// an exact solution. A load implements the methods that concern it.
+/// an exact solution. Each load implements only the methods it needs.
 pub trait Term: Debug + Send + Sync {
-    /// Component i of the stated force per unit mass (m/s2) at the place `label` (m) and time `t`
-    /// (s), where the displacement is `u` (m).
+    /// Component i of the stated force per unit mass (m/s2) at the position `label` (m) and time
+    /// `t` (s), for the displacement `u` (m).
     fn stated(&self, _i: usize, _label: &[f64], _t: f64, _u: &[f64; 3]) -> f64 {
         0.0
     }
 
-    /// Whether the stated force is independent of place and displacement. It is then evaluated once
-    /// per time.
+    /// Whether the stated force depends neither on position nor on displacement. It is then
+    /// evaluated once per time.
     fn is_uniform(&self) -> bool {
         false
     }
 
-    /// Whether the stated force is also independent of time.
+    /// Whether the stated force does not depend on time either.
     fn is_constant(&self) -> bool {
         false
     }
@@ -29,35 +29,35 @@ pub trait Term: Debug + Send + Sync {
         false
     }
 
-    /// Whether the equation is checked in terms of the force: a stated b is compared with the b
+    /// Whether the equation is checked in terms of the force: the stated b is compared with the b
     /// that the motion requires.
     fn is_body_force(&self) -> bool {
         false
     }
 
-    /// One component of a force against the motion (m/s2), from the same component of the velocity
-    /// (m/s) and of the force out of balance, `Div P/rho0 + b` (m/s2).
+    /// One component of a force that opposes the motion (m/s2), from the same component of the
+    /// velocity (m/s) and of the unbalanced force, `Div P/rho0 + b` (m/s2).
     fn resistance(&self, _t: f64, _velocity: f64, _unbalanced: &dyn Fn() -> f64) -> f64 {
         0.0
     }
 
-    /// Whether the resistance depends on the force out of balance.
+    /// Whether the resistance depends on the unbalanced force.
     fn resists_imbalance(&self) -> bool {
         false
     }
 
-    /// Expansion by temperature.
+    /// Thermal expansion, if any.
     fn expansion(&self) -> Option<Expansion> {
         None
     }
 
-    /// The number of a rim in [`Outline::rims`](super::Outline::rims) and the pressure on it (Pa,
-    /// per present area), a formula of the coordinates and t.
+    /// Index of a rim in [`Outline::rims`](super::Outline::rims) and the pressure on it (Pa, per
+    /// current area), a formula of the coordinates and t.
     fn pressed_rim(&self) -> Option<(usize, &Formula)> {
         None
     }
 
-    /// A region and its prescribed velocity (m/s): formulas of the coordinates and t.
+    /// A region and its prescribed velocity (m/s), formulas of the coordinates and t.
     fn driven(&self) -> Option<(&Region, &[Formula])> {
         None
     }
@@ -75,12 +75,12 @@ pub struct Region {
 }
 
 impl Region {
-    /// Whether a reference position is inside; the faces belong to it.
+    /// Whether the box contains a reference position; its faces are included.
     pub fn holds(&self, label: &[f64]) -> bool {
         label.iter().zip(&self.from).zip(&self.to).all(|((x, from), to)| (from..=to).contains(&x))
     }
 
-    /// The corners of the part that lies in a body from `from` to `to`.
+    /// The corners of the intersection with a body from `from` to `to`.
     pub fn within(&self, from: &[f64], to: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let low = self.from.iter().zip(from).map(|(a, b)| a.max(*b));
         let high = self.to.iter().zip(to).map(|(a, b)| a.min(*b));

@@ -13,7 +13,7 @@ use crate::subject::PlaneState;
 use rstest::rstest;
 use std::sync::Arc;
 
-/// The balance of momentum in weak form alone.
+/// The momentum balance in weak form only.
 fn momentum(problem: &Problem) -> Result<(), Violation> {
     super::check::weak::momentum(problem, &Survey::new(problem))
 }
@@ -42,7 +42,7 @@ fn weight(sources: &[&str]) -> Vec<Arc<dyn Term>> {
     vec![Arc::new(Weight(sources.iter().map(|source| bind(source, &["t"])).collect()))]
 }
 
-/// Damping in proportion to mass (1/s).
+/// Mass-proportional damping (1/s).
 #[derive(Debug)]
 struct Damped(f64);
 
@@ -52,7 +52,7 @@ impl Term for Damped {
     }
 }
 
-/// Local damping, a share of the force out of balance.
+/// Local damping, as a share of the unbalanced force.
 #[derive(Debug)]
 struct LocallyDamped(f64);
 
@@ -67,7 +67,7 @@ impl Term for LocallyDamped {
     }
 }
 
-/// A condition, given by its requirements at a point.
+/// A condition given by its requirements at a point.
 pub(super) struct Demands<F>(F);
 
 impl<F> Demands<F>
@@ -142,13 +142,14 @@ pub(super) fn held(dimension: usize) -> Problem {
     }
 }
 
-/// The raster of the weak form must be fine enough in every dimension.
+/// The weak-form raster must be fine enough in every dimension.
 #[rstest]
 fn a_sound_motion_passes(#[values(1, 2, 3)] dimension: usize) {
     held(dimension).check().unwrap();
 }
 
-/// So must it be for a plate that becomes thinner where it is stretched, and for hoops.
+/// The weak-form raster must also be fine enough for plane stress, where a stretched plate becomes
+/// thinner, and for bodies of revolution.
 #[rstest]
 fn a_sound_motion_passes_whatever_happens_across(
     #[values(
@@ -162,12 +163,12 @@ fn a_sound_motion_passes_whatever_happens_across(
     Problem { plane, equation, ..ring() }.check().unwrap();
 }
 
-/// The wave of [`held`] with the first coordinate from 1 to 2.
+/// The wave of [`held`], with the first coordinate from 1 to 2.
 fn ring() -> Problem {
     Problem { from: vec![1.0, 0.0], to: vec![2.0, 1.0], ..held(2) }
 }
 
-/// The weak form alone detects a missing force.
+/// The weak form on its own detects a missing force.
 #[rstest]
 fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
     let unforced = Problem { manufactured: false, ..held(dimension) };
@@ -175,7 +176,7 @@ fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
-/// The weak form alone detects the force of plane strain.
+/// The weak form on its own detects a force for plane strain instead of the given state.
 #[rstest]
 fn the_weak_form_sees_what_happens_across(
     #[values(PlaneState::Stress, PlaneState::Axisymmetric)] plane: PlaneState,
@@ -188,7 +189,7 @@ fn the_weak_form_sees_what_happens_across(
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
-/// The force (m/s2) that another problem needs.
+/// The body force (m/s2) that another problem requires.
 #[derive(Debug)]
 struct Given(Problem);
 
@@ -198,7 +199,7 @@ impl Term for Given {
     }
 }
 
-/// A run evaluates all places at one time after another, with the bits of a single evaluation.
+/// A run evaluates all positions for one time after another, bit-identical to single evaluations.
 #[rstest]
 fn the_force_of_a_run_is_the_force(
     #[values(1, 2, 3)] dimension: usize,
@@ -219,7 +220,7 @@ fn the_force_of_a_run_is_the_force(
     }
 }
 
-/// The second of two runs reuses the forces of the first, and computes forces for its own places
+/// The second of two runs reuses the forces of the first, and computes forces for its own positions
 /// and times.
 #[rstest]
 fn forces_that_are_shared_have_the_same_bits(#[values(1, 2, 3)] dimension: usize) {
@@ -244,7 +245,7 @@ fn forces_that_are_shared_have_the_same_bits(#[values(1, 2, 3)] dimension: usize
     }
 }
 
-/// A bar from 0 to 1 with c = 1, and its left end fixed.
+/// A bar from 0 to 1 with c = 1 and a fixed left end.
 pub(super) fn bar(displacement: &str, right: Arc<dyn Condition>) -> Problem {
     let face = |name, high, condition| Face { name, axis: 0, high, period: 1.0, condition };
     Problem {
@@ -257,7 +258,7 @@ pub(super) fn bar(displacement: &str, right: Arc<dyn Condition>) -> Problem {
     }
 }
 
-/// Automatic differentiation does not count the steps of a staircase.
+/// Automatic differentiation ignores the steps of a staircase.
 #[test]
 fn two_differentiations_that_disagree_are_refused() {
     let stairs = bar("X*floor(1e9*t)/1e9", free());
@@ -266,7 +267,8 @@ fn two_differentiations_that_disagree_are_refused() {
     assert!(found.condition.starts_with("agreement of two differentiations"), "{found}");
 }
 
-/// The strain is 1/50 in the first half of the bar and 1/100 in the second, twice as stiff one.
+/// The strain is 1/50 in the first half of the bar, and 1/100 in the second half, which is twice as
+/// stiff.
 #[test]
 fn the_stress_of_several_bodies_is_that_of_each() {
     let whole = bar("(X - max(0, X - 0.5)/2)/50", free());
@@ -284,8 +286,8 @@ fn the_stress_of_several_bodies_is_that_of_each() {
     }
 }
 
-/// A plate with nu = 0 that is stretched and sheared, F = ((1, 0.2 t), (0, 1 + 0.3 t)), by the
-/// condition on its top, where P N = mu (F - F^-T) N.
+/// A stretched and sheared plate with nu = 0 and F = ((1, 0.2 t), (0, 1 + 0.3 t)). The correct
+/// condition for its top is P N = mu (F - F^-T) N.
 fn sheared(top: Arc<dyn Condition>) -> Problem {
     let names = ["X", "Y", "t"];
     let face = |name, axis, high, condition| Face { name, axis, high, period: 1.0, condition };
@@ -317,8 +319,8 @@ fn a_traction_may_depend_on_the_place() {
     assert!(found.condition.contains("top is loaded, traction in X"), "{found}");
 }
 
-/// A cube under a uniform pressure shrinks equally on all sides, `P N = -p J F^-T N`: with a
-/// stretch of s its faces have s^2 of their area, which a dead load ignores.
+/// A cube under uniform pressure shrinks equally on all sides, `P N = -p J F^-T N`. With a stretch
+/// of s, its faces have s^2 of their area, which a dead load ignores.
 #[test]
 fn a_pressure_acts_on_the_present_area() {
     let names = ["X", "Y", "Z", "t"];
@@ -363,8 +365,8 @@ fn damping_is_a_force_in_the_equation_of_motion() {
     assert!(made.manufactured_force(&[0.3], 0.2)[0].abs() < 1e-12);
 }
 
-/// The first half period of a bar with c = 1 that local damping makes stiffer on its way out, to
-/// `pi sqrt(1.6)`, and softer on its way back, to half of that.
+/// The first half period of a bar with c = 1. Local damping makes the bar stiffer on its way out,
+/// to `pi sqrt(1.6)`, and softer on its way back, to half of that.
 #[test]
 fn local_damping_opposes_the_motion_with_a_share_of_the_other_forces() {
     let swing = |out: &str, back: &str| {
@@ -384,13 +386,13 @@ fn local_damping_opposes_the_motion_with_a_share_of_the_other_forces() {
         let found = wrong.check().unwrap_err();
         assert!(found.condition.starts_with("equation of motion"), "{found}");
     }
-    // Gravity is part of the force out of balance.
+    // Gravity is part of the unbalanced force.
     let mut weighed = locally(0.6, &wave);
     weighed.terms.extend(weight(&["1"]));
     assert!(weighed.check().is_err());
 }
 
-/// A bar that hangs: it is in equilibrium with the load at the end only.
+/// A hanging bar that is in equilibrium only with the load at the end of the run.
 #[test]
 fn an_equilibrium_is_one_with_the_loads_at_the_end() {
     let hanging = Problem {
@@ -413,8 +415,9 @@ fn an_equilibrium_is_one_with_the_loads_at_the_end() {
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
-/// A pipe under internal pressure, free outside: `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`. The
-/// residual traction on the inner rim counts, although there is none on the outer rim.
+/// A pipe under internal pressure that is free outside:
+/// `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`. The residual traction on the inner rim counts,
+/// although the outer rim has none.
 #[test]
 fn what_is_left_is_the_largest_of_all_rims() {
     let names = ["X", "Y", "t"];
@@ -442,7 +445,7 @@ fn what_is_left_is_the_largest_of_all_rims() {
     assert!(left > 0.1, "{left}");
 }
 
-/// A column that is sheared along its axis, so that `P_zR` and `P_Rz` differ: the hoop terms of the
+/// A column that is sheared along its axis, with different `P_zR` and `P_Rz`. The hoop terms of the
 /// pointwise equation and of the weak form agree.
 #[test]
 fn large_shear_about_an_axis_balances_in_weak_form() {

@@ -1,22 +1,24 @@
-//! Truth: a known solution, as the judge reads it.
+//! Truth: a known solution with which the judge compares results.
 
-/// A solution that is known: closed form, manufactured, or a much finer computation.
+/// A known solution: closed form, manufactured, or a much finer computation.
 pub trait Truth: Send + Sync {
-    /// Displacement (m) of the point with reference position `label` at time `t` (s), D numbers.
+    /// Writes the displacement (m) of the point with reference position `label` at time `t` (s), D
+    /// numbers.
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]);
 
-    /// Displacements (m) of the points with reference positions `labels`, D numbers for each.
+    /// Writes the displacements (m) of the points with reference positions `labels`, D numbers
+    /// each.
     fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
         for (label, into) in labels.chunks(d).zip(into.chunks_mut(d)) {
             self.displacement(label, t, into);
         }
     }
 
-    /// Velocity (m/s) of that point, D numbers.
+    /// Writes the velocity (m/s) of the point with reference position `label`, D numbers.
     fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]);
 
-    /// Writes the deformation gradient F, D * D numbers, row after row. Returns false, and writes
-    /// nothing, if the solution does not define it.
+    /// Writes the deformation gradient F, D * D numbers, row by row. If the solution does not
+    /// define F, returns false and writes nothing.
     fn deformation_gradient(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
         let _ = (label, t, into);
         false
@@ -28,8 +30,8 @@ pub trait Truth: Send + Sync {
         None
     }
 
-    /// Writes the Cauchy stress (Pa), D * D numbers, row after row. Returns false, and writes
-    /// nothing, if the solution does not define it.
+    /// Writes the Cauchy stress (Pa), D * D numbers, row by row. If the solution does not define
+    /// the stress, returns false and writes nothing.
     fn stress(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
         let _ = (label, t, into);
         false

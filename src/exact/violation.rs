@@ -1,36 +1,35 @@
-//! Violation: the condition that a wrong exact solution violates.
+//! A condition that a wrong exact solution violates.
 
 use std::fmt;
 
-/// A condition that the stated solution violates: the condition, the place, the time and the
-/// difference.
+/// A violated condition of the stated solution, with position, time and difference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
-    /// The condition, as text.
+    /// Text of the condition.
     pub condition: String,
     /// Reference position (m).
     pub label: Vec<f64>,
     /// Time (s).
     pub t: f64,
-    /// Value that the condition requires, if it is one number.
+    /// Value that the condition requires, if it is a single number.
     pub expected: Option<f64>,
     /// Value of the solution.
     pub found: f64,
-    /// Largest difference that the tolerance of the problem allows, if the tolerance decides.
+    /// Maximum difference that the tolerance of the problem allows, if the tolerance is decisive.
     pub allowed: Option<f64>,
-    /// Unit of these values.
+    /// Unit of the values.
     pub unit: &'static str,
 }
 
-/// The largest of several violations, relative to the tolerance. Among similar ones, the first.
+/// The largest violation relative to its tolerance. Among similar violations, the first one.
 #[derive(Debug, Default)]
 pub(super) struct LargestViolation(Option<Violation>);
 
 impl LargestViolation {
-    /// Adds the result at one place and time.
+    /// Adds the result at one position and time.
     pub(super) fn add(&mut self, found: Result<(), Violation>) {
         let Err(found) = found else { return };
-        // An excess that is not finite counts as the largest.
+        // An infinite or NaN excess counts as the largest.
         let exceeds = |largest: &Violation| {
             let factor = if found.condition == largest.condition { 1.01 } else { 10.0 };
             !(found.excess() <= factor * largest.excess())
@@ -41,20 +40,20 @@ impl LargestViolation {
     }
 
     /// # Errors
-    /// The violation, if there is one.
+    /// The largest violation, if there is one.
     pub(super) fn into_result(self) -> Result<(), Violation> {
         self.0.map_or(Ok(()), Err)
     }
 }
 
 impl Violation {
-    /// Difference relative to the difference that is allowed.
+    /// Difference divided by the allowed difference.
     fn excess(&self) -> f64 {
         self.accepted_by(1.0).unwrap_or(0.0)
     }
 
-    /// The tolerance that would accept the solution of a problem with a `tolerance`, if the
-    /// tolerance decides.
+    /// The tolerance with which the solution of a problem with this `tolerance` would be accepted,
+    /// if the tolerance is decisive.
     pub fn accepted_by(&self, tolerance: f64) -> Option<f64> {
         Some(tolerance * ((self.found - self.expected?).abs() / self.allowed?))
     }
@@ -69,7 +68,7 @@ impl fmt::Display for Violation {
         let Some(expected) = self.expected else {
             return write!(f, "found {found:.6e}{gap}{}", self.unit);
         };
-        // More than six digits if these do not show the difference.
+        // Six digits, or more if six do not show the difference.
         let differs = |n: &usize| format!("{expected:.n$e}") != format!("{found:.n$e}");
         let digits = match (6..17).find(differs) {
             Some(6) | None => 6,
@@ -86,7 +85,7 @@ impl fmt::Display for Violation {
     }
 }
 
-/// Six decimals where they show something.
+/// Fixed-point notation with six decimals for ordinary magnitudes, otherwise an exponent.
 fn coordinate(value: f64) -> String {
     let plain = value == 0.0 || (1e-3..1e6).contains(&value.abs());
     if plain { format!("{value:.6}") } else { format!("{value:.6e}") }

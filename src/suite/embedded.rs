@@ -1,10 +1,10 @@
-//! The suites of the repository, built into the library.
+//! The suites of the repository, embedded in the library.
 
 use super::yaml::{Diagnostic, Source};
 use std::path::Path;
 
-/// Name, path from the root of the repository and text of every suite under `verification/`, sorted
-/// by name.
+/// Name, path and text of every suite under `verification/`, sorted by name. Paths start at the
+/// root of the repository.
 const FILES: &[(&str, &str, &str)] = include!(concat!(env!("OUT_DIR"), "/suites.rs"));
 
 /// Names of the embedded suites, sorted.
@@ -12,12 +12,12 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     FILES.iter().map(|(name, ..)| *name)
 }
 
-/// Names of the embedded suites with their paths from the root of the repository, sorted.
+/// Names of the embedded suites with their paths from the repository root, sorted by name.
 pub fn paths() -> impl Iterator<Item = (&'static str, &'static Path)> {
     FILES.iter().map(|(name, path, _)| (*name, Path::new(*path)))
 }
 
-/// The embedded suite named `name`, if there is one.
+/// The embedded suite `name`, if it exists.
 pub fn source(name: &str) -> Option<Result<Source, Diagnostic>> {
     let (_, path, text) = FILES.iter().find(|(found, ..)| *found == name)?;
     Some(Source::from_text(*path, *text))

@@ -1,15 +1,15 @@
-//! Suites: reads and checks the text of a YAML file, and converts it to plans of studies.
+//! Suites: parses and checks YAML files, and converts them to study plans.
 //!
 //! ```text
-//! yaml      text -> located values, every diagnostic with file:line:column
-//! evaluator values -> numbers and formulas of the parameters of a suite
+//! yaml      text -> values with positions; every diagnostic has file:line:column
+//! evaluator values -> numbers and formulas of the suite's parameters
 //! scene     the body, its loads and boundary conditions, each with its keys
-//! grammar   the keys and values that a file may hold
+//! grammar   the keys and values that a file may contain
 //! model     checked values: methods, plans
-//! compile   grammar -> model: numbers computed, names resolved, the truth checked
+//! compile   grammar -> model: computes numbers, resolves names, checks the truth
 //! ```
 //!
-//! Each of these modules imports only those above it.
+//! Each module imports only modules listed above it.
 
 pub(crate) mod compile;
 pub mod embedded;

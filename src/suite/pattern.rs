@@ -1,6 +1,6 @@
-//! Patterns of names, of cases and of suites.
+//! Patterns for names of cases and suites.
 
-/// Whether the pattern `glob`, in which `*` matches any text, matches `name`.
+/// Whether the pattern `glob` matches `name`; `*` matches any text.
 pub fn fits(glob: &str, name: &str) -> bool {
     let mut parts = glob.split('*');
     let Some(rest) = parts.next().and_then(|first| name.strip_prefix(first)) else { return false };

@@ -1,9 +1,9 @@
-//! Tests of a solver in its own crate, in Rust (docs/library.md).
+//! Test support for a solver's own crate (docs/library.md).
 //!
 //! ```text
-//! conformance   whether it keeps the contract of `Subject`
-//! doctor        small problems that show what is wrong with it
-//! harness       a test for each case of a folder of suites, and its reports as snapshots
+//! conformance   whether the solver conforms to the contract of `Subject`
+//! doctor        small problems that reveal defects of the solver
+//! harness       a test for each case of a folder of suites, and report snapshots
 //! ```
 
 mod conformance;

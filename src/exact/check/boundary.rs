@@ -1,4 +1,4 @@
-//! Boundary conditions, checked at points of every face, and of every part whose motion is given.
+//! Checks boundary conditions at points of faces, and prescribed velocities at points of sets.
 
 use super::event::{AXES, Event, OnFace, SpaceTimeBox};
 use super::friction;
@@ -12,8 +12,8 @@ use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 use std::cell::Cell;
 
-/// Checks every face of the body at random points and times. Returns the largest residual of the
-/// tractions, relative to the stress.
+/// Checks every face of the body at random points and times. Returns the largest traction residual,
+/// relative to the stress.
 pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     let left = Cell::new(0.0);
     let mut random = Random::new(3);
@@ -21,7 +21,7 @@ pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violat
         let on_face = OnFace::new(&problem.from, &problem.to, face.axis, face.high);
         let extent = on_face.extent(&survey::extent(problem));
         let mut found = LargestViolation::default();
-        // A load may vary along an axis along which the motion does not.
+        // All axes are divided, because a load may vary along axes along which the motion does not.
         for event in extent.spread(survey.face_events, |_| true, &mut random) {
             let now = problem.derivatives(&event.label, event.t);
             let (sizes, left) = (&survey.largest, &left);
@@ -33,7 +33,7 @@ pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     Ok(left.get())
 }
 
-/// A point of a face, with the motion there.
+/// A point of a face, with the motion at that point.
 struct MovingPoint<'a> {
     problem: &'a Problem,
     face: &'a Face,
@@ -124,7 +124,7 @@ fn at(formula: &Formula, event: &Event) -> f64 {
     formula.eval(&variables(&event.label, event.t)[..=event.label.len()])
 }
 
-/// `u_t` is the velocity that is given, in every region that has one.
+/// Checks `u_t = v` in every region with a prescribed velocity v.
 pub(crate) fn driven(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     let speed = survey.largest.velocity;
     let mut random = Random::new(7);

@@ -1,4 +1,4 @@
-//! Two differentiations of one motion: automatic, and by central differences.
+//! Compares automatic differentiation with central differences.
 
 use super::event::{AXES, Event, greatest};
 use super::survey::{Magnitudes, Survey};
@@ -7,27 +7,27 @@ use crate::exact::problem::Problem;
 use crate::exact::violation::Violation;
 
 /// Maximum relative difference between automatic differentiation and finite differences.
-/// Differences of second order with the steps below reach about 1e-6.
+/// Second-order differences with the steps below are accurate to about 1e-6.
 pub(crate) const DIFFERENCE_TOLERANCE: f64 = 1e-4;
 
-/// Number of places at which derivatives are compared.
+/// Number of positions at which derivatives are compared.
 const PLACES: usize = 32;
 
-/// Largest step of a difference, relative to the body or the run.
+/// Maximum difference step, relative to the body or the run.
 const STEP: f64 = 1e-5;
 
-/// Largest step, relative to the length or the time over which the motion varies.
+/// Maximum difference step, relative to the length or time over which the motion varies.
 const SHARE: f64 = 1e-3;
 
-/// Step (s or m) of differences over an `extent` of a quantity whose largest value and derivatives
-/// are `largest`, in ascending order.
+/// Difference step (s or m) over an `extent`. `largest` contains the largest value of a quantity
+/// and of its derivatives, in ascending order of differentiation.
 pub(crate) fn step(extent: f64, largest: &[f64]) -> f64 {
     let scales = largest.windows(2).map(|pair| SHARE * (pair[0] / pair[1]));
     scales.filter(|scale| *scale > 0.0).fold(STEP * extent, f64::min)
 }
 
-/// Runs `check` at some of `events`. A kink (a wave front) within a step of an event is not an
-/// error: a violation counts only if it occurs at three successive events.
+/// Runs `check` at some of `events`. A kink (a wave front) within one step of an event is not an
+/// error, so a violation counts only if it occurs at three successive events.
 pub(crate) fn away_from_kinks<'a>(
     events: impl ExactSizeIterator<Item = &'a Event>,
     check: impl Fn(&Event) -> Result<(), Violation>,
@@ -47,7 +47,7 @@ pub(crate) fn away_from_kinks<'a>(
     Ok(())
 }
 
-/// Automatic differentiation against central differences.
+/// Compares automatic differentiation of the motion with central differences.
 pub(crate) fn differentiation(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     let events = survey.points.iter().map(|point| &point.event);
     away_from_kinks(events, |event| differences(problem, event, &survey.largest))
@@ -65,8 +65,8 @@ fn differences(problem: &Problem, event: &Event, sizes: &Magnitudes) -> Result<(
         let allowed = DIFFERENCE_TOLERANCE * speed;
         let slope = (high - low) / (2.0 * step);
         event.judge(allowed, name.clone(), (slope, all.velocity[i]), "m/s")?;
-        // The second difference loses digits: u is divided by step^2, and its rounding error is
-        // 1e-16 of its own terms, such as the coordinates in X*(cos(w*t) - 1).
+        // The second difference is inaccurate: u is divided by step^2, and its rounding error is
+        // 1e-16 times its own terms, such as the coordinates in X*(cos(w*t) - 1).
         let known = 1e-13 * (low.abs() + mid.abs() + high.abs()) + 1e-15 * largest_coordinate;
         let rounding = known / (step * step);
         let allowed = DIFFERENCE_TOLERANCE * acceleration + rounding;
@@ -76,7 +76,7 @@ fn differences(problem: &Problem, event: &Event, sizes: &Magnitudes) -> Result<(
     stress_differences(problem, event, &all, sizes)
 }
 
-/// Div P, once by automatic differentiation and once from P at neighbouring points.
+/// Compares Div P from automatic differentiation with differences of P at neighbouring points.
 fn stress_differences(
     problem: &Problem,
     event: &Event,

@@ -1,4 +1,4 @@
-//! Places and times at which conditions are checked, spread over boxes in space and time.
+//! Positions and times at which conditions are checked, distributed over space-time boxes.
 
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
@@ -6,7 +6,7 @@ use crate::exact::violation::Violation;
 /// Component names for messages.
 pub(crate) const AXES: [&str; 3] = ["X", "Y", "Z"];
 
-/// One place and time of a check.
+/// One position and time of a check.
 #[derive(Debug, Clone)]
 pub(crate) struct Event {
     pub(crate) label: Vec<f64>,
@@ -29,7 +29,7 @@ impl Event {
         Err(self.violation(condition, Some(expected), found, Some(allowed), unit))
     }
 
-    /// Whether `found` is a number of at most `most + allowed`.
+    /// Refuses `found` unless it is a number of at most `most + allowed`.
     pub(crate) fn judge_most(
         &self,
         allowed: f64,
@@ -58,7 +58,7 @@ impl Event {
     }
 }
 
-/// Largest of magnitudes; NaN if any is NaN, so that every comparison with it fails.
+/// The largest of some magnitudes. NaN if any is NaN, so that every later comparison fails.
 pub(crate) fn greatest(magnitudes: impl Iterator<Item = f64>) -> f64 {
     magnitudes.fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f64::max(a, b) })
 }
@@ -67,15 +67,14 @@ pub(crate) fn largest(values: &[f64; 3]) -> f64 {
     values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
 }
 
-/// Number of events spread over the body and the run if terms are large in a small part of them.
+/// Number of events in the body and the run, if terms are large only in a small part of them.
 pub(crate) const EVENTS: usize = 4096;
 
-/// Number of events spread over a face, or over another part of a problem with fewer dimensions, in
-/// that case.
+/// Number of events on a face, or on another part with fewer dimensions, if terms are large only in
+/// a small part of the body and the run.
 pub(crate) const FACE_EVENTS: usize = 1024;
 
-/// Divisor of [`EVENTS`] and [`FACE_EVENTS`] for a motion whose terms are large in much of the body
-/// and the run.
+/// Divisor of [`EVENTS`] and [`FACE_EVENTS`] if terms are large in much of the body and the run.
 pub(crate) const BROAD: usize = 8;
 
 /// A box in space and time.
@@ -87,8 +86,8 @@ pub(crate) struct SpaceTimeBox<'a> {
 }
 
 impl SpaceTimeBox<'_> {
-    /// At most `count` events, each at a random place of one cell of a regular raster. Axes of zero
-    /// length, and axes along which nothing `varies`, are not divided.
+    /// At most `count` events, each at a random position in one cell of a regular raster. Axes of
+    /// zero length, and axes along which nothing `varies`, are not divided.
     pub(crate) fn spread(
         &self,
         count: usize,
@@ -127,7 +126,7 @@ pub(crate) struct OnFace {
 }
 
 impl OnFace {
-    /// The low or the `high` face of a box on `axis`.
+    /// The low or the `high` face of a box; the normal is along `axis`.
     pub(crate) fn new(from: &[f64], to: &[f64], axis: usize, high: bool) -> Self {
         let (mut from, mut to) = (from.to_vec(), to.to_vec());
         if high {
@@ -138,7 +137,7 @@ impl OnFace {
         Self { from, to }
     }
 
-    /// The face, at the times of `body`.
+    /// The space-time box of the face, with the times of `body`.
     pub(crate) fn extent<'a>(&'a self, body: &SpaceTimeBox<'_>) -> SpaceTimeBox<'a> {
         SpaceTimeBox { from: &self.from, to: &self.to, start: body.start, end: body.end }
     }

@@ -1,7 +1,7 @@
-//! Coulomb friction on a face, checked at a point: the wall exerts pressure but no tension, the
-//! face does not penetrate it, and sliding is resisted by mu times the pressure.
+//! Checks Coulomb friction at a point of a face. The wall exerts pressure but no tension, the face
+//! does not penetrate the wall, and sliding is resisted by mu times the pressure.
 //!
-//! Forces are per reference area, which cancels in Coulomb's law.
+//! Forces are per reference area, which does not affect Coulomb's law.
 
 use super::event::{AXES, Event};
 use crate::exact::condition::Face;
@@ -9,8 +9,8 @@ use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::violation::Violation;
 
-/// Checks the motion `now` of a point of `face` at a wall with a coefficient of friction. Residuals
-/// are compared with the sizes of displacement (m), velocity (m/s) and stress (Pa).
+/// Checks the motion `now` of a point of `face` at a frictional wall. Residuals are relative to the
+/// largest displacement (m), velocity (m/s) and stress (Pa).
 ///
 /// # Errors
 /// The first violation.
@@ -39,23 +39,23 @@ pub(crate) fn at_wall(
     coulomb(event, axis, d, &rub, [allowed, tolerance * velocity], condition)
 }
 
-/// Traction between two surfaces at a point.
+/// Traction of one surface on another at a point.
 pub(crate) struct InterfaceTraction {
-    /// On the surface in question (Pa).
+    /// Traction on the checked surface (Pa).
     pub(crate) traction: [f64; 3],
-    /// Velocity of this surface relative to the other (m/s).
+    /// Velocity of the checked surface relative to the other one (m/s).
     pub(crate) velocity: [f64; 3],
-    /// Between them (Pa).
+    /// Pressure between the surfaces (Pa).
     pub(crate) pressure: f64,
     /// Coefficient of friction.
     pub(crate) coefficient: f64,
 }
 
-/// Checks Coulomb's law on a surface with its normal along `axis`, up to tolerances of stress (Pa)
+/// Checks Coulomb's law on a surface whose normal is along `axis`, up to tolerances for stress (Pa)
 /// and velocity (m/s).
 ///
 /// # Errors
-/// If the traction along the surface does not follow Coulomb's law.
+/// If the tangential traction violates Coulomb's law.
 pub(crate) fn coulomb(
     event: &Event,
     axis: usize,
@@ -92,8 +92,8 @@ mod tests {
     use rstest::rstest;
     use std::sync::Arc;
 
-    /// A layer of height 1 under gravity (3, -4), with shear modulus 100, density 1 and lambda = 0,
-    /// which sticks to the wall or is slowed by friction: shear and pressure grow towards it.
+    /// A layer of height 1 under gravity (3, -4), with shear modulus 100, density 1 and lambda = 0.
+    /// It sticks to the wall or slides with friction; shear and pressure increase towards the wall.
     fn layer(coefficient: f64, [x, y]: [&str; 2]) -> Problem {
         let bind = |text: &str, names: &[&str]| {
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), names).unwrap()
@@ -125,9 +125,9 @@ mod tests {
         }
     }
 
-    /// Under its own weight: the pressure at the wall is 4.
+    /// Settled under its own weight; the pressure at the wall is 4.
     const SETTLED: &str = "4/200*(Y^2/2 - Y)";
-    /// Friction with mu = 1/2 compensates 2 of the 3 that act along the wall.
+    /// Friction with mu = 1/2 balances 2 of the tangential force of 3.
     const SLIDES: &str = "t^2/2 - 2/100*(Y^2/2 - Y)";
     const STAYS: &str = "-3/100*(Y^2/2 - Y)";
 

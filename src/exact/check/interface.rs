@@ -1,11 +1,12 @@
-//! Two bodies face to face, checked at points of the faces.
+//! Checks the interface of two bodies at points of their faces.
 //!
 //! Bodies with one velocity field are bonded: displacement and traction are continuous across
-//! common faces. Bodies in contact do not penetrate each other and have no tension; pressure acts
-//! only where they touch, with equal and opposite tractions, and sliding is resisted by friction.
+//! common faces. Bodies in contact do not penetrate each other, and no tension acts between them.
+//! Pressure acts only where they touch; tractions are equal and opposite, and friction resists
+//! sliding.
 //!
-//! One formula may describe several bodies and jump where they meet. The motion at the face is
-//! therefore a one-sided limit: its expansion about a point a billionth of the length inside.
+//! One formula may describe several bodies and jump at their interface. The motion at the face is
+//! therefore a one-sided limit: an expansion about a point that is 1e-9 of the body length inside.
 
 use super::event::{AXES, Event, FACE_EVENTS, OnFace};
 use super::friction::{InterfaceTraction, coulomb};
@@ -16,7 +17,7 @@ use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
-/// The condition on a face next to another body, which [`meets`] checks on both bodies.
+/// Condition on a face next to another body; [`meets`] checks both bodies together.
 #[derive(Debug)]
 pub struct Interface;
 
@@ -26,12 +27,12 @@ impl Condition for Interface {
     }
 }
 
-/// Distance from the face of the point inside, in lengths of the body.
+/// Distance of the expansion point from the face, relative to the length of the body.
 const INSIDE: f64 = 1e-9;
 
-/// Holds the high face of `one` on `axis` against the low face of `other`, which lies opposite: in
-/// contact with a coefficient of friction, or, without one, as one body. Residuals are compared
-/// with the largest magnitudes of all bodies.
+/// Checks the high face of `one` against the opposite low face of `other` along `axis`. With a
+/// coefficient of `friction` the bodies are in contact, otherwise they are bonded. Residuals are
+/// relative to the largest magnitudes of all bodies.
 ///
 /// # Errors
 /// The first condition that the motions violate.
@@ -56,8 +57,8 @@ pub fn meets(
     found.into_result()
 }
 
-/// The motion on a face of `problem` at `event`, expanded about a point inside that lies `inside`
-/// (m) below the face along `axis`.
+/// The motion on a face of `problem` at `event`, expanded about a point at the distance `inside`
+/// (m) from the face along `axis`.
 fn on_face(problem: &Problem, event: &Event, axis: usize, inside: f64) -> Derivatives {
     let mut label = event.label.clone();
     label[axis] -= inside;
@@ -94,7 +95,7 @@ impl BodyPair<'_> {
         [on_face(one, event, axis, inside(one)), on_face(other, &opposite, axis, -inside(other))]
     }
 
-    /// P e on the two faces, e being the direction of the axis.
+    /// P e on both faces, where e is the unit vector along the axis.
     fn forces(&self, event: &Event, here: &Derivatives, there: &Derivatives) -> [[f64; 3]; 2] {
         let of = |problem: &Problem, face: f64, now: &Derivatives| {
             let mut label = event.label.clone();
@@ -203,10 +204,10 @@ mod tests {
         meets(one, other, 0, friction, &surveys[0].largest)
     }
 
-    /// The bars run into each other with velocity 1/100 and part after 2.
+    /// The bars collide with velocity 1/100 and separate after time 2.
     const BOUNCE: &str =
         "sign(1 - X)/100*(t - max(0, t - abs(X - 1)) - max(0, t - (2 - abs(X - 1))))";
-    /// They stay together, as one bar that vibrates.
+    /// The bars stay together and vibrate as one bar.
     const STICK: &str = "cos(pi*X/2)*sin(pi*t/2)/100";
 
     #[rstest]
@@ -234,8 +235,8 @@ mod tests {
         }
     }
 
-    /// Plates that are pressed together by 1/100 and move along their common face, each with its
-    /// velocity; at mu = 0.3 friction shears them by 3/500.
+    /// Plates that are pressed together by 1/100 and slide along their common face with separate
+    /// velocities. For mu = 0.3, friction shears them by 3/500.
     #[rstest]
     #[case::together(["t/10", "t/10"], "")]
     #[case::past_each_other(["X*3/500", "t/10 + X*3/500"], "")]

@@ -1,4 +1,4 @@
-//! Every condition that a problem puts on its motion.
+//! All conditions that an exact motion must satisfy.
 
 pub(crate) mod boundary;
 pub(crate) mod differences;
@@ -17,8 +17,8 @@ use super::problem::Problem;
 use super::violation::Violation;
 
 impl Problem {
-    /// Holds the motion against the equation (point by point and in weak form), the boundary and
-    /// the initial conditions, at reproducible random points.
+    /// Checks the motion at reproducible random points: the equation (pointwise and in weak form),
+    /// the boundary conditions and the initial conditions.
     ///
     /// # Errors
     /// The first [`Violation`].
@@ -26,8 +26,7 @@ impl Problem {
         self.check_with(&Survey::new(self))
     }
 
-    /// Checks the motion like [`check`](Self::check), with a `survey` that shares its magnitudes
-    /// with those of other bodies.
+    /// Like [`check`](Self::check), with a given `survey` whose magnitudes are those of all bodies.
     ///
     /// # Errors
     /// The first [`Violation`].
@@ -43,9 +42,9 @@ impl Problem {
         weak::momentum(self, survey)
     }
 
-    /// Residual of the conditions with the law, relative to their terms: the equation of motion,
-    /// tractions on faces and rims. NaN if another condition is violated, or if the residual is not
-    /// finite.
+    /// Largest relative residual of the conditions that involve the law: the equation of motion,
+    /// and tractions on faces and rims. NaN if another condition is violated, or if the residual is
+    /// not finite.
     pub fn residual(&self) -> f64 {
         let problems =
             if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies };

@@ -1,9 +1,8 @@
-//! Conditions checked point by point.
+//! Pointwise checks.
 //!
-//! Rims of a body that is not a box: P n = 0, or P n = -p J F^-T n under a pressure.
+//! On rims of a body that is not a box: P n = 0, or P n = -p J F^-T n under a pressure.
 //!
-//! For laws with a memory, exact solutions require loading that never reverses, which is checked
-//! here.
+//! For laws with memory, exact solutions require monotonic loading, which is checked here.
 
 use super::event::{AXES, Event};
 use super::survey;
@@ -15,8 +14,8 @@ use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
-/// The displacement is a number everywhere inside, and not zero everywhere, unless the body has a
-/// stress without it.
+/// Checks that the displacement is finite in the whole body and not identically zero. A zero
+/// displacement is allowed if the body is stressed without it.
 pub(crate) fn presence(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     let Some(first) = survey.points.first() else { return Ok(()) };
     for SurveyPoint { event, now, .. } in &survey.points {
@@ -35,7 +34,7 @@ pub(crate) fn presence(problem: &Problem, survey: &Survey) -> Result<(), Violati
     Err(first.violation(condition, None, 0.0, None, "m"))
 }
 
-/// u(X, 0) = u0(X) and u_t(X, 0) = v0(X).
+/// Checks u(X, 0) = u0(X) and u_t(X, 0) = v0(X).
 pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     if problem.at_rest {
         return Ok(());
@@ -60,8 +59,8 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
     found.into_iter().try_for_each(LargestViolation::into_result)
 }
 
-/// Component i of an initial condition: the `stated` value, by default that of the motion (which
-/// must be finite) or zero.
+/// Component i of an initial condition: the `stated` value if any, otherwise the value of the
+/// motion (which must be finite) or zero.
 fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion: f64) -> f64 {
     if stated.is_empty() && problem.follows_motion {
         return motion;
@@ -74,13 +73,13 @@ fn formula_at(formulas: &[Formula], i: usize, event: &Event) -> f64 {
     formulas.get(i).map_or(0.0, |f| f.eval(&variables[..=event.label.len()]))
 }
 
-/// Rounding of Div P, relative to the modulus times the largest second derivative: its terms can
-/// cancel everywhere, as in Lame's tube at rest.
+/// Rounding error of Div P, relative to the modulus times the largest second derivative. The terms
+/// of Div P can cancel everywhere, as in Lame's tube at rest.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// `rho0 u_tt = Div P + rho0 b`, with derivatives by automatic differentiation. Where the problem
-/// declares a force, the two sides are put as forces: that which the motion needs, and that which
-/// is declared. Returns the largest residual, relative to the largest sum of the terms.
+/// Checks `rho0 u_tt = Div P + rho0 b`, with derivatives by automatic differentiation. If the
+/// problem states a body force, the equation is solved for b and compared with the stated force.
+/// Returns the largest residual, relative to the largest sum of the terms.
 pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     let (size, mut left) = (survey.largest.terms, 0.0);
     let rounding = ROUNDING * problem.modulus() * survey.largest.curvature;
@@ -108,7 +107,7 @@ pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     found.into_result().map(|()| left)
 }
 
-/// Compares the traction on every rim with that of the pressure on it, which is zero on a free rim.
+/// Checks that the traction on every rim equals that of its pressure, which is zero on a free rim.
 /// Returns the largest difference, relative to the stress.
 pub(crate) fn tractions_on_rims(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     let Some(outline) = &problem.outline else { return Ok(0.0) };
@@ -151,7 +150,7 @@ pub(crate) fn tractions_on_rims(problem: &Problem, survey: &Survey) -> Result<f6
     Ok(left)
 }
 
-/// Checks in uniaxial strain that the stretch does not reverse while the body flows.
+/// Checks for uniaxial strain that the stretch does not reverse during plastic flow.
 pub(crate) fn monotone_loading(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     if !problem.equation.has_history() {
         return Ok(());
@@ -178,7 +177,7 @@ mod tests {
     use crate::exact::tests::{bar, free};
     use rstest::rstest;
 
-    /// The bar flows beyond a strain of 0.01, and reverses at half of the time.
+    /// The bar flows above a strain of 0.01, and reverses at half of the time.
     #[rstest]
     #[case::pulled("0.05*X*t", true)]
     #[case::pressed("-0.05*X*t", true)]

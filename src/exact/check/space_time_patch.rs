@@ -1,9 +1,9 @@
-//! Patches of space and time with a bump on each, and the points of the midpoint rule on them.
+//! Space-time patches with a bump function, and their midpoint-rule points.
 
 use super::event::Event;
 use crate::exact::random::Random;
 
-/// The largest densities of the terms of a balance.
+/// The largest densities of the terms in a balance.
 pub(crate) struct Densities {
     /// Density of the stored quantity.
     pub(crate) stored: f64,
@@ -13,10 +13,9 @@ pub(crate) struct Densities {
     pub(crate) supply: f64,
 }
 
-/// A box in space and time with the bump `phi = prod (1 - xi^2)^3` on it. The cube, for the
-/// midpoint rule: the slope of the bump must vanish smoothly on the rim. With the square, ten
-/// points on an axis are wrong by 0.7 % of all terms for a wave in a cube; with the cube, by 0.07
-/// %.
+/// A space-time box with the bump function `phi = prod (1 - xi^2)^3`. The midpoint rule requires
+/// that the slope of phi vanishes smoothly at the boundary, hence the exponent 3. For a wave in a
+/// cube and ten points per axis, the error is 0.07 % of all terms; with exponent 2 it is 0.7 %.
 #[derive(Clone)]
 pub(crate) struct SpaceTimePatch {
     pub(crate) centre: Vec<f64>,
@@ -24,12 +23,12 @@ pub(crate) struct SpaceTimePatch {
 }
 
 impl SpaceTimePatch {
-    /// Number of dimensions of space.
+    /// Number of space dimensions.
     pub(super) fn dimension(&self) -> usize {
         self.centre.len() - 1
     }
 
-    /// A patch in a box, for a run until `until` (s), with a duration of at most `longest` (s).
+    /// A random patch in a box, within a run until `until` (s), for at most `longest` (s).
     pub(crate) fn in_box(
         random: &mut Random,
         from: &[f64],
@@ -43,8 +42,8 @@ impl SpaceTimePatch {
         Self::over(random, centre, half, until, longest)
     }
 
-    /// A patch around a place, with its middle and half-lengths (m), for a run until `until` (s),
-    /// with a duration of at most `longest` (s).
+    /// A patch with the given centre and half-lengths (m) in space. Its time interval is random,
+    /// within a run until `until` (s), and at most `longest` (s) long.
     pub(super) fn over(
         random: &mut Random,
         mut centre: Vec<f64>,
@@ -58,8 +57,8 @@ impl SpaceTimePatch {
         Self { centre, half }
     }
 
-    /// All of a box, at times about `t` (s) of a run until `until` (s), for no longer than
-    /// `longest` (s).
+    /// The whole box, at times around `t` (s) in a run until `until` (s), with a duration of at
+    /// most `longest` (s).
     pub(super) fn whole(from: &[f64], to: &[f64], until: f64, longest: f64, t: f64) -> Self {
         let mut half: Vec<f64> =
             from.iter().zip(to).map(|(low, high)| 0.5 * (high - low)).collect();
@@ -70,19 +69,19 @@ impl SpaceTimePatch {
         Self { centre, half }
     }
 
-    /// The part of the patch about `event` that is shorter by a random factor on all axes.
+    /// A part of the patch around `event`, shortened by one random factor on all axes.
     pub(super) fn about(&self, event: &Event, random: &mut Random) -> Self {
         let mut place = event.label.clone();
         place.push(event.t);
         self.part(&place, 0.5 * libm::exp2(-5.0 * random.unit()))
     }
 
-    /// The half of the patch, on every axis, about `place`.
+    /// The part of the patch around `place` with half the length on every axis.
     pub(super) fn half_about(&self, place: &[f64]) -> Self {
         self.part(place, 0.5)
     }
 
-    /// The part about `place` that is shorter by `factor` on every axis.
+    /// The part of the patch around `place`, shortened by `factor` on every axis.
     fn part(&self, place: &[f64], factor: f64) -> Self {
         let half: Vec<f64> = self.half.iter().map(|half| factor * half).collect();
         let within = |axis: usize| {
@@ -92,11 +91,11 @@ impl SpaceTimePatch {
         Self { centre: (0..half.len()).map(within).collect(), half }
     }
 
-    /// The sum of the terms of a balance over a raster, if they had their `largest` densities all
-    /// over the patch.
+    /// Upper bound on the sum of all terms of a balance over a raster: every term has its `largest`
+    /// density everywhere in the patch.
     pub(super) fn largest_sum(&self, largest: &Densities, per_axis: usize) -> f64 {
         let d = self.dimension();
-        // The integrals of the bump and of its slope on one axis are 32/35 and 2 times its height.
+        // On one axis, the integrals of the bump and of its slope are 32/35 and 2 times its height.
         let points = per_axis as f64;
         let mean: f64 = (0..d).map(|_| 16.0 / 35.0 * points).product();
         let slope = |axis: usize| mean * points / self.half[axis];
@@ -105,7 +104,7 @@ impl SpaceTimePatch {
         largest.stored * slope(d) + largest.flow * flow + largest.supply * supply
     }
 
-    /// Points of the midpoint rule, `per_axis` of them on each axis.
+    /// Midpoint-rule points of the patch, `per_axis` on each axis.
     pub(super) fn raster(&self, per_axis: usize) -> Raster {
         let d = self.dimension();
         let axes: Vec<Vec<AxisPoint>> = (0..d).map(|a| self.axis(a, per_axis)).collect();
@@ -121,7 +120,7 @@ impl SpaceTimePatch {
         Raster { points, times: self.axis(d, per_axis) }
     }
 
-    /// Equally spaced points on the axis `a`, time being the last one.
+    /// Equally spaced points on axis `a`; the last axis is time.
     fn axis(&self, a: usize, points: usize) -> Vec<AxisPoint> {
         let point = |index: usize| {
             let xi = (index as f64 + 0.5) / points as f64 * 2.0 - 1.0;
@@ -136,11 +135,11 @@ impl SpaceTimePatch {
     }
 }
 
-/// Points of the midpoint rule on a patch.
+/// Midpoint-rule points of a patch.
 pub(crate) struct Raster {
-    /// Points in space, one coordinate per axis, with the first axis varying fastest.
+    /// Points in space, one coordinate per axis; the first axis varies fastest.
     pub(crate) points: Vec<Vec<AxisPoint>>,
-    /// Points in time, the same for each point in space.
+    /// Points in time, equal for all points in space.
     pub(crate) times: Vec<AxisPoint>,
 }
 
@@ -153,12 +152,12 @@ pub(crate) struct AxisPoint {
     slope: f64,
 }
 
-/// The places of the points of a raster (m).
+/// The positions of a raster's points (m).
 pub(crate) fn labels(points: &[Vec<AxisPoint>]) -> Vec<Vec<f64>> {
     points.iter().map(|point| point.iter().map(|on_axis| on_axis.at).collect()).collect()
 }
 
-/// phi and its derivatives along every axis, where the points of all axes meet.
+/// phi and its derivative along every axis at a point with the given coordinates.
 pub(crate) fn bump(points: &[AxisPoint]) -> (f64, [f64; 4]) {
     let factors = |except: usize| {
         let others = points.iter().enumerate().filter(move |(b, _)| *b != except);
@@ -171,7 +170,7 @@ pub(crate) fn bump(points: &[AxisPoint]) -> (f64, [f64; 4]) {
     (factors(points.len()), slope)
 }
 
-/// Middle and half-length of a random part of an interval, at most `longest` long.
+/// Centre and half-length of a random part of an interval; its length is at most `longest`.
 fn interval(random: &mut Random, low: f64, high: f64, longest: f64) -> (f64, f64) {
     let width = (high - low).min(longest) * random.between(0.2, 1.0);
     let start = low + (high - low - width) * random.unit();

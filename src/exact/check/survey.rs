@@ -1,30 +1,30 @@
-//! Places and times of the checks of a problem, and the largest terms there.
+//! Samples a problem: positions and times of the checks, and the largest terms.
 //!
-//! Events are spread evenly over the body and the run. If terms are large in a small part of them,
-//! there are more events, and others close to those with the largest terms, so that a pulse much
-//! narrower than the body is resolved. A residual is compared with the largest term of the whole
-//! survey: far from a pulse all terms are rounding errors.
+//! Events are distributed evenly over the body and the run. If terms are large only in a small
+//! part, there are more events, and additional ones close to the largest terms. This resolves
+//! pulses that are much narrower than the body. Residuals are relative to the largest term of the
+//! whole survey, because all terms far from a pulse are rounding errors.
 
 use super::event::{BROAD, EVENTS, Event, FACE_EVENTS, SpaceTimeBox, greatest, largest};
 use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 
-/// Number of rounds in which events are added close to those with the largest terms.
+/// Number of rounds that add events close to the largest terms.
 const ROUNDS: usize = 8;
 
-/// Events that a round adds.
+/// Number of events added per round.
 const ADDED: usize = 16;
 
-/// Share of events with a magnitude of at least half of the largest, from which on evenly spread
-/// events resolve that magnitude.
+/// Evenly distributed events resolve a magnitude if at least this share of them has half of its
+/// largest value or more.
 const RESOLVED: f64 = 1.0 / 16.0;
 
-/// Largest distance of an added event in the first round, relative to the body and the run. Each
+/// Maximum distance of an added event in the first round, relative to the body and the run. Each
 /// round halves it.
 const REACH: f64 = 1.0 / 32.0;
 
-/// The largest magnitudes of a motion and of the terms of its equation.
+/// The largest magnitudes of a motion and of the terms in its equation.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Magnitudes {
     /// Displacement (m).
@@ -35,7 +35,7 @@ pub struct Magnitudes {
     pub(crate) acceleration: f64,
     /// Displacement gradient.
     pub(crate) gradient: f64,
-    /// Second derivatives of the displacement along the axes (1/m).
+    /// Second derivatives of the displacement along each axis (1/m).
     pub(crate) curvature: f64,
     /// Stress (Pa): modulus times the gradient, and the initial stress.
     pub(crate) stress: f64,
@@ -60,7 +60,7 @@ impl Magnitudes {
         let initial = problem.initial_stress.at(&event.label);
         let density = problem.density.at(&event.label);
         let gradient = greatest(now.grad.iter().map(largest));
-        // In a tube at rest the hoop term balances the other terms of Div P.
+        // In a tube at rest, the hoop term balances the other terms of Div P.
         let hoops = largest(&problem.hoop_force(&event.label, event.t, now));
         let terms = (0..problem.dimension()).map(|i| {
             let inertia = density * now.acceleration[i];
@@ -95,7 +95,7 @@ impl Magnitudes {
         ]
     }
 
-    /// The larger of two, magnitude by magnitude; NaN if one of them is NaN.
+    /// The larger value of each magnitude; NaN if either value is NaN.
     fn larger(self, other: Self) -> Self {
         let (a, b) = (self.to_array(), other.to_array());
         let all: [f64; Self::COUNT] = std::array::from_fn(|i| greatest([a[i], b[i]].into_iter()));
@@ -106,7 +106,7 @@ impl Magnitudes {
     }
 }
 
-/// An event in the interior of the body, with the motion there.
+/// An event in the interior of the body, with the motion at that event.
 #[derive(Debug)]
 pub(crate) struct SurveyPoint {
     pub(crate) event: Event,
@@ -121,7 +121,7 @@ pub(crate) struct SurveyPoint {
 /// The motion of a problem at many events.
 #[derive(Debug)]
 pub struct Survey {
-    /// Events spread over the body and the run, then those close to the largest terms.
+    /// Evenly distributed events, followed by those close to the largest terms.
     pub(crate) points: Vec<SurveyPoint>,
     /// The largest magnitudes over all bodies of a scene.
     pub(crate) largest: Magnitudes,
@@ -151,8 +151,8 @@ impl Survey {
         Self { points, largest, face_events }
     }
 
-    /// Evaluates the motions of all bodies of a scene, which share their largest magnitudes and
-    /// the number of events on faces.
+    /// Evaluates the motions of all bodies of a scene. The bodies share their largest magnitudes
+    /// and the number of events on faces.
     pub fn of_each(problems: &[Problem]) -> Vec<Self> {
         let mut all: Vec<Self> = problems.iter().map(Self::new).collect();
         let none = Magnitudes::default();
@@ -164,12 +164,12 @@ impl Survey {
         all
     }
 
-    /// Reference positions, with the motion there.
+    /// Reference positions and the motion at each of them.
     pub(crate) fn motion(&self) -> impl Iterator<Item = (&[f64], &Derivatives)> {
         self.points.iter().map(|point| (point.event.label.as_slice(), &point.now))
     }
 
-    /// At most `count` of the events at which the quantity `of` is at least half of its maximum.
+    /// At most `count` events at which the quantity `of` is at least half of its maximum.
     pub(crate) fn active(&self, count: usize, of: impl Fn(&Magnitudes) -> f64) -> Vec<&Event> {
         let most = greatest(self.points.iter().map(|point| of(&point.sizes)));
         let active: Vec<&Event> = self
@@ -183,7 +183,7 @@ impl Survey {
     }
 }
 
-/// Events spread over the body of `problem` and the run.
+/// Events distributed evenly over the body of `problem` and the run.
 pub(crate) fn events(problem: &Problem, count: usize, random: &mut Random) -> Vec<Event> {
     let Some(outline) = &problem.outline else {
         return extent(problem).spread(count, |axis| problem.motion.varies_along(axis), random);
@@ -196,7 +196,7 @@ pub(crate) fn events(problem: &Problem, count: usize, random: &mut Random) -> Ve
     (0..count).map(event).collect()
 }
 
-/// The box around the body, and the times of the run.
+/// The bounding box of the body, and the times of the run.
 pub(crate) fn extent(problem: &Problem) -> SpaceTimeBox<'_> {
     let Problem { from, to, until, .. } = problem;
     SpaceTimeBox { from, to, start: problem.loaded(0.0), end: *until }
@@ -210,7 +210,7 @@ fn point(problem: &Problem, event: Event) -> SurveyPoint {
     SurveyPoint { event, now, divergence, force, sizes }
 }
 
-/// Whether a quantity is zero, or at least half of its maximum at many of evenly spread events.
+/// Whether a quantity is zero, or at least half of its maximum at many evenly distributed events.
 fn is_broad(points: &[SurveyPoint], quantity: usize) -> bool {
     let values = || points.iter().map(|point| point.sizes.to_array()[quantity]);
     let most = greatest(values());
@@ -218,8 +218,8 @@ fn is_broad(points: &[SurveyPoint], quantity: usize) -> bool {
     active as f64 >= RESOLVED * points.len() as f64
 }
 
-/// Adds events close to those at which a quantity is at least half of its maximum, at smaller
-/// distances in each round.
+/// Adds events close to those at which a quantity is at least half of its maximum. Each round uses
+/// smaller distances.
 fn concentrate(
     problem: &Problem,
     points: &mut Vec<SurveyPoint>,

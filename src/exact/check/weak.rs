@@ -1,13 +1,13 @@
-//! The equation in weak form, on random patches of space and time.
+//! Checks the equation of motion in weak form on random space-time patches.
 //!
-//! Waves behind a sudden load have kinks: `u_X` jumps, and the equation holds point by point on
-//! both sides for any speed of the front. Only the weak form constrains the speed: for any smooth
-//! `phi` that vanishes on the boundary of a patch,
+//! Waves behind a sudden load have kinks: `u_X` jumps, and the equation holds pointwise on both
+//! sides for any speed of the front. Only the weak form constrains this speed: for any smooth `phi`
+//! that vanishes on the boundary of a patch,
 //! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`. For a body of revolution, dX
 //! is replaced by `R dX`, and `P_tT phi` is subtracted in the radial component.
 //!
-//! The motion is evaluated once for all points of a raster that differ only along an axis on which
-//! the motion does not vary.
+//! If the motion does not vary along an axis, it is evaluated once for all raster points that
+//! differ only along this axis.
 
 use super::space_time_patch::{AxisPoint, Densities, Raster, SpaceTimePatch, bump, labels};
 use super::survey::{Magnitudes, Survey};
@@ -16,11 +16,11 @@ use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
 
-/// Number of patches for a problem whose fields may have kinks, at unknown places.
+/// Number of patches if the fields may have kinks at unknown positions.
 const PATCHES: usize = 12;
 
-/// Number of patches for a problem with smooth fields. There the pointwise equation implies the
-/// weak form; the patches only detect a front so steep that no random point lies on it.
+/// Number of patches if the fields are smooth. The pointwise equation then implies the weak form;
+/// the patches only detect a front so steep that no random point lies on it.
 const PATCHES_OF_SMOOTH_FIELDS: usize = 2;
 
 /// Number of patches on which a problem is checked.
@@ -28,22 +28,22 @@ pub(crate) fn patches(smooth: bool) -> usize {
     if smooth { PATCHES_OF_SMOOTH_FIELDS } else { PATCHES }
 }
 
-/// Largest imbalance, relative to the sum of the magnitudes of the terms. The quadrature of a jump
-/// that runs obliquely through the grid of points below has an error of about 0.001.
+/// Maximum imbalance, relative to the sum of the magnitudes of all terms. The quadrature error of a
+/// jump that runs obliquely through the raster is about 0.001.
 const TOLERANCE: f64 = 0.005;
 
-/// Maximum duration of a patch, in wave transit times through the body: the points below must
-/// resolve it.
+/// Maximum duration of a patch, in wave transit times through the body. The raster must resolve the
+/// duration.
 const WAVES: f64 = 4.0;
 
-/// Transit time (s) of a wave along the longest axis of the body.
+/// Transit time of a wave along the longest axis of the body (s).
 fn crossing(problem: &Problem) -> f64 {
     let lengths = problem.from.iter().zip(&problem.to).map(|(from, to)| to - from);
     let longest = lengths.fold(0.0, f64::max);
     longest / problem.wave_speed()
 }
 
-/// A random patch of the body.
+/// A random patch in the body.
 fn draw(random: &mut Random, problem: &Problem) -> SpaceTimePatch {
     let (from, to) = (&problem.from[..], &problem.to[..]);
     let longest = WAVES * crossing(problem);
@@ -56,14 +56,14 @@ fn draw(random: &mut Random, problem: &Problem) -> SpaceTimePatch {
     }
 }
 
-/// Minimum scale, as a share of the largest terms: smaller terms, as next to a narrow pulse, are
-/// compared with this share.
+/// Minimum scale of an imbalance, as a share of the largest terms. Smaller terms, such as those
+/// next to a narrow pulse, are compared with this scale.
 const SMALLEST: f64 = 1e-3;
 
-/// Halvings of a patch on which the sums depend on the number of points.
+/// Maximum number of times a patch is halved while its sums depend on the number of points.
 const HALVINGS: usize = 12;
 
-/// Checks the balance of momentum on random patches, and on patches about the largest stresses.
+/// Checks the momentum balance on random patches, and on patches around the largest stresses.
 pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     let mut random = Random::new(6);
     let heat = problem.heat.as_ref();
@@ -86,9 +86,9 @@ pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violati
 
 /// Compares gain and loss over a patch by the midpoint rule. An imbalance counts if it hardly
 /// changes with twice and four times as many points per axis. Otherwise the points do not resolve
-/// the fields, and the half of the patch around its largest term is compared instead.
+/// the fields, and the check is repeated on the half patch around the largest term.
 ///
-/// `condition` ends with the name of the equation.
+/// `condition` must end with the name of the equation.
 pub(crate) fn balances<const N: usize>(
     mut patch: SpaceTimePatch,
     condition: &str,
@@ -132,20 +132,20 @@ pub(crate) struct Sums {
     pub(crate) gain: f64,
     pub(crate) loss: f64,
     pub(crate) size: f64,
-    /// The smallest sum that counts.
+    /// Minimum scale of an imbalance.
     pub(crate) smallest: f64,
-    /// The largest magnitude of a point, and the place and time of the point.
+    /// The largest magnitude at a point, and the position and time of that point.
     peak: f64,
     place: [f64; 4],
 }
 
 impl Sums {
-    /// Sums that are zero, with the `smallest` size that counts.
+    /// Zero sums with the minimum scale `smallest`.
     pub(crate) fn new(smallest: f64) -> Self {
         Self { smallest, ..Self::default() }
     }
 
-    /// Adds gain and loss at a point, where the terms have the magnitude `size`.
+    /// Adds gain and loss at a point; `size` is the magnitude of the terms there.
     pub(crate) fn add(&mut self, gain: f64, loss: f64, size: f64, at: &[AxisPoint]) {
         self.gain += gain;
         self.loss += loss;
@@ -163,13 +163,13 @@ impl Sums {
         (self.gain - self.loss) / self.size.max(self.smallest)
     }
 
-    /// Whether gain and loss differ by no more than a share of the sum of all terms.
+    /// Whether gain and loss differ by at most a `share` of the sum of all terms.
     fn imbalance_within(&self, share: f64) -> bool {
         (self.gain - self.loss).abs() <= share * self.size.max(self.smallest)
     }
 
-    /// Whether imbalance and terms hardly differ from those of the coarse raster, with half of the
-    /// points per axis and `share` of the points.
+    /// Whether imbalance and terms hardly differ from those of a coarse raster with half as many
+    /// points per axis. `share` is the ratio of the numbers of points.
     fn has_settled(&self, coarse: &Self, share: f64) -> bool {
         let (fine, before) = (self.imbalance(), coarse.imbalance());
         let same_size = (coarse.size - share * self.size).abs() <= 0.05 * coarse.size;
@@ -209,13 +209,13 @@ fn balance(
     };
     balances(patch, condition, &densities, |raster, smallest| {
         let all = sums(problem, raster, smallest, only_first);
-        // Where a root of a constant has an infinite slope, only jets give a finite derivative.
+        // At infinite slopes of roots of constants, only jets give finite derivatives.
         let is_finite = all.iter().all(|sums| sums.size.is_finite());
         if is_finite { all } else { sums(problem, raster, smallest, false) }
     })
 }
 
-/// The balance of every component on a raster of a patch. With `only_first`, only first derivatives
+/// The balance of each component on a raster of a patch. With `only_first`, only first derivatives
 /// of the motion are computed.
 fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> [Sums; 3] {
     let d = problem.dimension();
@@ -256,18 +256,18 @@ fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> 
     all
 }
 
-/// Distinct places of a raster: points that differ only along an axis on which the motion does not
-/// vary share a place.
+/// Distinct positions of a raster. Points that differ only along an axis along which the motion
+/// does not vary share a position.
 pub(super) struct DistinctPlaces {
-    /// The first point of the raster at each place.
+    /// The first raster point at each position.
     pub(super) first: Vec<usize>,
-    /// The place of each point.
+    /// Index of the position of each point.
     pub(super) of_point: Vec<usize>,
 }
 
 impl DistinctPlaces {
-    /// Distinct places of a raster of `count` points, `per_axis` along each axis, with the first
-    /// axis varying fastest.
+    /// Distinct positions of a raster of `count` points, with `per_axis` points along each axis;
+    /// the first axis varies fastest.
     pub(super) fn new(motion: &Motion, count: usize, per_axis: usize) -> Self {
         let varying: Vec<bool> =
             (0..motion.dimension()).map(|axis| motion.varies_along(axis)).collect();
@@ -283,7 +283,7 @@ impl DistinctPlaces {
     }
 }
 
-/// The place of a point: its number on a raster of the axes along which the motion varies.
+/// Position index of a point: its number on a raster of the axes along which the motion varies.
 fn place(mut point: usize, per_axis: usize, varying: &[bool]) -> usize {
     let (mut place, mut stride) = (0, 1);
     for varies in varying {

@@ -5,29 +5,29 @@ use std::ops::Range;
 use super::builtin::Binary;
 use super::unary::Unary;
 
-/// A parsed formula, not yet bound: its names have no meaning yet.
+/// A parsed formula whose names are not resolved.
 #[derive(Debug, Clone)]
 pub struct Expr {
     source: String,
-    /// Children precede their parents and the root is last. A flat list, unlike a tree of boxes, is
-    /// dropped and cloned without recursion, also for a long chain of `+`.
+    /// Children precede their parents, and the root is last. Unlike a tree of boxes, a flat list is
+    /// dropped and cloned without recursion, even for a long chain of `+`.
     nodes: Vec<Node>,
 }
 
-/// One node of the tree, with the bytes it was read from.
+/// One node of the tree, and its byte range in the source.
 #[derive(Debug, Clone)]
 pub(super) struct Node {
     pub(super) kind: NodeKind,
     pub(super) span: Range<usize>,
 }
 
-/// Kinds of nodes. Children are given by their position in the list of nodes.
+/// Kinds of nodes. Children are indices in the list of nodes.
 #[derive(Debug, Clone)]
 pub(super) enum NodeKind {
     Number(f64),
     /// A constant, a variable or the parameter of a function.
     Name(String),
-    /// The index of the enclosing sum at this level, 0 being the outermost.
+    /// The index of an enclosing sum; 0 is the outermost sum.
     Index(usize),
     Negate(usize),
     Unary(Unary, usize),
@@ -52,13 +52,13 @@ impl Expr {
         Self { source: source.to_owned(), nodes }
     }
 
-    /// The text that was parsed.
+    /// The parsed text.
     pub fn source(&self) -> &str {
         &self.source
     }
 
-    /// Every occurrence of a free name and its span, in reading order. Builtin names, called
-    /// functions and the indices of sums are not free names.
+    /// All occurrences of free names with their spans, in reading order. Builtin names, called
+    /// functions and sum indices are not free names.
     pub fn names(&self) -> Vec<(String, Range<usize>)> {
         self.collect(|kind| match kind {
             NodeKind::Name(name) => Some(name),
@@ -66,7 +66,7 @@ impl Expr {
         })
     }
 
-    /// Every call of a user function and the span of its name, in reading order.
+    /// All calls of user functions with the spans of the function names, in reading order.
     pub fn calls(&self) -> Vec<(String, Range<usize>)> {
         self.collect(|kind| match kind {
             NodeKind::Call(name, _) => Some(name),
@@ -102,7 +102,7 @@ impl Expr {
 }
 
 impl Node {
-    /// The span of the name with which this node begins.
+    /// The span of `name` at the start of this node.
     pub(super) fn head(&self, name: &str) -> Range<usize> {
         self.span.start..self.span.start + name.len()
     }

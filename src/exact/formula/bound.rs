@@ -9,8 +9,8 @@ use super::number::Number;
 use super::program::{Instruction, Operand, read, run};
 use super::scope::Scope;
 
-/// Number of registers on the stack, in one of two sizes so that a short formula does not clear
-/// many. A formula with more registers allocates.
+/// Register counts that fit on the stack, in two sizes: short formulas need not clear many
+/// registers. Formulas with more registers allocate.
 const FEW: usize = 8;
 const MANY: usize = 32;
 
@@ -30,8 +30,8 @@ impl Formula {
     /// Resolves the names in `expr`: first as one of the `variables`, then in `scope`.
     ///
     /// # Errors
-    /// When a name is unknown, taken twice or used wrongly, when functions call each other in a
-    /// circle, when the bounds of a sum are not whole constants, or when a limit is exceeded.
+    /// When a name is unknown, duplicate or misused, when functions form a cycle, when the bounds
+    /// of a sum are not constant integers, or when a limit is exceeded.
     pub fn bind(expr: &Expr, scope: &Scope, variables: &[&str]) -> Result<Self, FormulaError> {
         for (position, variable) in variables.iter().enumerate() {
             scope.fresh(variable, 0..variable.len())?;
@@ -53,10 +53,10 @@ impl Formula {
         })
     }
 
-    /// The value at `variables`, in the order given to [`Formula::bind`].
+    /// The value at `variables`, in the order of [`Formula::bind`].
     ///
     /// # Panics
-    /// If the number of variables is not the one that the formula was bound to.
+    /// If the number of variables differs from the number in [`Formula::bind`].
     pub fn eval<T: Number>(&self, variables: &[T]) -> T {
         assert_eq!(variables.len(), self.variables, "variables of `{}`", self.source);
         let zero = T::from(0.0);
@@ -69,7 +69,7 @@ impl Formula {
         }
     }
 
-    /// Number of operations of one evaluation; those in sums count for every term.
+    /// Number of operations per evaluation; those in sums count once per term.
     pub fn operations(&self) -> u64 {
         self.operations
     }
@@ -79,12 +79,13 @@ impl Formula {
         &self.source
     }
 
-    /// The constants and functions of the scope that the formula uses, be it through functions.
+    /// The constants and functions of the scope that the formula uses, directly or through
+    /// functions.
     pub fn uses(&self) -> &BTreeSet<String> {
         &self.uses
     }
 
-    /// The value, if no variable has a part in it.
+    /// The value, if it does not depend on any variable.
     pub fn constant(&self) -> Option<f64> {
         match self.result {
             Operand::Constant(value) => Some(value),
@@ -92,12 +93,12 @@ impl Formula {
         }
     }
 
-    /// How many variables the formula is bound to.
+    /// Number of variables to which the formula is bound.
     pub fn variables(&self) -> usize {
         self.variables
     }
 
-    /// Whether the variable with this number has a part in the value.
+    /// Whether the value depends on the variable with this index.
     pub fn reads(&self, variable: usize) -> bool {
         let variable = Operand::Variable(variable);
         let mut arguments = self.code.iter().flat_map(|step| step.action.arguments());
@@ -108,12 +109,12 @@ impl Formula {
         &self.code
     }
 
-    /// How many registers the code uses.
+    /// Number of registers that the code uses.
     pub(super) fn registers(&self) -> usize {
         self.registers
     }
 
-    /// Location of the value after the code has run.
+    /// Location of the result after the code has run.
     pub(super) fn result(&self) -> Operand {
         self.result
     }

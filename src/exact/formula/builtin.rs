@@ -1,4 +1,4 @@
-//! Functions of two arguments (operators and named functions), and the built-in names of formulas.
+//! Functions of two arguments (operators and named functions), and builtin names of formulas.
 
 use super::number::Number;
 use super::unary::Unary;
@@ -25,7 +25,7 @@ pub enum Binary {
 }
 
 impl Binary {
-    /// The functions that are called by name.
+    /// The functions called by name.
     pub const NAMED: &'static [(&'static str, Self)] =
         &[("atan2", Self::Atan2), ("min", Self::Min), ("max", Self::Max)];
 
@@ -77,14 +77,14 @@ pub(super) fn is_reserved(name: &str) -> bool {
     name == PI || Builtin::find(name).is_some()
 }
 
-/// Every name of the language.
+/// All builtin names of the language.
 pub(super) fn names<'a>() -> impl Iterator<Item = &'a str> {
     let unary = Unary::ALL.iter().map(|(name, _)| *name);
     let binary = Binary::NAMED.iter().map(|(name, _)| *name);
     unary.chain(binary).chain([SUM, PI])
 }
 
-/// `1 argument`, `2 arguments`.
+/// The count as text: `1 argument`, `2 arguments`.
 pub(super) fn arguments(count: usize) -> String {
     format!("{count} argument{}", if count == 1 { "" } else { "s" })
 }

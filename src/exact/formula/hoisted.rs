@@ -1,11 +1,11 @@
-//! Formulas of place and time at many places and many times.
+//! Evaluates formulas of position and time at many positions and times.
 //!
-//! The steps of a program are split by their dependence: on the place, on the time, or on both.
+//! The steps of a program are split by their dependence: on position, on time, or on both.
 //!
-//! Sums are unrolled and registers renamed, so that each step is a node that is computed once
-//! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node depends on the place or
-//! the time if one of its arguments does. Each part of the split keeps the order of its nodes. So
-//! every number is computed by the same operations as without the split, and has the same bits.
+//! Sums are unrolled and registers renamed, so each step is a node that is computed once (static
+//! single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node depends on position or time if one
+//! of its arguments does. Each part of the split keeps the order of its nodes. Every number
+//! therefore results from the same operations as without the split, and is bit-identical.
 
 use super::bound::Formula;
 use super::builtin::Binary;
@@ -13,29 +13,29 @@ use super::number::Number;
 use super::program::{Action, Instruction, Operand, read, run};
 use std::collections::BTreeMap;
 
-/// Formulas of the same variables (coordinates, then time), evaluated at the same places for many
+/// Formulas of the same variables (coordinates, then time), evaluated at fixed positions for many
 /// times.
 ///
-/// Terms of the place only are computed once for each place, terms of the time only once for each
-/// time. The values are bit-identical to those of [`Formula::eval`].
+/// Terms that depend only on position are computed once per position, and terms that depend only on
+/// time once per time. The values are bit-identical to those of [`Formula::eval`].
 #[derive(Debug, Clone)]
 pub struct Hoisted<T> {
     split: Split,
-    /// The variables: the coordinates last added, and the present time.
+    /// The variables: the most recently added coordinates, and the current time.
     variables: Vec<T>,
     registers: Vec<T>,
-    /// Inputs of the remaining steps: values stored for the time, then those of one place.
+    /// Inputs of the remaining steps: values stored for the time, then those for one position.
     inputs: Vec<T>,
-    /// Values stored for each place, place after place.
+    /// Values stored for each position, one position after another.
     kept: Vec<T>,
 }
 
 impl<T: Number> Hoisted<T> {
-    /// Splits formulas of `variables` variables. Their sums are unrolled: see
-    /// [`Formula::operations`] for the resulting length.
+    /// Splits formulas of `variables` variables. Sums are unrolled; [`Formula::operations`] gives
+    /// the resulting length.
     ///
     /// # Panics
-    /// If a formula is bound to another number of variables.
+    /// If a formula has a different number of variables.
     pub fn new(formulas: &[Formula], variables: usize) -> Self {
         assert!(formulas.iter().all(|formula| formula.variables() == variables), "variables");
         let split = Split::new(formulas, variables);
@@ -51,10 +51,10 @@ impl<T: Number> Hoisted<T> {
         }
     }
 
-    /// Adds a place; the first has the number 0.
+    /// Adds a position; the first has index 0.
     ///
     /// # Panics
-    /// If `coordinates` are not all variables except the last.
+    /// If the number of `coordinates` is not the number of variables minus one.
     pub fn add(&mut self, coordinates: &[T]) {
         let last = self.variables.len() - 1;
         self.variables[..last].copy_from_slice(coordinates);
@@ -63,7 +63,7 @@ impl<T: Number> Hoisted<T> {
         self.kept.extend_from_slice(&self.registers[..place.kept]);
     }
 
-    /// Moves on to the time `t`.
+    /// Sets the time to `t`.
     pub fn set_time(&mut self, t: T) {
         let last = self.variables.len() - 1;
         self.variables[last] = t;
@@ -72,10 +72,10 @@ impl<T: Number> Hoisted<T> {
         self.inputs[..time.kept].copy_from_slice(&self.registers[..time.kept]);
     }
 
-    /// The values of the formulas at a place, at the present time. Does not allocate.
+    /// The values of the formulas at a position for the current time. Does not allocate.
     ///
     /// # Panics
-    /// If there is no such place.
+    /// If `place` is out of range.
     pub fn eval(&mut self, place: usize) -> impl Iterator<Item = T> {
         let (fixed, rest) = (self.split.place.kept, &self.split.rest);
         let kept = &self.kept[place * fixed..][..fixed];
@@ -84,53 +84,53 @@ impl<T: Number> Hoisted<T> {
         self.split.results.iter().map(|result| read(*result, &self.inputs, &self.registers))
     }
 
-    /// Number of remaining operations for each evaluation.
+    /// Number of remaining operations per evaluation.
     pub fn operations(&self) -> usize {
         self.split.rest.code.len()
     }
 }
 
-/// Dependence of a node on place and time, as bits: two nodes together depend on the union.
+/// Dependence of a node on position and time, as a bit set.
 type Dependence = usize;
 const NOTHING: Dependence = 0;
 const PLACE: Dependence = 1;
 const TIME: Dependence = 2;
 const BOTH: Dependence = 3;
 
-/// The steps of some formulas. Equal steps, also of two formulas, share one node.
+/// The steps of several formulas. Equal steps, even of different formulas, share one node.
 #[derive(Default)]
 struct Nodes {
     list: Vec<SsaNode>,
-    /// The number of each node by its text, which distinguishes 0 from -0 (`==` does not).
+    /// Node indices by the text of the node, which distinguishes 0 from -0 (`==` does not).
     known: BTreeMap<String, usize>,
 }
 
-/// A step, whose registers are the numbers of nodes.
+/// A step whose registers are node indices.
 struct SsaNode {
     action: Action,
     dependence: Dependence,
 }
 
-/// A program whose first registers contain the values that other programs need.
+/// A program whose first registers contain the values that other programs use.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PartProgram {
     pub(super) code: Vec<Instruction>,
     pub(super) registers: usize,
-    /// Number of these values.
+    /// Number of values that other programs use.
     pub(super) kept: usize,
 }
 
-/// Formulas of the same variables, time being the last of them, in three parts.
+/// Formulas of the same variables, ending with the time, split into three parts.
 #[derive(Debug, Clone)]
 pub(super) struct Split {
-    /// Steps that depend on the place only, over the variables.
+    /// Steps that depend only on position. They use the variables of the formulas.
     pub(super) place: PartProgram,
-    /// Steps that depend at most on the time; its variables include the time.
+    /// Steps that depend at most on time. They use the variables of the formulas.
     pub(super) time: PartProgram,
-    /// The remaining steps. Their variables are the values stored by `time`, followed by those
-    /// stored by `place`.
+    /// The remaining steps. They use the values stored by `time`, followed by those stored by
+    /// `place`.
     pub(super) rest: PartProgram,
-    /// Locations of the values of the formulas after the rest.
+    /// Locations of the formula values after running `rest`.
     pub(super) results: Vec<Operand>,
 }
 
@@ -155,7 +155,7 @@ impl Split {
 }
 
 impl Nodes {
-    /// The node of a step.
+    /// The node for a step; an equal step reuses its node.
     fn push(&mut self, action: Action) -> Operand {
         let next = self.list.len();
         let node = *self.known.entry(format!("{action:?}")).or_insert(next);
@@ -171,9 +171,9 @@ impl Nodes {
     }
 }
 
-/// Appends the steps of a formula, with sums unrolled, and returns the operand of its value.
+/// Appends the steps of a formula with unrolled sums. Returns the operand of the formula value.
 fn unroll(formula: &Formula, nodes: &mut Nodes) -> Operand {
-    // The content of each register: a constant, or the value of a node.
+    // Content of each register: a constant or the value of a node.
     let mut held = vec![Operand::Constant(0.0); formula.registers()];
     let now = |held: &[Operand], operand| match operand {
         Operand::Register(register) => held[register],
@@ -201,7 +201,7 @@ fn unroll(formula: &Formula, nodes: &mut Nodes) -> Operand {
     now(&held, formula.result())
 }
 
-/// Where every node is computed, part by part, and in which register.
+/// The parts and registers in which each node is computed.
 struct Homes {
     dependence: Vec<Dependence>,
     /// For each part, the register of each node that it computes.
@@ -210,7 +210,7 @@ struct Homes {
 }
 
 impl Homes {
-    /// Assigns a home to every node that `results` need, from the results backwards.
+    /// Assigns parts and registers to all nodes that `results` need, backwards from the results.
     fn new(nodes: &[SsaNode], results: &[Operand]) -> Self {
         let mut homes = Self {
             dependence: nodes.iter().map(|node| node.dependence).collect(),
@@ -251,7 +251,7 @@ impl Homes {
         homes
     }
 
-    /// The nodes of one part as a program.
+    /// The program of one part.
     fn part(&self, nodes: &[SsaNode], part: Dependence) -> PartProgram {
         let mut code = Vec::new();
         for (node, register) in nodes.iter().zip(&self.registers[part]) {
@@ -263,7 +263,7 @@ impl Homes {
         PartProgram { registers: code.len(), code, kept: self.kept[part] }
     }
 
-    /// Where the part `reader` finds an argument.
+    /// Location of an operand for the part `reader`.
     fn seen(&self, operand: Operand, reader: Dependence) -> Operand {
         let Operand::Register(node) = operand else { return operand };
         let home = home(self.dependence[node], reader);
@@ -276,8 +276,9 @@ impl Homes {
     }
 }
 
-/// The part that computes the inputs of `reader`. Constants are computed where they are read. For
-/// the rest, which runs most often, they are computed with the part that depends on the time.
+/// The part that computes the inputs of `reader`. Constants are computed in the part that uses
+/// them. Exception: constants of the rest, which runs most often, are computed in the part that
+/// depends on time.
 fn home(dependence: Dependence, reader: Dependence) -> Dependence {
     match (dependence, reader) {
         (NOTHING, BOTH) => TIME,

@@ -1,16 +1,16 @@
-//! Automatic differentiation to second order.
+//! Second-order automatic differentiation.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::number::{Number, whole};
 use super::unary::Unary;
 
-/// A value with its first and second derivatives with respect to `N` variables, for instance the
+/// A value with its first and second derivatives with respect to `N` variables, for example the
 /// coordinates of a point and the time.
 ///
 /// The chain rule is applied exactly, without differences. `max`, `min`, `abs`, `sign`, `step` and
 /// `floor` are differentiated on the selected branch, as if there were no kink or jump. Other
-/// derivatives that do not exist, like that of `sqrt` at 0, are infinite or NaN.
+/// undefined derivatives, such as that of `sqrt` at 0, are infinite or NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jet<const N: usize> {
     value: f64,
@@ -19,7 +19,7 @@ pub struct Jet<const N: usize> {
 }
 
 impl<const N: usize> Jet<N> {
-    /// The variable number `index`, at `value`.
+    /// The variable with this `index` and `value`.
     ///
     /// # Panics
     /// If `index` is not below `N`.
@@ -54,7 +54,7 @@ impl<const N: usize> Jet<N> {
         self.hessian[i][j]
     }
 
-    /// Builds a jet from its value and the formulas of its derivatives; `second` is symmetric.
+    /// Builds a jet from its value and functions for its derivatives; `second` must be symmetric.
     #[inline]
     fn build(
         value: f64,
@@ -72,7 +72,7 @@ impl<const N: usize> Jet<N> {
         jet
     }
 
-    /// The chain rule for a function of one argument with derivatives `f1` and `f2` at `self`.
+    /// Chain rule for a function of one argument, whose derivatives at `self` are `f1` and `f2`.
     #[inline]
     fn chain(&self, value: f64, f1: f64, f2: f64) -> Self {
         let jet = Self::build(
@@ -83,13 +83,13 @@ impl<const N: usize> Jet<N> {
         if f1.is_finite() && f2.is_finite() { jet } else { jet.flattened(|i| self.is_flat(i)) }
     }
 
-    /// Whether the variable `i` has no part in this jet.
+    /// Whether the jet does not depend on variable `i`.
     fn is_flat(&self, i: usize) -> bool {
         self.gradient[i] == 0.0 && self.hessian[i].iter().all(|&second| second == 0.0)
     }
 
-    /// Clears the derivatives with respect to variables on which the argument does not depend. An
-    /// infinite derivative of the function, times 0, would make them NaN.
+    /// Clears the derivatives with respect to variables on which the argument does not depend.
+    /// Otherwise an infinite derivative of the function, multiplied by 0, would make them NaN.
     fn flattened(&self, flat: impl Fn(usize) -> bool) -> Self {
         Self::build(
             self.value,
@@ -142,7 +142,7 @@ impl<const N: usize> Sub for Jet<N> {
     }
 }
 
-// The rules of differentiation mix the operators.
+// Differentiation rules use several operators.
 #[allow(clippy::suspicious_arithmetic_impl)]
 impl<const N: usize> Mul for Jet<N> {
     type Output = Self;
@@ -160,13 +160,14 @@ impl<const N: usize> Mul for Jet<N> {
     }
 }
 
-// The rules of differentiation mix the operators.
+// Differentiation rules use several operators.
 #[allow(clippy::suspicious_arithmetic_impl)]
 impl<const N: usize> Div for Jet<N> {
     type Output = Self;
 
-    /// The quotient q satisfies q*b = a, which is differentiated and solved for q' and q''. Far
-    /// from a pulse such as `1/cosh(x)^2` the quotient is constant, see `is_overflow`.
+    /// The quotient q satisfies q*b = a. This equation is differentiated and solved for q' and q''.
+    /// Far from a pulse such as `1/cosh(x)^2`, the quotient is treated as constant, see
+    /// `is_overflow`.
     #[inline]
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
@@ -202,7 +203,7 @@ impl<const N: usize> Number for Jet<N> {
     }
 
     fn atan2(self, x: Self) -> Self {
-        // The derivatives are those of atan(y/x), or of -atan(x/y) if this is numerically safer.
+        // The derivatives are those of atan(y/x), or of -atan(x/y) if that is numerically safer.
         let quotient = if libm::fabs(x.value) >= libm::fabs(self.value) {
             (self / x).unary(Unary::Atan)
         } else {
@@ -218,7 +219,8 @@ impl<const N: usize> Number for Jet<N> {
         if exponent < 0 && value.abs() < TINY {
             return Self::from(value);
         }
-        // x^0 and x^1 have vanishing derivatives, where the general rule gives 0 * infinity at 0.
+        // The derivatives of x^0 and x^1 that vanish are set to 0. The general rule would give 0 *
+        // infinity at x = 0.
         let first = if exponent == 0 { 0.0 } else { n * power(self.value, n - 1.0) };
         let second = match exponent {
             0 | 1 => 0.0,
@@ -236,23 +238,23 @@ impl<const N: usize> Number for Jet<N> {
             let first = b * power(a, b - 1.0);
             return self.chain(power(a, b), first, b * (b - 1.0) * power(a, b - 2.0));
         }
-        // a^b = exp(b*ln(a)), and every derivative of the exponential is its value.
+        // a^b = exp(b*ln(a)); every derivative of the exponential equals its value.
         let value = power(a, b);
         (exponent * self.unary(Unary::Ln)).chain(value, value, value)
     }
 }
 
-/// Magnitude below which a quotient counts as constant if its derivatives could overflow.
+/// Quotients below this magnitude count as constant if their derivatives could overflow.
 pub(super) const TINY: f64 = 1e-140;
 
-/// Whether the derivatives of a quotient with such a denominator would be quotients of infinities.
-/// The quotient itself is too small then for its derivatives to matter.
+/// Whether the derivatives of a quotient with this denominator would be quotients of infinities.
+/// Such a quotient is so small that its derivatives do not matter.
 #[inline]
 pub(super) fn is_overflow(denominator: f64, quotient: f64) -> bool {
     denominator.abs() > 1.0 / TINY && quotient.abs() < TINY
 }
 
-/// The power over `f64`, so that the value of a jet has the bits of the plain evaluation.
+/// The power over `f64`. The value of a jet is therefore bit-identical to a plain evaluation.
 fn power(base: f64, exponent: f64) -> f64 {
     Number::pow(base, exponent)
 }

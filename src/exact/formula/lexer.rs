@@ -1,4 +1,4 @@
-//! Lexemes of a formula, and errors in formulas with their place.
+//! Tokens of a formula, and formula errors with their positions.
 
 use std::ops::Range;
 use thiserror::Error;
@@ -18,14 +18,14 @@ pub(super) enum Token<'a> {
     End,
 }
 
-/// A token and its place in the source.
+/// A token and its position in the source.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Lexeme<'a> {
     pub(super) token: Token<'a>,
     pub(super) span: Range<usize>,
 }
 
-/// All tokens of `source`, closed by one [`Token::End`].
+/// All tokens of `source`, terminated by [`Token::End`].
 pub(super) fn tokens(source: &str) -> Result<Vec<Lexeme<'_>>, FormulaError> {
     if source.len() > MAX_BYTES {
         let message = format!("the formula is longer than {MAX_BYTES} bytes");
@@ -47,7 +47,7 @@ pub(super) fn tokens(source: &str) -> Result<Vec<Lexeme<'_>>, FormulaError> {
     }
 }
 
-/// Whether `name` has the form of a name: a letter or `_`, then letters, digits and `_`.
+/// Whether `name` is a valid name: a letter or `_`, then letters, digits and `_`.
 pub(super) fn is_name(name: &str) -> bool {
     name.bytes().next().is_some_and(starts_name) && name.bytes().all(continues_name)
 }
@@ -60,7 +60,8 @@ fn continues_name(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
-/// A position in the source. It moves over ASCII alone and so never rests inside a character.
+/// A position in the source. It advances only over ASCII, and therefore stays on character
+/// boundaries.
 struct Lexer<'a> {
     source: &'a str,
     at: usize,
@@ -91,7 +92,7 @@ impl<'a> Lexer<'a> {
         self.peek(ahead).is_some_and(|byte| byte.is_ascii_digit())
     }
 
-    /// Skips the bytes that satisfy `accept`, and returns their number.
+    /// Skips bytes while `accept` returns true. Returns their number.
     fn skip(&mut self, accept: impl Fn(u8) -> bool) -> usize {
         let start = self.at;
         while self.peek(0).is_some_and(&accept) {
@@ -132,7 +133,7 @@ impl<'a> Lexer<'a> {
         Ok(())
     }
 
-    /// Takes `e` or `E` for an exponent only if digits follow, since `E` is also a common name.
+    /// Treats `e` or `E` as an exponent only if digits follow, because `E` is also a common name.
     fn exponent(&mut self) {
         let sign = usize::from(matches!(self.peek(1), Some(b'+' | b'-')));
         if matches!(self.peek(0), Some(b'e' | b'E')) && self.digit(1 + sign) {
@@ -141,7 +142,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// Refuses `2E` and `1.2.3`: a number must not be followed by a character of a number.
+    /// Refuses `2E` and `1.2.3`: no letter, digit or point may follow a number.
     fn refuse_tail(&mut self, start: usize, number: &str) -> Result<(), FormulaError> {
         let name = self.name();
         if !name.is_empty() {
@@ -177,30 +178,31 @@ impl<'a> Lexer<'a> {
     }
 }
 
-/// A formula that cannot be read or bound.
+/// An error in parsing or binding a formula.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{message}")]
 pub struct FormulaError {
-    /// The fault, in one line.
+    /// The error in one line.
     pub message: String,
-    /// The bytes at fault. They count in the source of the formula, or in the body of the function
-    /// named by `within`; for a declared name that is refused, in that name itself.
+    /// Byte range of the error: in the formula, or in the body of the function `within`. For a
+    /// refused declaration, the range is in the declared name.
     pub span: Range<usize>,
-    /// A correction, where one is known.
+    /// A correction, if known.
     pub help: Option<String>,
-    /// The user function in whose body the fault lies, if it is not in the formula itself.
+    /// The user function whose body contains the error; `None` if the error is in the formula
+    /// itself.
     pub within: Option<String>,
-    /// The name that is declared nowhere, if that is the fault.
+    /// The undeclared name, if that is the error.
     pub unknown: Option<String>,
 }
 
 impl FormulaError {
-    /// An error without help, in the formula itself.
+    /// An error without help in the formula itself.
     pub(super) fn new(span: Range<usize>, message: impl Into<String>) -> Self {
         Self { message: message.into(), span, help: None, within: None, unknown: None }
     }
 
-    /// An unknown name.
+    /// An error about an unknown name.
     pub(super) fn unknown(span: Range<usize>, name: &str) -> Self {
         let message = format!("unknown name `{name}`");
         Self { unknown: Some(name.to_owned()), ..Self::new(span, message) }
@@ -212,7 +214,7 @@ impl FormulaError {
         self
     }
 
-    /// Marks the span as one in the body of `function`. The innermost function is kept.
+    /// Marks the error as one in the body of `function`. An inner function takes precedence.
     pub(super) fn within(mut self, function: &str) -> Self {
         self.within.get_or_insert_with(|| function.to_owned());
         self

@@ -1,14 +1,14 @@
 //! The formula language of suites.
 //!
-//! A suite writes its numbers and its exact solutions as formulas: `pi/(2*L)*sqrt(E/rho)`,
-//! `v0/omega*sin(pi*X/(2*L))*sin(omega*t)`. A formula passes three stages:
+//! Suites state numbers and exact solutions as formulas: `pi/(2*L)*sqrt(E/rho)`,
+//! `v0/omega*sin(pi*X/(2*L))*sin(omega*t)`. A formula is processed in three stages:
 //!
 //! 1. [`Expr::parse`] turns text into a syntax tree, without resolving names.
 //! 2. [`Formula::bind`] resolves every name in a [`Scope`] and a list of variables, inlines user
 //!    functions, folds constants and returns a flat program.
-//! 3. [`Formula::eval`] runs the program over any [`Number`]: `f64`, or a [`Jet`] that carries
-//!    first and second derivatives along. [`NumberBatch`] evaluates several places at once, and
-//!    [`Hoisted`] many places and times at lower cost.
+//! 3. [`Formula::eval`] runs the program over any [`Number`]: `f64`, or a [`Jet`] with first and
+//!    second derivatives. [`NumberBatch`] evaluates several positions at once, and [`Hoisted`] many
+//!    positions and times at lower cost.
 //!
 //! # Language
 //!
@@ -17,19 +17,19 @@
 //! - `+ - * / ^` and parentheses. `^` associates to the right and binds tighter than the unary
 //!   minus: `-2^2` is -4. There is no implicit multiplication.
 //! - The functions of [`Unary`] and [`Binary`], and `sum(n, from, to, body)`, whose bounds are
-//!   whole numbers known when the formula is bound.
+//!   integers that are known when the formula is bound.
 //! - User functions, declared with [`Scope::function`] in any order. They may use constants, other
 //!   functions and their own parameters, but not the variables of the calling formula.
 //!
 //! # Reproducibility
 //!
-//! Transcendental functions come from `libm`, so that a formula has the same bits on every
-//! platform. The value of a [`Jet`] has the same bits as the evaluation over `f64`.
+//! Transcendental functions come from `libm`, so formulas are bit-identical on all platforms. The
+//! value of a [`Jet`] is bit-identical to the evaluation over `f64`.
 //!
 //! # Hostile input
 //!
-//! Length, number of tokens, depth, size after inlining and number of operations are all limited; a
-//! formula beyond a limit is a [`FormulaError`], and never causes a stack overflow or an endless
+//! Length, number of tokens, depth, size after inlining and number of operations are limited.
+//! Formulas beyond a limit give a [`FormulaError`] and never cause a stack overflow or an endless
 //! loop.
 //!
 //! ```

@@ -1,4 +1,4 @@
-//! Numbers over which formulas are evaluated, one at a time or several side by side.
+//! Number types over which formulas are evaluated: single numbers and batches.
 
 use super::unary::Unary;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -16,11 +16,11 @@ macro_rules! elementary {
     };
 }
 
-/// A number that a formula can be evaluated over.
+/// A number type over which formulas can be evaluated.
 ///
-/// `f64` has inherent methods with these names, which call the mathematical library of the platform
-/// and take precedence over those of this trait. Call them in code generic over `Number`, or as
-/// `Number::sin(x)`, if results must be bit-identical everywhere.
+/// `f64` has inherent methods with these names, which take precedence and call the platform's
+/// mathematical library. For bit-identical results on all platforms, call the trait methods in code
+/// generic over `Number`, or as `Number::sin(x)`.
 pub trait Number:
     Copy
     + PartialEq
@@ -34,7 +34,7 @@ pub trait Number:
     /// The value, without derivatives.
     fn value(&self) -> f64;
 
-    /// A function of one argument.
+    /// Applies a function of one argument.
     #[must_use]
     fn unary(self, function: Unary) -> Self;
 
@@ -42,24 +42,24 @@ pub trait Number:
     #[must_use]
     fn atan2(self, x: Self) -> Self;
 
-    /// A whole power, by repeated multiplication: right for a negative or vanishing base too.
+    /// An integer power by repeated multiplication, also valid for a negative or zero base.
     #[must_use]
     fn powi(self, exponent: i32) -> Self;
 
-    /// A power. Where the exponent is a whole number without derivatives, it is [`powi`].
+    /// A power. For an integer exponent without derivatives, this is [`powi`].
     ///
     /// [`powi`]: Number::powi
     #[must_use]
     fn pow(self, exponent: Self) -> Self;
 
-    /// The smaller of the two, `self` if they are equal, NaN if one is.
+    /// The smaller number; `self` if both are equal, NaN if either is NaN.
     #[inline]
     #[must_use]
     fn min(self, other: Self) -> Self {
         if self.value() <= other.value() || self.value().is_nan() { self } else { other }
     }
 
-    /// The larger of the two, `self` if they are equal, NaN if one is.
+    /// The larger number; `self` if both are equal, NaN if either is NaN.
     #[inline]
     #[must_use]
     fn max(self, other: Self) -> Self {
@@ -120,14 +120,14 @@ impl Number for f64 {
     }
 }
 
-/// `exponent` as an integer, if it is one.
+/// `exponent` as an integer, if it is an integer.
 #[inline]
 pub(super) fn whole(exponent: f64) -> Option<i32> {
     let fits = exponent % 1.0 == 0.0 && libm::fabs(exponent) <= f64::from(i32::MAX);
     fits.then_some(exponent as i32)
 }
 
-/// `base` to a power by repeated squaring; anything to the power 0 is 1.
+/// An integer power of `base` by repeated squaring; any base to the power 0 is 1.
 #[inline]
 fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     let mut power = 1.0;
@@ -143,13 +143,13 @@ fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     }
 }
 
-/// Numbers per batch: enough that decoding an instruction costs little compared with its
+/// Numbers per batch. With this many, decoding an instruction costs little compared with its
 /// operations.
 const MANY: usize = 8;
 
-/// The values of one formula at some places and times. An evaluation decodes each instruction once
-/// for the batch, and the compiler vectorises sums and products. Each number has the bits of an
-/// evaluation in `f64`.
+/// The values of one formula at several positions and times. An evaluation decodes each instruction
+/// once per batch, and the compiler vectorises sums and products. Each number is bit-identical to
+/// an evaluation in `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NumberBatch([f64; MANY]);
 
@@ -157,7 +157,7 @@ impl NumberBatch {
     /// Numbers per batch.
     pub const LEN: usize = MANY;
 
-    /// Takes the number of each lane from `number`.
+    /// Creates a batch; `number` returns the number of each lane.
     #[inline]
     pub fn new(number: impl FnMut(usize) -> f64) -> Self {
         Self(std::array::from_fn(number))
@@ -231,7 +231,7 @@ impl Div for NumberBatch {
 }
 
 impl Number for NumberBatch {
-    /// The value of the first lane. Formulas only branch on the index of a sum, which is equal in
+    /// The value of the first lane. Formulas branch only on the index of a sum, which is equal in
     /// all lanes.
     #[inline]
     fn value(&self) -> f64 {

@@ -1,4 +1,4 @@
-//! Parser from tokens to a syntax tree, by operator precedence (Pratt).
+//! Operator-precedence parser (Pratt) from tokens to a syntax tree.
 
 use super::ast::{Expr, Node, NodeKind, Sum};
 use super::builtin;
@@ -12,16 +12,16 @@ const MAX_DEPTH: usize = 128;
 const MINUS: u8 = 5;
 
 impl Expr {
-    /// Reads a formula.
+    /// Parses a formula.
     ///
     /// # Errors
-    /// When `source` is not a formula of the language, or exceeds its limits.
+    /// When `source` is not a valid formula, or exceeds a limit.
     pub fn parse(source: &str) -> Result<Self, FormulaError> {
         Ok(Self::new(source, parse(source)?))
     }
 }
 
-/// The nodes of the formula `source`, its root last.
+/// The nodes of the formula `source`; the root is last.
 fn parse(source: &str) -> Result<Vec<Node>, FormulaError> {
     let lexemes = tokens(source)?;
     let mut parser =
@@ -33,7 +33,7 @@ fn parse(source: &str) -> Result<Vec<Node>, FormulaError> {
     }
 }
 
-/// An operator with its left and its right binding power.
+/// An operator with its left and right binding power.
 fn operator(token: Token) -> Option<(Binary, u8, u8)> {
     match token {
         Token::Symbol('+') => Some((Binary::Add, 1, 2)),
@@ -50,7 +50,7 @@ struct Parser<'a> {
     lexemes: Vec<Lexeme<'a>>,
     at: usize,
     nodes: Vec<Node>,
-    /// Indices of the sums whose bodies enclose the present position.
+    /// Indices of the sums whose bodies enclose the current position.
     indices: Vec<&'a str>,
     depth: usize,
 }
@@ -123,7 +123,7 @@ impl<'a> Parser<'a> {
         self.lexemes[self.at].span.clone()
     }
 
-    /// From `start` to the end of the last token taken.
+    /// Byte range from `start` to the end of the last consumed token.
     fn since(&self, start: usize) -> Range<usize> {
         start..self.lexemes[self.at - 1].span.end
     }
@@ -136,7 +136,7 @@ impl<'a> Parser<'a> {
         FormulaError::new(self.span(), format!("expected {what}, found {found}"))
     }
 
-    /// The error where a value should begin.
+    /// The error for a missing operand.
     fn missing_operand(&self) -> FormulaError {
         let error = self.expected("a value");
         let before = self.at.checked_sub(1).map(|at| self.lexemes[at].token);
@@ -157,7 +157,7 @@ impl<'a> Parser<'a> {
         are_numbers.then(|| Some(format!("{}.{}", text(before)?, text(after)?)))?
     }
 
-    /// The error where an operand has ended: if another one follows, a `*` may be missing.
+    /// The error for a missing operator. If another operand follows, a `*` may be missing.
     fn missing_operator(&self, expected: &str) -> FormulaError {
         let error = self.expected(expected);
         match self.peek() {
@@ -176,7 +176,7 @@ impl<'a> Parser<'a> {
 const SUM_FORM: &str = "the form is `sum(index, from, to, body)`";
 
 impl<'a> Parser<'a> {
-    /// A term that begins with a name: a call if a parenthesis follows, a value otherwise.
+    /// A term that begins with a name: a call if a parenthesis follows, otherwise a value.
     pub(self) fn named(
         &mut self,
         name: &'a str,
@@ -206,7 +206,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// A name of a value, which cannot be called.
+    /// A name that has a value and cannot be called.
     fn plain(
         &mut self,
         kind: NodeKind,
@@ -245,7 +245,7 @@ impl<'a> Parser<'a> {
         Err(FormulaError::new(self.since(span.start), message))
     }
 
-    /// The arguments of a call, up to and including the closing parenthesis.
+    /// The arguments of a call, including the closing parenthesis.
     fn arguments(&mut self) -> Result<Vec<usize>, FormulaError> {
         let mut arguments = Vec::new();
         if self.peek() == Token::Symbol(')') {

@@ -1,13 +1,13 @@
-//! A bound formula as a list of instructions, and their interpreter.
+//! Instructions of a bound formula, and their interpreter.
 //!
-//! There is no recursion: sums are loops, and user functions are inlined. So the stack does not
-//! grow with the depth of a formula.
+//! Sums are loops and user functions are inlined, so there is no recursion. The stack does not grow
+//! with the depth of a formula.
 
 use super::builtin::Binary;
 use super::number::Number;
 use super::unary::Unary;
 
-/// Location of an argument of an instruction.
+/// Location of an instruction's argument.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Operand {
     Constant(f64),
@@ -15,7 +15,7 @@ pub(super) enum Operand {
     Register(usize),
 }
 
-/// One step, whose result goes to the register `to`.
+/// One step; its result goes to register `to`.
 #[derive(Debug, Clone)]
 pub(super) struct Instruction {
     pub(super) action: Action,
@@ -32,8 +32,8 @@ pub(super) enum Action {
     Next(Loop),
 }
 
-/// The end of the body of a sum: adds the term to the register `to`. The next register has the
-/// index; unless it is the last, it is incremented and the program jumps to the instruction `body`.
+/// The end of a sum's body: adds the term to register `to`. The next register contains the index.
+/// Unless the index is the last one, it is incremented and the program jumps to instruction `body`.
 #[derive(Debug, Clone)]
 pub(super) struct Loop {
     pub(super) term: Operand,
@@ -42,7 +42,7 @@ pub(super) struct Loop {
 }
 
 impl Action {
-    /// The arguments.
+    /// The arguments of the action.
     pub(super) fn arguments(&self) -> impl Iterator<Item = Operand> {
         let (first, second) = match self {
             Self::Copy(a) | Self::Negate(a) | Self::Unary(_, a) | Self::Powi(a, _) => (*a, None),
@@ -52,7 +52,7 @@ impl Action {
         std::iter::once(first).chain(second)
     }
 
-    /// This action, with each argument replaced by `to(argument)`.
+    /// The action with each argument replaced by `to(argument)`.
     pub(super) fn map(&self, to: impl Fn(Operand) -> Operand) -> Self {
         match self {
             Self::Copy(a) => Self::Copy(to(*a)),
@@ -65,14 +65,14 @@ impl Action {
     }
 }
 
-/// Runs the instructions of `code` from `start` to the end.
+/// Runs the instructions of `code`, starting at `start`.
 pub(super) fn run<T: Number>(
     code: &[Instruction],
     start: usize,
     variables: &[T],
     registers: &mut [T],
 ) {
-    // A reference to an operand: copying a jet takes longer than many actions.
+    // Operands are accessed by reference, because copying a jet takes longer than many actions.
     macro_rules! operand {
         ($operand:expr, $constant:ident) => {
             match *$operand {

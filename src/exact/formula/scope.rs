@@ -1,4 +1,4 @@
-//! The names that a suite declares.
+//! Names that a suite declares.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -7,15 +7,15 @@ use super::ast::Expr;
 use super::builtin::is_reserved;
 use super::lexer::{FormulaError, is_name};
 
-/// The constants and the functions that formulas may use.
+/// The constants and functions that formulas may use.
 #[derive(Debug, Clone, Default)]
 pub struct Scope {
     constants: BTreeMap<String, f64>,
     functions: BTreeMap<String, Function>,
     tables: BTreeMap<String, Tabulated>,
-    /// Expressions of the free name and of constants that names stand for.
+    /// Names defined as expressions of constants and the free variable.
     definitions: BTreeMap<String, Expr>,
-    /// A variable of formulas that functions and definitions see as well.
+    /// The free variable of formulas, which functions and definitions may use as well.
     free: Option<String>,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct Function {
     pub(super) body: Expr,
 }
 
-/// Expression of a table, and the name of its argument.
+/// The expression of a table, and the name of its argument.
 #[derive(Debug, Clone)]
 pub(super) struct Tabulated {
     pub(super) by: String,
@@ -39,10 +39,10 @@ impl Scope {
         Self::default()
     }
 
-    /// Declares a constant, that is, a parameter of the suite.
+    /// Declares a constant, which is a parameter of the suite.
     ///
     /// # Errors
-    /// When `name` is not a name or is taken, or when `value` is not finite.
+    /// When `name` is invalid or taken, or when `value` is not finite.
     pub fn constant(&mut self, name: &str, value: f64) -> Result<(), FormulaError> {
         self.admit(name)?;
         if !value.is_finite() {
@@ -53,11 +53,11 @@ impl Scope {
         Ok(())
     }
 
-    /// Lets `name` be a variable that functions and definitions see as well. Each formula is then
-    /// bound to it as one of its variables.
+    /// Declares `name` as the free variable, which functions and definitions may use as well.
+    /// Formulas are then bound with `name` among their variables.
     ///
     /// # Errors
-    /// When `name` is not a name or is taken.
+    /// When `name` is invalid or taken.
     pub fn free(&mut self, name: &str) -> Result<(), FormulaError> {
         self.admit(name)?;
         self.free = Some(name.to_owned());
@@ -68,14 +68,14 @@ impl Scope {
     /// variable.
     ///
     /// # Errors
-    /// When `name` is not a name or is taken.
+    /// When `name` is invalid or taken.
     pub fn definition(&mut self, name: &str, body: Expr) -> Result<(), FormulaError> {
         self.admit(name)?;
         self.definitions.insert(name.to_owned(), body);
         Ok(())
     }
 
-    /// This scope with another value for a constant that it declares.
+    /// This scope with a new value for a declared constant.
     #[must_use]
     pub fn with(&self, name: &str, value: f64) -> Self {
         let mut scope = self.clone();
@@ -85,12 +85,12 @@ impl Scope {
         scope
     }
 
-    /// Declares a function. Its body is resolved when a formula that uses it is bound, so that
-    /// functions may be declared in any order.
+    /// Declares a function. Functions may be declared in any order, because a body is resolved only
+    /// when a formula that uses it is bound.
     ///
     /// # Errors
-    /// When `name` or a parameter is not a name or is taken, or when a sum in the body has a
-    /// parameter for its index.
+    /// When `name` or a parameter is invalid or taken, or when the index of a sum in the body is a
+    /// parameter.
     pub fn function(
         &mut self,
         name: &str,
@@ -114,12 +114,12 @@ impl Scope {
         Ok(())
     }
 
-    /// Declares a table: `name` is a piecewise linear function of `by`, a constant or a variable,
-    /// through `rows` of ascending values of `by` and the value there, constant before the first
-    /// and after the last row.
+    /// Declares a table: `name` is a piecewise linear function of `by`, which is a constant or a
+    /// variable. Each of `rows` has a value of `by` in ascending order and the function value. The
+    /// function is constant before the first and after the last row.
     ///
     /// # Errors
-    /// When `name` or `by` is not a name, or when `name` is taken.
+    /// When `name` or `by` is invalid, or when `name` is taken.
     pub fn table(&mut self, name: &str, by: &str, rows: &[(f64, f64)]) -> Result<(), FormulaError> {
         self.admit(name)?;
         Self::named(by)?;
@@ -128,10 +128,11 @@ impl Scope {
         Ok(())
     }
 
-    /// Refuses a `name` that does not have the form of one.
+    /// Refuses an invalid `name`.
     ///
     /// # Errors
-    /// When it is not made of ASCII letters, digits and `_`, or begins with a digit.
+    /// When `name` contains characters other than ASCII letters, digits and `_`, or begins with a
+    /// digit.
     pub fn named(name: &str) -> Result<(), FormulaError> {
         if is_name(name) {
             return Ok(());
@@ -140,17 +141,17 @@ impl Scope {
             .help("a name is made of ASCII letters, digits and `_`, no digit first"))
     }
 
-    /// The tables declared, in alphabetical order.
+    /// The declared tables, in alphabetical order.
     pub fn tables(&self) -> impl Iterator<Item = &str> {
         self.tables.keys().map(String::as_str)
     }
 
-    /// The constants declared, in alphabetical order.
+    /// The declared constants, in alphabetical order.
     pub fn constants(&self) -> impl Iterator<Item = (&str, f64)> {
         self.constants.iter().map(|(name, value)| (name.as_str(), *value))
     }
 
-    /// The names of the functions declared, in alphabetical order.
+    /// The names of the declared functions, in alphabetical order.
     pub fn functions(&self) -> impl Iterator<Item = &str> {
         self.functions.keys().map(String::as_str)
     }
@@ -175,7 +176,7 @@ impl Scope {
         self.functions.get_key_value(name).map(|(name, function)| (name.as_str(), function))
     }
 
-    /// Refuses a `name`, found at `span`, that is not a name or has a meaning already.
+    /// Refuses the `name` at `span` if it is invalid or already has a meaning.
     pub(super) fn fresh(&self, name: &str, span: Range<usize>) -> Result<(), FormulaError> {
         let refuse = |role| Err(FormulaError::new(span, format!("`{name}` is already {role}")));
         Self::named(name)?;
@@ -197,7 +198,7 @@ impl Scope {
         Ok(())
     }
 
-    /// Refuses the `name` of a declaration that has a meaning already, or a parameter's name.
+    /// Refuses to declare `name` if it already has a meaning or is the name of a parameter.
     fn admit(&self, name: &str) -> Result<(), FormulaError> {
         self.fresh(name, 0..name.len())?;
         let taken = |function: &Function| function.parameters.iter().any(|known| known == name);
@@ -212,7 +213,7 @@ impl Scope {
     }
 }
 
-/// The expression of a table: its first value, and the rise over each of its intervals.
+/// The expression of a table: its first value plus the rise over each interval.
 fn interpolation(by: &str, rows: &[(f64, f64)]) -> Result<Expr, FormulaError> {
     let rise = |pair: &[(f64, f64)]| {
         let ((from, low), (to, high)) = (pair[0], pair[1]);
@@ -237,7 +238,7 @@ mod tests {
         scope.definition("w", Expr::parse("sqrt(E/rho)")?)?;
         let formula = Formula::bind(&Expr::parse("s(t)*E")?, &scope, &["t", "E"])?;
         let value = formula.eval(&[Jet::<2>::variable(3.0, 0), Jet::variable(8.0, 1)]);
-        // t E sqrt(E/2): the derivative with respect to E is 3/2 t sqrt(E/2).
+        // The function is t E sqrt(E/2), whose derivative with respect to E is 3/2 t sqrt(E/2).
         assert!((value.value() - 48.0).abs() < 1e-12);
         assert!((value.d(1) - 9.0).abs() < 1e-12 && (value.dd(0, 1) - 3.0).abs() < 1e-12);
         assert!(

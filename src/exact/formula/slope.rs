@@ -1,4 +1,4 @@
-//! Automatic differentiation to first order.
+//! First-order automatic differentiation.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -9,9 +9,9 @@ use super::unary::Unary;
 /// A value with its first derivatives along `N` directions: a [`Jet`](super::Jet) without second
 /// derivatives, at a third of the cost.
 ///
-/// Its bits are those of the jet, with one exception: where the derivative of a function is
-/// infinite, a slope that is zero everywhere cannot be distinguished from one that vanishes at this
-/// point, and the derivative is NaN.
+/// Results are bit-identical to a jet's, with one exception. If the derivative of a function is
+/// infinite, a slope that is zero everywhere cannot be distinguished from one that vanishes only at
+/// this point. The derivative is then NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slope<const N: usize> {
     value: f64,
@@ -25,7 +25,7 @@ impl<const N: usize> Slope<N> {
         Self { value, gradient }
     }
 
-    /// The variable with the number `index`, at `value`.
+    /// The variable with this `index` and `value`.
     ///
     /// # Panics
     /// If `index` is not below `N`.
@@ -95,7 +95,7 @@ impl<const N: usize> Sub for Slope<N> {
     }
 }
 
-// The rules of differentiation mix the operators.
+// Differentiation rules use several operators.
 #[allow(clippy::suspicious_arithmetic_impl)]
 impl<const N: usize> Mul for Slope<N> {
     type Output = Self;
@@ -107,7 +107,7 @@ impl<const N: usize> Mul for Slope<N> {
     }
 }
 
-// The rules of differentiation mix the operators.
+// Differentiation rules use several operators.
 #[allow(clippy::suspicious_arithmetic_impl)]
 impl<const N: usize> Div for Slope<N> {
     type Output = Self;
@@ -136,7 +136,7 @@ impl<const N: usize> Number for Slope<N> {
     }
 
     fn atan2(self, x: Self) -> Self {
-        // The derivatives are those of atan(y/x), or of -atan(x/y) if this is numerically safer.
+        // The derivatives are those of atan(y/x), or of -atan(x/y) if that is numerically safer.
         let quotient = if libm::fabs(x.value) >= libm::fabs(self.value) {
             (self / x).unary(Unary::Atan)
         } else {
@@ -164,7 +164,7 @@ impl<const N: usize> Number for Slope<N> {
             }
             return self.chain(Number::pow(a, b), b * Number::pow(a, b - 1.0));
         }
-        // a^b = exp(b*ln(a)), and the derivative of the exponential is its value.
+        // a^b = exp(b*ln(a)); the derivative of the exponential equals its value.
         let value = Number::pow(a, b);
         (exponent * self.unary(Unary::Ln)).chain(value, value)
     }

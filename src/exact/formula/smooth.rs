@@ -1,4 +1,4 @@
-//! Formulas that have no kink.
+//! Detects formulas without kinks.
 
 use super::bound::Formula;
 use super::builtin::Binary;
@@ -6,12 +6,12 @@ use super::program::{Action, Operand};
 use super::unary::Unary;
 
 impl Formula {
-    /// Whether the value is an analytic function of all real variables, for which neither a kink
-    /// nor a jump exists: a composition of functions that are.
+    /// Whether the value is an analytic function of all real variables, so that kinks and jumps are
+    /// impossible. This holds for compositions of analytic functions.
     ///
-    /// A quotient counts as smooth only if it divides by a constant: `tanh(1/x)` jumps, and so do
-    /// other functions of a pole. For the same reason `exp(ln(x^2)/2)`, which is `abs(x)`, does not
-    /// count as smooth.
+    /// A quotient counts as smooth only if its divisor is constant, because `tanh(1/x)` and other
+    /// functions of a pole jump. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`, does not count as
+    /// smooth.
     pub fn is_smooth(&self) -> bool {
         let varying = self.varying();
         let varies = |operand: &Operand| varies(*operand, &varying);
@@ -27,10 +27,10 @@ impl Formula {
         })
     }
 
-    /// The registers that depend on a variable, at some step.
+    /// The registers that depend on a variable at some step.
     fn varying(&self) -> Vec<bool> {
         let mut varying = vec![false; self.registers()];
-        // A sum reads in its next iteration what it wrote in the previous one.
+        // A sum reads values that its previous iteration wrote, so the search is repeated.
         loop {
             let before = varying.clone();
             for step in self.code() {
@@ -44,7 +44,7 @@ impl Formula {
     }
 }
 
-/// Whether an operand depends on a variable, where the `varying` registers do.
+/// Whether an operand depends on a variable, given the `varying` registers.
 fn varies(operand: Operand, varying: &[bool]) -> bool {
     match operand {
         Operand::Constant(_) => false,

@@ -2,7 +2,7 @@
 
 use libm::{cos, cosh, exp, fabs, hypot, log1p, sin, sinh, sqrt};
 
-/// Builds [`Unary`] and its tables. In a line, `x` is the argument and `f` the value at `x`.
+/// Builds [`Unary`] and its tables. In each line, `x` is the argument and `f` the value at `x`.
 macro_rules! functions {
     ($x:ident, $f:ident; $($doc:literal $name:ident $variant:ident = $value:expr,
         $first:expr, $second:expr;)*) => {
@@ -13,7 +13,7 @@ macro_rules! functions {
         }
 
         impl Unary {
-            /// Every function under its name in formulas.
+            /// All functions with their names in formulas.
             pub const ALL: &'static [(&'static str, Self)] =
                 &[$((stringify!($name), Self::$variant),)*];
 
@@ -24,7 +24,7 @@ macro_rules! functions {
                 }
             }
 
-            /// First and second derivative at `x`, where `f` is the value at `x`.
+            /// First and second derivative at `x`; `f` is the value at `x`.
             pub fn derivatives(self, $x: f64, $f: f64) -> (f64, f64) {
                 match self {
                     $(Self::$variant => ($first, $second),)*
@@ -92,7 +92,7 @@ fn cube(x: f64) -> f64 {
     x * x * x
 }
 
-/// sqrt(1 - x^2), accurate near 1 and -1 too.
+/// sqrt(1 - x^2), also accurate near 1 and -1.
 fn root(x: f64) -> f64 {
     sqrt((1.0 - x) * (1.0 + x))
 }
@@ -102,17 +102,17 @@ fn bessel_j1_curvature(x: f64, j1: f64) -> f64 {
     if x == 0.0 { 0.0 } else { libm::jn(2, x) / x - j1 }
 }
 
-/// The derivative of W where its value is `w`.
+/// The derivative of W, from its value `w`.
 fn lambert_slope(w: f64) -> f64 {
     exp(-w) / (1.0 + w)
 }
 
-/// The second derivative of W where its value is `w`.
+/// The second derivative of W, from its value `w`.
 fn lambert_curvature(w: f64) -> f64 {
     -square(lambert_slope(w)) * (2.0 + w) / (1.0 + w)
 }
 
-/// NaN, like 0, is its own sign.
+/// The sign of 0 is 0, and that of NaN is NaN.
 fn sign(x: f64) -> f64 {
     if x > 0.0 {
         1.0
@@ -133,7 +133,7 @@ fn step(x: f64) -> f64 {
     }
 }
 
-/// Halley's iteration converges cubically, from the start used here in at most five steps.
+/// Maximum number of iterations. Halley's method converges cubically, here in at most five steps.
 const MAX_STEPS: usize = 16;
 
 /// The principal branch of W, the solution of w*exp(w) = x, for x >= 0; NaN otherwise.
@@ -155,8 +155,8 @@ pub(super) fn lambert_w(x: f64) -> f64 {
     w
 }
 
-/// Halley's step for w*exp(w) - x. The equation is divided by exp(w) to avoid overflow for large
-/// `x`.
+/// Halley's step for w*exp(w) - x. The equation is divided by exp(w), which avoids overflow for
+/// large `x`.
 fn halley(w: f64, x: f64) -> f64 {
     let residual = w - x * exp(-w);
     residual / (w + 1.0 - 0.5 * residual * (w + 2.0) / (w + 1.0))

@@ -1,12 +1,12 @@
-//! Every condition that a heat problem puts on its temperature.
+//! All conditions that an exact temperature must satisfy.
 //!
-//! The heat equation in weak form, on random patches of space and time. It detects a source of heat
-//! on a surface, which is a kink in the temperature that pointwise checks miss.
+//! The heat equation is also checked in weak form on random space-time patches. This detects a heat
+//! source on a surface, which is a kink in the temperature that pointwise checks miss.
 //!
-//! For any smooth `phi` that vanishes on the rim of a patch,
+//! For any smooth `phi` that vanishes on the boundary of a patch,
 //! `int int (rho0 c T phi_t - k J C^-1 Grad T . Grad phi + rho0 s phi) dX dt = 0`.
 //!
-//! The temperature at many places and times, and the largest terms of its equation.
+//! The checks use the temperature at many events, and the largest terms of its equation.
 
 use super::field;
 use super::field::TemperatureDerivatives;
@@ -23,8 +23,8 @@ use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
 impl Conduction {
-    /// Holds the temperature against the heat equation (point by point and in weak form), the
-    /// boundary and the initial conditions, at reproducible random points.
+    /// Checks the temperature at reproducible random points: the heat equation (pointwise and in
+    /// weak form), the boundary conditions and the initial conditions.
     ///
     /// # Errors
     /// The first [`Violation`].
@@ -42,7 +42,7 @@ impl Conduction {
     }
 }
 
-/// The temperature is a number everywhere inside, and not zero everywhere.
+/// Checks that the temperature is finite in the whole body and not identically zero.
 fn presence(points: &[HeatPoint], largest: &HeatMagnitudes) -> Result<(), Violation> {
     let wrong = |(event, _, now): &HeatPoint, what: &str| Violation {
         condition: format!("the demand that the temperature is {what}"),
@@ -62,13 +62,13 @@ fn presence(points: &[HeatPoint], largest: &HeatMagnitudes) -> Result<(), Violat
     }
 }
 
-/// `T(X, 0) = T0(X)`.
+/// Checks `T(X, 0) = T0(X)`.
 fn initial(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violation> {
     let start = SpaceTimeBox { end: 0.0, ..extent(problem) };
     let mut worst = LargestViolation::default();
     for event in start.spread(FACE_EVENTS, |_| true, &mut Random::new(2)) {
         let found = problem.temperature.at(&event.label, 0.0);
-        // Without a stated value, the start must be finite.
+        // Without a stated value, the initial temperature must only be finite.
         let start = problem.initial.as_ref().map_or(found, |formula| at(formula, &event));
         let name = "initial condition T(X, 0) = T0(X)".to_owned();
         worst.add(event.judge(problem.tolerance * largest.value, name, (start, found), "K"));
@@ -80,7 +80,7 @@ fn at(formula: &Formula, event: &Event) -> f64 {
     formula.eval(&variables(&event.label, event.t)[..=event.label.len()])
 }
 
-/// Every face of the body, at random points and times.
+/// Checks every face of the body at random points and times.
 fn boundary(problem: &Conduction, sizes: &HeatMagnitudes) -> Result<(), Violation> {
     let mut random = Random::new(3);
     for face in &problem.faces {
@@ -97,13 +97,13 @@ fn boundary(problem: &Conduction, sizes: &HeatMagnitudes) -> Result<(), Violatio
     Ok(())
 }
 
-/// A point of a face, with the motion and the temperature there.
+/// A point of a face, with the motion and the temperature at that point.
 struct HeatedPoint<'a> {
     problem: &'a Conduction,
     face: &'a HeatFace,
     event: Event,
     now: TemperatureDerivatives,
-    /// Heat that enters (W/m^(D-1)).
+    /// Heat inflow (W/m^(D-1)).
     inflow: f64,
     sizes: &'a HeatMagnitudes,
 }
@@ -152,7 +152,7 @@ impl HeatFacePoint for HeatedPoint<'_> {
     }
 }
 
-/// Heat that flows along the outward normal of `face` from outside (W/m^(D-1)).
+/// Heat inflow through `face` from outside (W/m^(D-1)).
 fn inflow_at(
     problem: &Conduction,
     face: &HeatFace,
@@ -163,7 +163,7 @@ fn inflow_at(
     normal * problem.inflow(motion, now)[face.axis]
 }
 
-/// T_t and Div Q, once by automatic differentiation and once by central differences.
+/// Compares T_t and Div Q from automatic differentiation with central differences.
 fn differences(
     problem: &Conduction,
     event: &Event,
@@ -197,8 +197,8 @@ fn differences(
     event.judge(allowed, name, (divergence, exact), "W/m3")
 }
 
-/// `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, as powers per unit of mass: that which the
-/// temperature needs, and that which is stated.
+/// Checks `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s` as powers per unit mass: the power that the
+/// temperature needs, and the stated power.
 fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(), Violation> {
     let mut found = LargestViolation::default();
     for point in points {
@@ -209,7 +209,7 @@ fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(),
     found.into_result()
 }
 
-/// Checks the balance of heat on random patches. Fields far below the `largest` do not count.
+/// Checks the heat balance on random patches. Fields far below the `largest` are ignored.
 pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violation> {
     let densities = Densities {
         stored: problem.density * problem.capacity * largest.range,
@@ -223,7 +223,7 @@ pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<
         let (from, to) = (&problem.from[..], &problem.to[..]);
         let patch = SpaceTimePatch::in_box(&mut random, from, to, problem.until, f64::INFINITY);
         let d = problem.dimension();
-        // A constant temperature stores no heat: it is subtracted so that it does not enlarge the
+        // A constant temperature stores no heat. It is subtracted so that it does not increase the
         // scale.
         let middle = problem.temperature.at(&patch.centre[..d], patch.centre[d]);
         let condition = "heat balance across kinks (the heat equation";
@@ -234,7 +234,7 @@ pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<
     Ok(())
 }
 
-/// The balance on a raster of a patch, of the temperature beyond `middle` (K).
+/// The balance on a raster of a patch, for the temperature relative to `middle` (K).
 fn sums(problem: &Conduction, raster: &Raster, smallest: f64, middle: f64) -> Sums {
     let d = problem.dimension();
     let Raster { points, times } = raster;
@@ -268,15 +268,15 @@ fn sums(problem: &Conduction, raster: &Raster, smallest: f64, middle: f64) -> Su
     all
 }
 
-/// A place and time, with the motion and the temperature there.
+/// An event, with the motion and the temperature at that event.
 pub(super) type HeatPoint = (Event, Derivatives, TemperatureDerivatives);
 
-/// The box of the body, and the times of the run.
+/// The bounding box of the body, and the times of the run.
 pub(super) fn extent(problem: &Conduction) -> SpaceTimeBox<'_> {
     SpaceTimeBox { from: &problem.from, to: &problem.to, start: 0.0, end: problem.until }
 }
 
-/// Events spread over the body and the run.
+/// Events distributed evenly over the body and the run.
 pub(super) fn interior(problem: &Conduction) -> Vec<HeatPoint> {
     let events = extent(problem).spread(EVENTS, |_| true, &mut Random::new(1));
     let point = |event: Event| {
@@ -286,11 +286,11 @@ pub(super) fn interior(problem: &Conduction) -> Vec<HeatPoint> {
     events.into_iter().map(point).collect()
 }
 
-/// The largest magnitudes of a temperature and of the terms of its equation; NaN if any is NaN.
+/// The largest magnitudes of a temperature and of its equation's terms; NaN if any is NaN.
 pub(super) struct HeatMagnitudes {
     /// Temperature (K).
     pub(super) value: f64,
-    /// Difference of the highest and the lowest temperature (K).
+    /// Difference between highest and lowest temperature (K).
     pub(super) range: f64,
     /// Rate (K/s).
     pub(super) rate: f64,
@@ -298,9 +298,9 @@ pub(super) struct HeatMagnitudes {
     pub(super) gradient: f64,
     /// Second derivatives (K/m2).
     pub(super) curvature: f64,
-    /// Flow of heat (W/m^(D-1)).
+    /// Heat flow (W/m^(D-1)).
     pub(super) inflow: f64,
-    /// Divergence of the flow (W/m^D).
+    /// Divergence of the heat flow (W/m^D).
     pub(super) divergence: f64,
     /// Sum of all terms of the heat equation (W/kg).
     pub(super) terms: f64,
@@ -332,7 +332,7 @@ impl HeatMagnitudes {
     }
 }
 
-/// The heat source (W/kg) that the temperature needs, and the stated one.
+/// The heat source (W/kg) that the temperature needs, and the stated source.
 pub(super) fn needed_and_stated(
     problem: &Conduction,
     (event, motion, now): &HeatPoint,

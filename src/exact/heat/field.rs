@@ -18,7 +18,7 @@ pub struct Temperature {
     dimension: usize,
 }
 
-/// A temperature at one point and time, with its derivatives; axes beyond the dimension are zero.
+/// Temperature and its derivatives at one point and time; axes beyond the dimension are zero.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TemperatureDerivatives {
     /// T (K).
@@ -37,7 +37,7 @@ impl Temperature {
         Self { formula, dimension }
     }
 
-    /// The formula of the suite.
+    /// The text of the formula.
     pub fn source(&self) -> &str {
         self.formula.source()
     }
@@ -52,7 +52,7 @@ impl Temperature {
         self.formula.eval(&variables(label, t)[..=label.len()])
     }
 
-    /// All derivatives, by automatic differentiation.
+    /// The temperature and its derivatives, by automatic differentiation.
     pub fn derivatives(&self, label: &[f64], t: f64) -> TemperatureDerivatives {
         with_dimension!(self.dimension, D => self.over_jets::<{ D + 1 }>(label, t))
     }
@@ -85,12 +85,12 @@ impl Temperature {
     }
 }
 
-/// A temperature at fixed places, for many times.
+/// A temperature at fixed positions, for many times.
 pub(super) trait TemperaturePlaces: Send {
     /// Sets the time `t` (s).
     fn set_time(&mut self, t: f64);
 
-    /// The derivatives at a place, by its index in `labels`. Does not allocate.
+    /// The derivatives at the position with this index in `labels`. Does not allocate.
     fn derivatives(&mut self, place: usize) -> TemperatureDerivatives;
 }
 
@@ -121,7 +121,7 @@ fn gather<const N: usize>(jet: &Jet<N>) -> TemperatureDerivatives {
     all
 }
 
-/// `J C^-1 Grad T` of a gradient of displacement and one of temperature.
+/// `J C^-1 Grad T`, from the gradients of displacement and temperature.
 fn pulled_back<T: Number, const D: usize>(grad_u: &Tensor<T, D>, grad: &[T; D]) -> [T; D] {
     let f: Tensor<T, D> = tensor(|i, j| grad_u[i][j] + unit(i, j));
     // F^-T = cof(F)/J.
@@ -131,12 +131,12 @@ fn pulled_back<T: Number, const D: usize>(grad_u: &Tensor<T, D>, grad: &[T; D]) 
     std::array::from_fn(|a| sum::<T, D>(|b| metric(a, b) * grad[b]))
 }
 
-/// `J C^-1 Grad T` (K/m): the inflow through a reference area is k times its normal component.
+/// `J C^-1 Grad T` (K/m). The inflow through a reference area is k times the normal component.
 pub(super) fn slope(motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; 3] {
     pulled_back::<f64, 3>(&motion.grad, &now.grad)
 }
 
-/// `Div (J C^-1 Grad T)` (K/m2), for fields that vary along the first `dimension` axes only.
+/// `Div (J C^-1 Grad T)` (K/m2), for fields that vary only along the first `dimension` axes.
 pub(super) fn divergence(
     dimension: usize,
     motion: &Derivatives,

@@ -1,5 +1,5 @@
 //! Heat problem of an exact temperature: the body, the thermal conditions on its faces, and the
-//! source of heat, stated or manufactured.
+//! heat source, which is stated or manufactured.
 
 use super::field::{Temperature, TemperatureDerivatives, TemperaturePlaces, divergence, slope};
 use crate::exact::formula::Formula;
@@ -12,18 +12,18 @@ use std::sync::Arc;
 /// One face of a box-shaped body.
 #[derive(Debug, Clone)]
 pub struct HeatFace {
-    /// Name that a suite gives it.
+    /// Name of the face in suites.
     pub name: &'static str,
-    /// Axis of its normal.
+    /// Axis of the face normal.
     pub axis: usize,
-    /// Whether it is the face with the larger coordinate.
+    /// Whether this is the face with the larger coordinate.
     pub high: bool,
-    /// Its condition.
+    /// Thermal condition on the face.
     pub condition: Arc<dyn ThermalCondition>,
 }
 
-/// An initial-boundary-value problem of heat in a box, `rho0 c T_t = Div (k J C^-1 Grad T) + rho0
-/// s`, with the temperature that claims to solve it.
+/// An initial-boundary-value problem of heat in a box,
+/// `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, and its exact temperature, which must be checked.
 #[derive(Debug, Clone)]
 pub struct Conduction {
     /// Lowest corner of the body (m).
@@ -32,25 +32,25 @@ pub struct Conduction {
     pub to: Vec<f64>,
     /// Reference density (kg/m3).
     pub density: f64,
-    /// k (W/(m K), per m^(3-D)).
+    /// Conductivity k (W/(m K), per m^(3-D)).
     pub conductivity: f64,
-    /// c (J/(kg K)).
+    /// Heat capacity c (J/(kg K)).
     pub capacity: f64,
-    /// Heat that arises, per unit mass (W/kg), a formula for [`source_at`].
+    /// Heat source (W/kg), a formula for [`source_at`].
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates; default: that of the exact solution.
+    /// Initial temperature (K), a formula of the coordinates. Default: that of the exact solution.
     pub initial: Option<Formula>,
-    /// Every face of the body.
+    /// All faces of the body.
     pub faces: Vec<HeatFace>,
-    /// The claimed solution.
+    /// The exact solution, which must be checked.
     pub temperature: Temperature,
-    /// Deformation of the body; `None` if it is at rest, or if strains are neglected.
+    /// Deformation of the body; `None` if the body is at rest or strains are neglected.
     pub motion: Option<Motion>,
-    /// Whether the source is manufactured; then none is stated.
+    /// Whether the source is manufactured; if so, no source is stated.
     pub manufactured: bool,
     /// End of the run (s).
     pub until: f64,
-    /// Largest residual that passes, relative to the terms of the condition.
+    /// Maximum residual, relative to the terms of the condition.
     pub tolerance: f64,
 }
 
@@ -93,13 +93,13 @@ impl Conduction {
         self.source.as_ref().map_or(0.0, |source| source_at(source, label, t, now.value))
     }
 
-    /// `k J C^-1 Grad T` (W/m^(D-1)): minus the flow per reference area.
+    /// `k J C^-1 Grad T` (W/m^(D-1)), which is minus the heat flow per reference area.
     pub(super) fn inflow(&self, motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; 3] {
         slope(motion, now).map(|slope| self.conductivity * slope)
     }
 }
 
-/// The temperature; and displacements, which are zero where the body is at rest.
+/// Temperature and displacement; a body at rest has zero displacement.
 impl Truth for Conduction {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
         match &self.motion {
@@ -120,19 +120,19 @@ impl Truth for Conduction {
     }
 }
 
-/// A thermal condition on one face of the body, checked point by point.
+/// A thermal condition on one face of the body, checked pointwise.
 pub trait ThermalCondition: Debug + Send + Sync {
-    /// Holds the temperature at `point` to the condition.
+    /// Checks the temperature at `point`.
     ///
     /// # Errors
     /// The first violation.
     fn check(&self, point: &dyn HeatFacePoint) -> Result<(), Violation>;
 }
 
-/// A point of a face at a time of the run, with the elementary requirements on the temperature: a
-/// value, an inflow of heat, or continuity with the opposite face.
+/// A point of a face at one time, with the elementary requirements on the temperature: a value, a
+/// heat inflow, or continuity with the opposite face.
 pub trait HeatFacePoint {
-    /// A formula of the coordinates and t, here and now.
+    /// Value of a formula of the coordinates and t at this point and time.
     fn value(&self, formula: &Formula) -> f64;
 
     /// The temperature (K).
@@ -141,28 +141,28 @@ pub trait HeatFacePoint {
     /// Largest temperature in the body (K).
     fn largest_temperature(&self) -> f64;
 
-    /// `T = given` (K).
+    /// Requires `T = given` (K).
     ///
     /// # Errors
     /// The violation.
     fn has_temperature(&self, given: f64) -> Result<(), Violation>;
 
-    /// The inflow of heat per reference area (W/m^(D-1)) is `given`, on a face that is `what`;
-    /// `size` is the scale of the terms in `given`.
+    /// Requires that the heat inflow per reference area (W/m^(D-1)) is `given`. `what` describes
+    /// the face in messages; `size` is the scale of the terms in `given`.
     ///
     /// # Errors
     /// The violation.
     fn lets_in(&self, what: &str, given: f64, size: f64) -> Result<(), Violation>;
 
-    /// Temperature and heat flux equal those on the opposite face.
+    /// Requires that temperature and heat flux equal those on the opposite face.
     ///
     /// # Errors
     /// The first violation.
     fn continues_on_opposite_face(&self) -> Result<(), Violation>;
 }
 
-/// The source (W/kg) at the reference position `label` (m), a time (s) and a temperature (K).
-/// Variables of `formula` are the coordinates, t and, where it was bound to that too, T.
+/// The heat source (W/kg) at the reference position `label` (m), a time (s) and a temperature (K).
+/// Variables of `formula` are the coordinates, t and optionally T.
 pub fn source_at(formula: &Formula, label: &[f64], t: f64, temperature: f64) -> f64 {
     let mut all = [0.0; 5];
     all[..4].copy_from_slice(&variables(label, t));
@@ -170,7 +170,7 @@ pub fn source_at(formula: &Formula, label: &[f64], t: f64, temperature: f64) -> 
     formula.eval(&all[..formula.variables()])
 }
 
-/// The manufactured source of heat at places that have been given once.
+/// The manufactured heat source at fixed positions.
 pub struct HeatForcing {
     problem: Conduction,
     warm: Box<dyn TemperaturePlaces>,
@@ -178,7 +178,7 @@ pub struct HeatForcing {
 }
 
 impl HeatForcing {
-    /// The source of `problem` at `labels` (m), D numbers each.
+    /// The source of `problem` at `labels` (m), with D numbers each.
     pub fn new<'a>(problem: &Conduction, labels: impl Iterator<Item = &'a [f64]>) -> Self {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let all = || labels.iter().map(Vec::as_slice);
@@ -189,7 +189,7 @@ impl HeatForcing {
         }
     }
 
-    /// Writes the source (W/kg) at each place at time `t` (s), as given by
+    /// Writes the source (W/kg) at each position and time `t` (s), equal to
     /// [`Conduction::manufactured_source`]. Does not allocate.
     pub fn at(&mut self, t: f64, into: &mut [f64]) {
         self.warm.set_time(t);

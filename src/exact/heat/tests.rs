@@ -1,4 +1,4 @@
-//! Temperatures that solve the heat equation, and wrong ones that must be refused.
+//! Tests with temperatures that solve the heat equation, and wrong ones that must be refused.
 
 use super::check::{HeatMagnitudes, interior};
 use super::{Conduction, HeatFace, HeatFacePoint, HeatForcing, Temperature, ThermalCondition};
@@ -46,7 +46,7 @@ impl ThermalCondition for Ends {
     }
 }
 
-/// A box from 0 to 1 with rho0 c = 6 and k = 3, insulated all around.
+/// A box from 0 to 1 with rho0 c = 6 and k = 3, insulated on all faces.
 fn insulated(dimension: usize, temperature: &str) -> Conduction {
     let face = |i: usize| HeatFace {
         name: ["left", "right", "bottom", "top", "back", "front"][i],
@@ -101,7 +101,7 @@ fn a_mode_that_decays_at_another_rate_is_refused() {
     assert_eq!(found.unit, "W/kg");
 }
 
-/// T = (1 - X) t + ... has its source stated; a wrong one is refused.
+/// The source of T = (1 - X) t + ... is stated; a wrong source is refused.
 #[test]
 fn a_stated_source_is_part_of_the_equation() {
     let made = insulated(1, "cos(pi*X)*(1 + t)");
@@ -113,7 +113,7 @@ fn a_stated_source_is_part_of_the_equation() {
     Conduction { manufactured: true, ..made }.check().unwrap();
 }
 
-/// A mode decays by 4/s faster where the air takes `rho0 c 4 (T - 5)`.
+/// A mode decays faster by 4/s if the air absorbs `rho0 c 4 (T - 5)`.
 #[rstest]
 fn a_source_of_the_temperature_is_that_of_the_truth(#[values(1, 2, 3)] dimension: usize) {
     let fin = |source: &str| Conduction {
@@ -125,7 +125,7 @@ fn a_source_of_the_temperature_is_that_of_the_truth(#[values(1, 2, 3)] dimension
     refused(&fin("-12*(t - 5)"), "heat equation");
 }
 
-/// Heat that leaves on one side enters on the other.
+/// Heat that leaves on one side enters on the opposite side.
 #[test]
 fn heat_flows_through_a_periodic_face() {
     let ring = |temperature: &str| Conduction {
@@ -137,7 +137,7 @@ fn heat_flows_through_a_periodic_face() {
     refused(&ring("5 + cos(pi*X)*exp(-t)"), "is periodic, the temperature");
 }
 
-/// However warm the body is on the whole.
+/// The kink is detected at any mean temperature.
 #[rstest]
 fn a_warm_body_hides_no_kink(#[values("0", "1e6")] warm: &str) {
     let kink = format!("{warm} + abs(X - 0.4)");
@@ -147,7 +147,7 @@ fn a_warm_body_hides_no_kink(#[values("0", "1e6")] warm: &str) {
     assert!(found.condition.contains("heat balance"), "{found}");
 }
 
-/// The equation holds on both sides of the kink, which gives off heat all the same.
+/// The equation holds on both sides of the kink, but the kink itself releases heat.
 #[test]
 fn a_kink_is_seen_by_the_weak_form() {
     let hold = |value: &str| Ends::Temperature(bind(value, 1));
@@ -175,7 +175,7 @@ fn a_wrong_condition_on_a_face_is_refused(#[case] wrong: Ends, #[case] words: &s
     }
 }
 
-/// Its jump counts against the temperature, however large or small this is.
+/// A jump is detected for any magnitude of the temperature.
 #[rstest]
 fn heat_goes_on_beyond_a_periodic_face(#[values("1e-6", "1", "1e6")] size: &str) {
     let bar = |shape: &str| bar(&format!("{size}*{shape}"), [Ends::Periodic, Ends::Periodic]);
@@ -211,7 +211,7 @@ fn no_temperature_is_none(#[case] temperature: &str, #[case] words: &str) {
     refused(&insulated(1, temperature), words);
 }
 
-/// `X + u = (1 + t/2) X`: k acts over a longer way, `J C^-1 = 1/(1 + t/2)`.
+/// `X + u = (1 + t/2) X`: heat flows over a longer distance, `J C^-1 = 1/(1 + t/2)`.
 #[test]
 fn heat_flows_where_the_body_is_now() {
     let stretched = |source: &str| Conduction {
@@ -236,7 +236,7 @@ fn shear_turns_the_flow() {
     refused(&Conduction { motion: None, ..sheared }, "heat equation");
 }
 
-/// A run evaluates the source with the bits of a single evaluation.
+/// The source during a run is bit-identical to a single evaluation.
 #[rstest]
 fn the_source_of_a_run_is_the_source(
     #[values(1, 2, 3)] dimension: usize,

@@ -1,10 +1,9 @@
-//! Modified Cam-clay in uniaxial compression, under loading that never reverses.
+//! Modified Cam-clay in uniaxial compression under monotonic loading.
 //!
-//! The mean stress p and the compaction `eps = -ln(stretch)` are positive in compression, and q is
-//! `tau22 - tau11`, so that `-tau11 = p + 2/3 q`. The clay starts at p0 without
-//! shear and is elastic first: `p = p0 exp(eps/kappa)` and `q = 2 r (p - p0)` with `r = G/K`. With
-//! the ratio `eta = q/p`, `a = kappa/(3 r)` and `D = lambda - kappa`, associated flow beyond yield
-//! has
+//! The mean stress p and the compaction `eps = -ln(stretch)` are positive in compression. With
+//! `q = tau22 - tau11`, `-tau11 = p + 2/3 q`. The clay starts at p0 without shear and is initially
+//! elastic: `p = p0 exp(eps/kappa)` and `q = 2 r (p - p0)` with `r = G/K`. With the ratio
+//! `eta = q/p`, `a = kappa/(3 r)` and `D = lambda - kappa`, associated flow after yield satisfies
 //!
 //! ```text
 //! d ln p/d eta = -N/(C (M^2 + eta^2))
@@ -13,8 +12,8 @@
 //! eps = eps_y + lambda ln(p/p_y) + D ln((M^2 + eta^2)/(M^2 + eta_y^2))
 //! ```
 //!
-//! C has one root below -M, one above M, and one between: the constant ratio of the K0 line, which
-//! the path approaches. Partial fractions give `ln p`.
+//! C has one root below -M, one above M, and one in between. The root in between is the constant
+//! ratio of the K0 line, which the path approaches. Partial fractions give `ln p`.
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
@@ -25,23 +24,24 @@ use crate::exact::tensor::{Tensor, tensor};
 pub struct CamClayLaw {
     /// Slope M of the critical-state line.
     slope: f64,
-    /// Slopes kappa of swelling and lambda of compression.
+    /// Slopes of the swelling line (kappa) and the compression line (lambda).
     swelling: f64,
     compression: f64,
-    /// `G/K`.
+    /// Ratio of moduli `G/K`.
     ratio: f64,
     initial_pressure: f64,
     /// Mean stress at yield (Pa) in compression and in extension.
     yields: [f64; 2],
-    /// Roots of C, the ratio of the K0 line first, each with its coefficient of `ln|eta - root|`.
+    /// Roots of C, starting with the ratio of the K0 line, each with its coefficient of
+    /// `ln|eta - root|`.
     poles: [[f64; 2]; 3],
     /// Coefficients of `ln(M^2 + eta^2)` and of `atan(eta/M)`.
     conjugate: [f64; 2],
 }
 
 impl CamClayLaw {
-    /// From the slope M of the critical-state line, the slopes of swelling and of compression,
-    /// Poisson's ratio, and the mean stress and the preconsolidation pressure at rest (Pa).
+    /// The law from the slope M of the critical-state line, the slopes of swelling and compression,
+    /// Poisson's ratio, and the initial mean stress and preconsolidation pressure (Pa).
     pub fn new(
         critical_state_slope: f64,
         swelling_slope: f64,
@@ -52,7 +52,7 @@ impl CamClayLaw {
     ) -> Self {
         let slope = critical_state_slope;
         let ratio = 3.0 * (1.0 - 2.0 * poisson) / (2.0 * (1.0 + poisson));
-        // q = 2 r (p - p0) meets q^2 = M^2 p (pc - p).
+        // Intersection of q = 2 r (p - p0) and q^2 = M^2 p (pc - p).
         let square = 4.0 * ratio * ratio / (slope * slope);
         let half = square * initial_pressure + 0.5 * preconsolidation;
         let constant = square * initial_pressure * initial_pressure;
@@ -100,7 +100,7 @@ impl CamClayLaw {
         a * (m2 - 3.0 * eta * eta) + 2.0 * d + 4.0 / 3.0 * self.compression * eta
     }
 
-    /// The root of C between two ratios where its signs differ.
+    /// The root of C between two ratios at which C has opposite signs.
     fn root(&self, [mut low, mut high]: [f64; 2]) -> f64 {
         let rises = self.cubic(high) > 0.0;
         loop {
@@ -112,8 +112,8 @@ impl CamClayLaw {
         }
     }
 
-    /// `b` and `e` of the part `(b eta + e M)/(M^2 + eta^2)` of the partial fractions, as `b/2` and
-    /// `e`: its value at `eta = i M` is that of `-N/C`.
+    /// Coefficients `b/2` and `e` of the partial fraction `(b eta + e M)/(M^2 + eta^2)`. At
+    /// `eta = i M`, its numerator equals `-N/C`.
     fn at_the_imaginary_slope(&self) -> [f64; 2] {
         let ([a, d], m) = (self.weights(), self.slope);
         let numerator = [4.0 * d * m * m, 8.0 / 3.0 * d * m * m * m];
@@ -129,8 +129,8 @@ impl CamClayLaw {
         2.0 * self.ratio * (1.0 - self.initial_pressure / self.yields[0])
     }
 
-    /// `ln(p/p_y)` and the compaction beyond yield at the ratio whose distance from the K0 line has
-    /// decreased by the factor `exp(-u)`, and this ratio.
+    /// State at the ratio whose distance from the K0 line has decreased by the factor `exp(-u)`
+    /// since yield. Returns `ln(p/p_y)`, the compaction after yield, and the ratio.
     fn beyond_yield(&self, u: f64) -> [f64; 3] {
         let (start, m2, [limit, weight]) =
             (self.ratio_at_yield(), self.slope * self.slope, self.poles[0]);
@@ -146,7 +146,7 @@ impl CamClayLaw {
         [pressure, self.compression * pressure + hardening * growth, eta]
     }
 
-    /// `ln(p/p_y)` and the ratio at a compaction beyond yield; no numbers where the clay softens.
+    /// `ln(p/p_y)` and the ratio at a given compaction after yield; NaN if the clay softens.
     fn flowed(&self, beyond: f64) -> [f64; 2] {
         let start = self.ratio_at_yield();
         if !(start < self.slope) {
@@ -169,7 +169,7 @@ impl CamClayLaw {
         }
     }
 
-    /// `tau11` (Pa) at the logarithmic strain `strain`; no number where the clay softens.
+    /// `tau11` (Pa) at the logarithmic strain `strain`; NaN if the clay softens.
     fn kirchhoff<T: Number>(&self, strain: T) -> T {
         let elastic = Number::exp(T::from(-1.0 / self.swelling) * strain);
         let pressure = self.initial_pressure * elastic.value();
@@ -184,7 +184,7 @@ impl CamClayLaw {
         let [growth, eta] = self.flowed(-strain.value() - at_yield);
         let pressure = self.yields[0] * libm::exp(growth);
         let ([_, hardening], m2) = (self.weights(), self.slope * self.slope + eta * eta);
-        // d ln p and d eta, over a common factor.
+        // d ln p and d eta, multiplied by a common factor.
         let [log, ratio] = [-self.numerator(eta) / m2, self.cubic(eta)];
         let compaction = self.compression * log + 2.0 * hardening * eta / m2 * ratio;
         let slope = pressure * ((1.0 + 2.0 / 3.0 * eta) * log + 2.0 / 3.0 * ratio) / compaction;
@@ -193,7 +193,7 @@ impl CamClayLaw {
     }
 }
 
-/// A ratio beyond all roots of C: Cauchy's bound.
+/// A ratio larger than all roots of C, from Cauchy's bound.
 fn bound(law: &CamClayLaw) -> f64 {
     let ([a, d], m2) = (law.weights(), law.slope * law.slope);
     let largest = (2.0 / 3.0 * law.compression * m2.max(1.0)).max(a * m2 + 2.0 * d);
@@ -251,8 +251,8 @@ mod tests {
         piola * libm::exp(strain)
     }
 
-    /// Values of an independent program: the constant ratio of the K0 line, and the mean stress of
-    /// a path that starts at its pressure without shear.
+    /// Values from an independent program: the constant ratio of the K0 line, and the mean stress
+    /// of a path that starts isotropically at its preconsolidation pressure.
     #[test]
     fn a_path_from_an_isotropic_state_approaches_the_k0_line() {
         let law = clay(100.0);
@@ -262,8 +262,8 @@ mod tests {
         assert!(eta > 0.46 && eta < law.poles[0][0]);
     }
 
-    /// The rates of the plastic strain along the path, by central differences: the flow rule, the
-    /// elastic law, the hardening rule, and no lateral strain.
+    /// The plastic strain rates along the path, from central differences, satisfy the flow rule,
+    /// the elastic law, the hardening rule and zero lateral strain.
     #[rstest]
     fn the_path_obeys_the_rates_of_the_law(
         #[values(100.0, 150.0, 400.0)] preconsolidation: f64,
@@ -287,7 +287,7 @@ mod tests {
         assert_relative_eq!(plastic_shear, flow * plastic_volume, max_relative = 1e-5);
     }
 
-    /// Elastic up to yield, continuous there, and undefined where the clay would soften.
+    /// Elastic up to yield, continuous at yield, and undefined if the clay would soften.
     #[test]
     fn yield_is_on_the_elastic_path() {
         let law = clay(150.0);
@@ -309,7 +309,7 @@ mod tests {
         assert!(tau(&law, 0.1).is_nan() && law.flows(0.1));
     }
 
-    /// The slope of the stress is the difference of its values.
+    /// The slope of the stress agrees with a finite difference.
     #[rstest]
     fn stress_has_its_slope(#[values(-0.005, -0.05, -0.2)] strain: f64) {
         let (law, step) = (clay(150.0), 1e-6);

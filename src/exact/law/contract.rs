@@ -1,65 +1,65 @@
-//! Interface of the constitutive laws of exact solutions.
+//! Trait of the constitutive laws of exact solutions.
 
 use crate::exact::formula::Number;
 use crate::exact::tensor::Tensor;
 
-/// A law between the displacement gradient and the first Piola-Kirchhoff stress, written over any
-/// [`Number`]: over slopes, the divergence of P follows by automatic differentiation.
+/// A law between the displacement gradient and the first Piola-Kirchhoff stress, generic over
+/// [`Number`]. Evaluated with slopes, it gives the divergence of P by automatic differentiation.
 pub(super) trait ConstitutiveLaw {
-    /// Name of its equation of motion in suites.
+    /// Name of the equation of motion in suites.
     const NAME: &'static str;
 
-    /// Its equation of motion, as reports write it.
+    /// Equation of motion in reports.
     const EQUATION: &'static str;
 
-    /// Whether stress depends on the history of the motion, unless loading never reverses.
+    /// Whether stress depends on the history of the motion, except under monotonic loading.
     const HAS_HISTORY: bool = false;
 
-    /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`, at unit reference density if
-    /// the law depends on it.
+    /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`. If the law depends on the
+    /// density, this is P for unit reference density.
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D>;
 
-    /// The energy W (J/m3) with `P = dW/dF`, zero at rest or, in a gas, in the limit of infinite
-    /// expansion; `None` for a law without energy, or with a history.
+    /// Energy W (J/m3) with `P = dW/dF`. It is zero at rest or, for a gas, in the limit of infinite
+    /// expansion. `None` for a law without energy, or with history.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let _ = grad;
         None
     }
 
-    /// Stiffest modulus at rest (Pa), `lambda + 2 mu` of a solid: a bound for stresses of a given
+    /// Largest modulus at rest (Pa), `lambda + 2 mu` for a solid. It bounds the stress for a given
     /// strain.
     fn modulus(&self) -> f64;
 
-    /// Factor of P, of the energy and of the modulus at the reference density `density` (kg/m3), 1
-    /// for a law that does not depend on it.
+    /// Factor of P, of the energy and of the modulus at the reference density `density` (kg/m3). It
+    /// is 1 if the law does not depend on the density.
     fn density_factor<T: Number>(&self, density: T) -> T {
         let _ = density;
         T::from(1.0)
     }
 
-    /// `3 lambda + 2 mu` (Pa), the stiffness against equal strain on all axes, for a law of small
-    /// strains; `None` for a law of finite strains.
+    /// `3 lambda + 2 mu` (Pa), the stiffness against equal strain on all axes, for a small-strain
+    /// law; `None` for a finite-strain law.
     fn small_strain_modulus(&self) -> Option<f64> {
         None
     }
 
-    /// `F_33 - 1` of a plate in plane stress, sigma_33 = 0, for the displacement gradient in its
-    /// plane; `None` if the law is not implemented there.
+    /// `F_33 - 1` of a plate in plane stress (sigma_33 = 0), for the in-plane displacement
+    /// gradient; `None` if the law does not implement plane stress.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let _ = grad;
         None
     }
 
-    /// Whether a body in uniaxial strain flows plastically at the displacement gradient `grad`.
+    /// Whether a body in uniaxial strain yields at the displacement gradient `grad`.
     fn flows(&self, grad: f64) -> bool {
         let _ = grad;
         false
     }
 
-    /// Whether P holds of a motion in `dimension` dimensions, or of a state `at_rest`.
+    /// Checks that P is valid for a motion in `dimension` dimensions, or for a state `at_rest`.
     ///
     /// # Errors
-    /// The reason why not, and what a suite can state instead.
+    /// The reason why P is invalid, and the alternative for a suite.
     fn admits(&self, dimension: usize, at_rest: bool) -> Result<(), [&'static str; 2]> {
         let _ = (dimension, at_rest);
         Ok(())
@@ -85,7 +85,7 @@ impl Lame {
         self.lambda + 2.0 * self.mu
     }
 
-    /// `nu/(1 - nu)`: minus the strain across a plate in plane stress over its area strain.
+    /// `nu/(1 - nu)`: minus the thickness strain over the area strain of a plate in plane stress.
     pub(super) fn thinning(&self) -> f64 {
         self.lambda / self.modulus()
     }

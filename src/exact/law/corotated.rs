@@ -1,5 +1,5 @@
-//! Fixed corotated elasticity, `P = 2 mu (F - R) + lambda (J - 1) J F^-T`, with the rotation R of
-//! `F = R U` (Stomakhin, Howes, Schroeder & Teran 2012).
+//! Fixed corotated elasticity, `P = 2 mu (F - R) + lambda (J - 1) J F^-T`, where R is the rotation
+//! in `F = R U` (Stomakhin, Howes, Schroeder & Teran 2012).
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
@@ -57,7 +57,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Along the axes `P_ii = 2 mu (s_i - 1) + lambda (J - 1) J/s_i`, and after a rotation
+    /// Along the axes, `P_ii = 2 mu (s_i - 1) + lambda (J - 1) J/s_i`. After a rotation,
     /// `P(Q F) = Q P(F)`.
     #[rstest]
     fn stress_has_its_closed_form_along_the_axes(

@@ -1,14 +1,14 @@
-//! Drucker-Prager plasticity in uniaxial strain, under loading that never reverses.
+//! Drucker-Prager plasticity in uniaxial strain under monotonic loading.
 //!
 //! With `A = 2 mu/sqrt(3)`, `D = mu + K eta etab` and `s = -1` in compression, `1` in extension,
-//! the body yields at the strain `k/(A + s eta K)`. Beyond, with `M = lambda + 2 mu`,
+//! the body yields at the strain `k/(A + s eta K)`. After yield, with `M = lambda + 2 mu`,
 //!
 //! ```text
 //! d tau11/de = M - (K eta + s A)(K etab + s A)/D
 //! ```
 //!
-//! Both invariants change linearly, `sqrt(J2)` by `A - mu g` and the multiplier by
-//! `g = (A + s eta K)/D` per unit of strain, so that extension ends at the apex.
+//! After yield both invariants are linear in the strain. Per unit strain, `sqrt(J2)` changes by
+//! `A - mu g` and the multiplier by `g = (A + s eta K)/D`. Extension therefore ends at the apex.
 
 use super::contract::Lame;
 use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
@@ -18,8 +18,8 @@ use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
 pub struct DruckerPragerLaw(UniaxialLaw);
 
 impl DruckerPragerLaw {
-    /// From Young's modulus (Pa), Poisson's ratio, the coefficients of friction eta and of dilation
-    /// etab, and the strength k (Pa).
+    /// The law from Young's modulus (Pa), Poisson's ratio, the coefficients of friction eta and of
+    /// dilation etab, and the strength k (Pa).
     pub fn new(young: f64, poisson: f64, friction: f64, dilation: f64, strength: f64) -> Self {
         let lame = Lame::new(young, poisson);
         let bulk = lame.lambda + 2.0 / 3.0 * lame.mu;
@@ -62,7 +62,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Values of an independent program, K = 1e4 Pa and mu = 6e3 Pa.
+    /// Values from an independent program, K = 1e4 Pa and mu = 6e3 Pa.
     #[rstest]
     #[case::elastic(-0.002, -36.0)]
     #[case::compression(-0.01, -152.446_057_383_1)]

@@ -1,4 +1,4 @@
-//! Stress along the axes, and as the derivative of an energy, for the tests of hyperelastic laws.
+//! Test helpers for hyperelastic laws: stress along the axes, and stress as energy derivative.
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::tensor::{Tensor, tensor, unit};
@@ -9,7 +9,7 @@ pub(super) fn assert_stress_is_derivative(law: &impl ConstitutiveLaw) {
     assert_stress_is_derivative_from(law, 0.0, 0.0);
 }
 
-/// Asserts `P = dW/dF`, and the mean stress (Pa), positive in compression, and the energy (J/m3) of
+/// Asserts `P = dW/dF`, and the energy (J/m3) and the mean stress (Pa, positive in compression) of
 /// a body at rest.
 pub(super) fn assert_stress_is_derivative_from(
     law: &impl ConstitutiveLaw,
@@ -24,7 +24,7 @@ pub(super) fn assert_stress_is_derivative_from(
         let expected = -pressure * unit::<f64>(i, j);
         assert_abs_diff_eq!(initial[i][j], expected, epsilon = 1e-14 * law.modulus());
     }
-    // The work of the mean stress, to digits that differences of numbers near one would lose.
+    // Work of the mean stress, with digits that differences of numbers near 1 would lose.
     let small = [[2e-7, -1e-7, 5e-8], [3e-7, -2e-7, 1e-7], [0.0, 1.5e-7, 1e-7]];
     let stress = law.piola(&small);
     let mean = stress.iter().flatten().zip(initial.iter().flatten()).map(|(p, p0)| 0.5 * (p + p0));
@@ -43,8 +43,8 @@ pub(super) fn assert_stress_is_derivative_from(
     }
 }
 
-/// Asserts that P of `stretches` along the axes is `along` them, and after a rotation by `angle`
-/// about the third: `P(Q F) = Q P(F)`.
+/// Asserts that P for `stretches` along the axes is `along`, and that `P(Q F) = Q P(F)` for a
+/// rotation by `angle` about the third axis.
 pub(super) fn assert_stress_along_axes(
     law: &impl ConstitutiveLaw,
     stretches: [f64; 3],

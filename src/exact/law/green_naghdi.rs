@@ -1,7 +1,7 @@
-//! Linear elasticity with the rate of Green and Naghdi, in simple shear.
+//! Linear elasticity with the Green-Naghdi rate in simple shear.
 //!
-//! With `tan(beta) = gamma/2`, the rotation angle of `F = R U`, the rate integrates to (Dienes
-//! 1979)
+//! Let `tan(beta) = gamma/2`, where beta is the rotation angle of `F = R U`. The rate then
+//! integrates to (Dienes 1979)
 //!
 //! ```text
 //! tau12 = 2 mu cos(2 beta) (2 beta - 2 tan(2 beta) ln(cos(beta)) - tan(beta))
@@ -13,12 +13,12 @@ use super::simple_shear::{admit_a_plane, piola_in_simple_shear};
 use crate::exact::formula::Number;
 use crate::exact::tensor::Tensor;
 
-/// Linear elasticity with the rate of Green and Naghdi in simple shear.
+/// Linear elasticity with the Green-Naghdi rate in simple shear.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GreenNaghdiLaw(Lame);
 
 impl GreenNaghdiLaw {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// The law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(Lame::new(young, poisson))
     }
@@ -38,7 +38,7 @@ impl ConstitutiveLaw for GreenNaghdiLaw {
             let (cos, sin) = (Number::cos(double), Number::sin(double));
             let log = Number::ln(Number::cos(beta));
             let (half, square) = (Number::tan(beta), Number::sin(beta) * Number::sin(beta));
-            // cos(2 beta) tan(2 beta) is sin(2 beta), also at a right angle.
+            // cos(2 beta) tan(2 beta) equals sin(2 beta), even at a right angle.
             let shear = T::from(2.0) * (cos * (double - half) - T::from(2.0) * sin * log);
             [T::from(4.0) * mu * (cos * log + beta * sin - square), mu * shear]
         })

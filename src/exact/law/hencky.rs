@@ -10,7 +10,7 @@ use crate::exact::tensor::{Tensor, area, cofactor, det, log_strain, product, sum
 pub struct HenckyLaw(Lame);
 
 impl HenckyLaw {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// The law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(Lame::new(young, poisson))
     }
@@ -45,7 +45,7 @@ impl ConstitutiveLaw for HenckyLaw {
         self.0.modulus()
     }
 
-    /// `eps_33 = -lambda/(lambda + 2 mu) ln J`, where J is that of the plane.
+    /// `eps_33 = -lambda/(lambda + 2 mu) ln J`, where J is the in-plane value.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let strain = T::from(-self.0.thinning()) * Number::ln(area(grad));
         Some(Number::exp(strain) - T::from(1.0))
@@ -60,7 +60,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// The closed form holds along the axes, also for equal stretches, and after a rotation:
+    /// The closed form holds along the axes, also for equal stretches. After a rotation,
     /// `P(Q F) = Q P(F)`.
     #[rstest]
     fn stress_has_its_closed_form_along_the_axes(
@@ -75,7 +75,7 @@ mod tests {
         assert_stress_along_axes(&solid, stretches, angle, along, 1e-11);
     }
 
-    /// The shear vanishes at this point, but its derivative does not.
+    /// The shear vanishes at the tested point, but its derivative does not.
     #[test]
     fn shear_that_vanishes_at_a_point_still_has_its_derivative() {
         let mut second = [[[0.0; 3]; 3]; 3];

@@ -1,11 +1,11 @@
-//! J2 plasticity with linear hardening, under loading that never reverses.
+//! J2 plasticity with linear hardening under monotonic loading.
 //!
-//! As long as the logarithmic strain `eps` grows along one direction, the plastic strain is a
-//! function of it, and the law is one of the total deformation (Hencky 1924; the integral of the
-//! flow theory for proportional loading): the Kirchhoff stress is `tau = K tr(eps) I + s dev(eps)`,
-//! with `s = 2 mu` up to `q = sqrt(3/2) |2 mu dev(eps)| = Y`, and beyond such that
-//! `q = Y + H alpha`, `3 mu alpha = q_elastic - q`. The law is used in uniaxial strain, where all
-//! loading is along one direction; `loading` checks that it never reverses.
+//! While the logarithmic strain `eps` grows along one direction, the plastic strain is a function
+//! of `eps`. The law then depends on the total deformation (Hencky 1924; the integral of the flow
+//! theory for proportional loading). The Kirchhoff stress is `tau = K tr(eps) I + s dev(eps)`, with
+//! `s = 2 mu` up to `q = sqrt(3/2) |2 mu dev(eps)| = Y`. After yield, s satisfies `q = Y + H alpha`
+//! and `3 mu alpha = q_elastic - q`. The law is used in uniaxial strain, where all loading is along
+//! one direction; `monotone_loading` checks that the loading never reverses.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
@@ -20,8 +20,8 @@ pub struct J2Law {
 }
 
 impl J2Law {
-    /// From Young's modulus (Pa), Poisson's ratio, the yield stress in tension and the hardening
-    /// modulus (Pa).
+    /// The law from Young's modulus (Pa), Poisson's ratio, the yield stress in tension (Pa) and the
+    /// hardening modulus (Pa).
     pub fn new(young: f64, poisson: f64, yield_stress: f64, hardening: f64) -> Self {
         Self { lame: Lame::new(young, poisson), yield_stress, hardening }
     }
@@ -80,11 +80,11 @@ fn kirchhoff<T: Number, const D: usize>(
     tensor(|i, j| bulk * third * unit(i, j) + shear * deviator[i][j])
 }
 
-/// `sqrt(3/2) |2 mu dev(eps)|`; along the missing axes the deviator is `-third`.
+/// `sqrt(3/2) |2 mu dev(eps)|`; the deviator along the missing axes is `-third`.
 fn mises<T: Number, const D: usize>(deviator: &Tensor<T, D>, third: T, mu: f64) -> T {
     let inside = sum::<T, D>(|i| sum::<T, D>(|j| deviator[i][j] * deviator[i][j]));
     let square = inside + third * third * T::from((3 - D) as f64);
-    // At zero strain the root has no derivative, and there is no flow.
+    // The root has no derivative at zero strain, where there is no flow.
     if square.value() == 0.0 { square } else { Number::sqrt(square * T::from(6.0 * mu * mu)) }
 }
 
@@ -94,8 +94,8 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// In uniaxial strain eps the elastic q is 2 mu |eps|, and `tau = K eps -+ 2/3 q` with the
-    /// returned q, `Y + H alpha` with `alpha = (2 mu |eps| - Y)/(3 mu + H)`.
+    /// In uniaxial strain eps, the elastic q is 2 mu |eps|. After yield, `tau = K eps -+ 2/3 q`
+    /// with `q = Y + H alpha` and `alpha = (2 mu |eps| - Y)/(3 mu + H)`.
     #[rstest]
     fn beyond_yield_the_stress_is_that_of_the_hardened_yield_stress(
         #[values(-0.2, -0.02, -0.001, 0.001, 0.02, 0.2)] strain: f64,

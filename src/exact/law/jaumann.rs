@@ -1,19 +1,20 @@
-//! Linear elasticity with the rate of Jaumann, in simple shear.
+//! Linear elasticity with the Jaumann rate in simple shear.
 //!
-//! In simple shear by gamma the spin is constant in gamma, and the rate integrates to `tau12 = mu
-//! sin(gamma)`, `tau11 = -tau22 = mu (1 - cos(gamma))` (Dienes 1979): the shear stress oscillates.
+//! In simple shear by gamma the spin is constant in gamma. The rate integrates to
+//! `tau12 = mu sin(gamma)`, `tau11 = -tau22 = mu (1 - cos(gamma))` (Dienes 1979): the shear stress
+//! oscillates.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use super::simple_shear::{admit_a_plane, piola_in_simple_shear};
 use crate::exact::formula::Number;
 use crate::exact::tensor::Tensor;
 
-/// Linear elasticity with the rate of Jaumann in simple shear.
+/// Linear elasticity with the Jaumann rate in simple shear.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JaumannLaw(Lame);
 
 impl JaumannLaw {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// The law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(Lame::new(young, poisson))
     }

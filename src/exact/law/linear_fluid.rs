@@ -1,18 +1,18 @@
-//! An inviscid fluid of linear compressibility, `P = -p J F^-T`, `p = -K (J - 1)`. In uniaxial
-//! strain `P = K u_X`: the wave equation of linear acoustics, without any approximation.
+//! An inviscid fluid with linear compressibility, `P = -p J F^-T`, `p = -K (J - 1)`. In uniaxial
+//! strain, `P = K u_X` gives the wave equation of linear acoustics exactly.
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
 use crate::exact::tensor::{Tensor, cofactor, det, dilation, tensor, unit};
 
-/// A pressure in proportion to the dilation.
+/// A fluid whose pressure is proportional to the dilation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearFluidLaw {
     bulk: f64,
 }
 
 impl LinearFluidLaw {
-    /// From the bulk modulus (Pa).
+    /// The law from the bulk modulus (Pa).
     pub fn new(bulk: f64) -> Self {
         Self { bulk }
     }

@@ -1,5 +1,5 @@
-//! Family of the constitutive laws of exact solutions, written separately from those of the
-//! solvers. A member is one file and one line of `members`.
+//! Family of constitutive laws of exact solutions, implemented independently of the solvers. A new
+//! member needs one file and one line of `members`.
 
 mod contract;
 #[cfg(test)]

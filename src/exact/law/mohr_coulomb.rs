@@ -1,10 +1,11 @@
-//! Mohr-Coulomb plasticity in uniaxial strain, under loading that never reverses.
+//! Mohr-Coulomb plasticity in uniaxial strain under monotonic loading.
 //!
-//! The two lateral stresses are equal, so that the state is on an edge: two planes flow with the
-//! same multiplier `g`. With `s = sin(phi)`, `t = sin(psi)`, `M = L + 2 mu`, the yield condition is
-//! `(1 + s) tau_high - (1 - s) tau_low = 2 c cos(phi)`; per unit of strain the planes take `g (4 L
-//! t + 4 mu (1 + t))` from an axial stress that is the largest, or add `g (4 mu (1 - t) - 4 L t)`
-//! to one that is the smallest, and half of the shear part from or to the lateral ones.
+//! The two lateral stresses are equal, so the state is on an edge of the yield surface, where two
+//! planes flow with the same multiplier `g`. With `s = sin(phi)`, `t = sin(psi)` and
+//! `M = L + 2 mu`, the yield condition is `(1 + s) tau_high - (1 - s) tau_low = 2 c cos(phi)`. Per
+//! unit strain, the flow reduces an axial stress that is the largest by `g (4 L t + 4 mu (1 + t))`,
+//! and increases one that is the smallest by `g (4 mu (1 - t) - 4 L t)`. Half of the shear part is
+//! transferred to or from the lateral stresses.
 
 use super::contract::Lame;
 use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
@@ -14,7 +15,7 @@ use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
 pub struct MohrCoulombLaw(UniaxialLaw);
 
 impl MohrCoulombLaw {
-    /// From Young's modulus (Pa), Poisson's ratio, the angles of friction and of dilation
+    /// The law from Young's modulus (Pa), Poisson's ratio, the angles of friction and dilation
     /// (degrees), and the cohesion (Pa).
     pub fn new(
         young: f64,
@@ -28,8 +29,8 @@ impl MohrCoulombLaw {
         let (s, t) = (libm::sin(phi), libm::sin(psi));
         let (Lame { lambda, mu }, elastic) = (lame, lame.modulus());
         let strength = 2.0 * cohesion * libm::cos(phi);
-        // Weights of the axial and of the lateral stress in the yield function, and the changes of
-        // these stresses by the flow on the two planes.
+        // Weights of the axial and lateral stress in the yield function, and the changes of these
+        // stresses due to the flow on the two planes.
         let in_compression = [-(1.0 - s), 1.0 + s];
         let relief_in_compression =
             [4.0 * lambda * t - 4.0 * mu * (1.0 - t), 4.0 * lambda * t + 2.0 * mu * (1.0 + t)];
@@ -45,7 +46,7 @@ impl MohrCoulombLaw {
             }
             let (strain, flow) = (strength / towards, towards / dot(relief));
             let [axial, lateral] = [rates[0] - flow * relief[0], rates[1] - flow * relief[1]];
-            // The difference of the stresses at yield, and its decrease per unit of strain.
+            // The difference between the stresses at yield, and its decrease per unit strain.
             let (gap, closing) = (2.0 * mu * strain, sign * (lateral - axial));
             UniaxialFlow {
                 strain,
@@ -80,7 +81,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Values of an independent program, K = 1e4 Pa, mu = 7.5e3 Pa and c = 10 Pa.
+    /// Values from an independent program, K = 1e4 Pa, mu = 7.5e3 Pa and c = 10 Pa.
     #[rstest]
     #[case::compression([30.0, 10.0], -0.01, -196.127_569_232)]
     #[case::large([30.0, 10.0], -0.03, -570.914_763_447)]
@@ -102,7 +103,7 @@ mod tests {
 
     #[test]
     fn a_large_friction_angle_is_elastic_in_compression() {
-        // nu/(1 - nu) = 1/4 is above (1 - s)/(1 + s) = 0.17.
+        // nu/(1 - nu) = 1/4 is greater than (1 - s)/(1 + s) = 0.17.
         let law = MohrCoulombLaw::new(18e3, 0.2, 45.0, 0.0, 10.0);
         assert!(!law.flows(-0.5) && law.flows(0.5));
     }

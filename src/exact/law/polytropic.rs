@@ -1,14 +1,14 @@
-//! A polytropic gas, `P = -p J F^-T`, `p = K (rho0/J)^g`. Its energy is the work of the expansion
-//! from J to infinity, `W = K rho0^g J^(1-g)/(g - 1)`.
+//! A polytropic gas, `P = -p J F^-T`, `p = K (rho0/J)^g`. Its energy is the work of expansion from
+//! J to infinity, `W = K rho0^g J^(1-g)/(g - 1)`.
 //!
-//! Stress and energy are `rho0^g` times those of unit reference density, which the methods below
-//! give. The factor is [`ConstitutiveLaw::density_factor`].
+//! The methods below return stress and energy for unit reference density. The factor `rho0^g` is
+//! [`ConstitutiveLaw::density_factor`].
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
 use crate::exact::tensor::{Tensor, cofactor, det, dilation, tensor, unit};
 
-/// A pressure that is a power of the density.
+/// A gas whose pressure is a power of the density.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PolytropicLaw {
     stiffness: f64,
@@ -16,7 +16,7 @@ pub struct PolytropicLaw {
 }
 
 impl PolytropicLaw {
-    /// From the stiffness K (Pa (m3/kg)^g) and the exponent g.
+    /// The law from the stiffness K (Pa (m3/kg)^g) and the exponent g.
     pub fn new(stiffness: f64, exponent: f64) -> Self {
         Self { stiffness, exponent }
     }
@@ -56,14 +56,14 @@ mod tests {
     use crate::exact::law::energy::assert_stress_is_derivative_from;
     use approx::assert_relative_eq;
 
-    /// At rest p = K and W = K/(g - 1), for unit density.
+    /// At rest and for unit density, p = K and W = K/(g - 1).
     #[test]
     fn stress_is_the_derivative_of_the_energy() {
         assert_stress_is_derivative_from(&PolytropicLaw::new(50.0, 1.4), 50.0, 125.0);
         assert_stress_is_derivative_from(&PolytropicLaw::new(50.0, 3.0), 50.0, 25.0);
     }
 
-    /// p = 2 (3/1.5)^3 = 16 for a density of 3 kg/m3 that expands by 1.5 along one axis.
+    /// p = 2 (3/1.5)^3 = 16 for a density of 3 kg/m3 and an expansion by 1.5 along one axis.
     #[test]
     fn pressure_is_a_power_of_the_present_density() {
         let law = PolytropicLaw::new(2.0, 3.0);

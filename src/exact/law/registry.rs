@@ -1,6 +1,6 @@
-//! Registration: one line assigns a law of exact solutions to a material.
+//! Assigns laws of exact solutions to materials, one line per law.
 
-/// Declares the family of laws, from the lines of [`each_material`](crate::members) that have one.
+/// Declares the law family, from the lines of [`each_material`](crate::members) that have a law.
 macro_rules! laws {
     (@new $law:ident, $value:ident, {
         $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?
@@ -15,7 +15,7 @@ macro_rules! laws {
             pub use $file::$law;
         )?)+
 
-        /// The equation of motion `rho0 u_tt = Div P(grad u) + rho0 b`, by its constitutive law.
+        /// The equation of motion `rho0 u_tt = Div P(grad u) + rho0 b` with one of the laws.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum Equation {
             $($(
@@ -31,11 +31,11 @@ macro_rules! laws {
         })?)+
 
         impl Equation {
-            /// Names of all laws, as in suites.
+            /// Names of all laws in suites.
             pub const NAMES: &[&'static str] = &[$($($law::NAME,)?)+];
 
-            /// The equation of a body of a material, from the name of the material and its
-            /// parameters by key; `None` if there is no law for it.
+            /// The equation for a material, from the material's name and its parameters by key;
+            /// `None` if there is no law for it.
             pub fn of_material(
                 material: &str,
                 parameter: impl Fn(&str) -> Option<f64>,
@@ -48,47 +48,47 @@ macro_rules! laws {
                 })
             }
 
-            /// Name of the law, as in suites.
+            /// Name of the law in suites.
             pub fn name(&self) -> &'static str {
                 match self {
                     $($(Self::$law(_) => $law::NAME,)?)+
                 }
             }
 
-            /// The equation as reports write it.
+            /// The equation of motion in reports.
             pub fn text(&self) -> &'static str {
                 match self {
                     $($(Self::$law(_) => $law::EQUATION,)?)+
                 }
             }
 
-            /// Whether the stress depends on the history of the motion, unless loading never
-            /// reverses.
+            /// Whether the stress depends on the history of the motion, except under monotonic
+            /// loading.
             pub(super) fn has_history(&self) -> bool {
                 match self {
                     $($(Self::$law(_) => $law::HAS_HISTORY,)?)+
                 }
             }
 
-            /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`, at unit reference
-            /// density if the law depends on it, see [`Equation::density_factor`].
+            /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`. If the law depends on
+            /// the density, this is P for unit reference density, see [`Equation::density_factor`].
             pub fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
                 match self {
                     $($(Self::$law(law) => law.piola(grad),)?)+
                 }
             }
 
-            /// The energy W (J/m3) whose derivative is P, zero at rest or, in a gas, in the limit
-            /// of infinite expansion; `None` for a law without energy. At unit reference density,
-            /// as P.
+            /// Energy W (J/m3) whose derivative is P. It is zero at rest or, for a gas, in the
+            /// limit of infinite expansion. `None` for a law without energy. For unit reference
+            /// density, like P.
             pub fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
                 match self {
                     $($(Self::$law(law) => law.energy(grad),)?)+
                 }
             }
 
-            /// Stiffest modulus at rest (Pa): a bound for stresses of a given strain. At unit
-            /// reference density, as P.
+            /// Largest modulus at rest (Pa), which bounds the stress for a given strain. For unit
+            /// reference density, like P.
             pub fn modulus(&self) -> f64 {
                 match self {
                     $($(Self::$law(law) => law.modulus(),)?)+
@@ -96,41 +96,40 @@ macro_rules! laws {
             }
 
             /// Factor of P, of the energy and of the modulus at the reference density `density`
-            /// (kg/m3), 1 for a law that does not depend on it.
+            /// (kg/m3). It is 1 if the law does not depend on the density.
             pub fn density_factor<T: Number>(&self, density: T) -> T {
                 match self {
                     $($(Self::$law(law) => law.density_factor(density),)?)+
                 }
             }
 
-            /// `3 lambda + 2 mu` (Pa) of a law of small strains; `None` for finite strains.
+            /// `3 lambda + 2 mu` (Pa) of a small-strain law; `None` for a finite-strain law.
             pub(super) fn small_strain_modulus(&self) -> Option<f64> {
                 match self {
                     $($(Self::$law(law) => law.small_strain_modulus(),)?)+
                 }
             }
 
-            /// `F_33 - 1` of a plate in plane stress, sigma_33 = 0, for the displacement gradient
-            /// in its plane; `None` if the law is not implemented there.
+            /// `F_33 - 1` of a plate in plane stress (sigma_33 = 0), for the in-plane displacement
+            /// gradient; `None` if the law does not implement plane stress.
             pub(super) fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
                 match self {
                     $($(Self::$law(law) => law.free_gradient(grad),)?)+
                 }
             }
 
-            /// Whether a body in uniaxial strain flows plastically at the displacement gradient
-            /// `grad`.
+            /// Whether a body in uniaxial strain yields at the displacement gradient `grad`.
             pub(super) fn flows(&self, grad: f64) -> bool {
                 match self {
                     $($(Self::$law(law) => law.flows(grad),)?)+
                 }
             }
 
-            /// Whether the law holds of a motion in `dimension` dimensions, or of a state
+            /// Checks that the law is valid for a motion in `dimension` dimensions, or for a state
             /// `at_rest`.
             ///
             /// # Errors
-            /// The reason why not, and what a suite can state instead.
+            /// The reason why the law is invalid, and the alternative for a suite.
             pub fn admits(&self, dimension: usize, at_rest: bool) -> Result<(), [&'static str; 2]> {
                 match self {
                     $($(Self::$law(law) => law.admits(dimension, at_rest),)?)+

@@ -1,12 +1,12 @@
-//! Laws in rate form that are known in simple shear, `F = [[1, gamma], [0, 1]]`.
+//! Laws in rate form whose solution is known in simple shear, `F = [[1, gamma], [0, 1]]`.
 
 #[cfg(test)]
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
 use crate::exact::tensor::{Tensor, tensor};
 
-/// `P = tau F^-T` (Pa) of a plane simple shear along the first axis, from the components 11 and 12
-/// of the Kirchhoff stress at gamma, without a trace; no numbers for any other deformation.
+/// `P = tau F^-T` (Pa) for plane simple shear along the first axis. `kirchhoff` returns components
+/// 11 and 12 of the trace-free Kirchhoff stress for gamma. NaN for any other deformation.
 pub(super) fn piola_in_simple_shear<T: Number, const D: usize>(
     grad: &Tensor<T, D>,
     kirchhoff: impl FnOnce(T) -> [T; 2],
@@ -29,7 +29,7 @@ pub(super) fn piola_in_simple_shear<T: Number, const D: usize>(
 /// Refuses a scene that is not plane.
 ///
 /// # Errors
-/// The reason, and what a suite can state instead.
+/// The reason, and the alternative for a suite.
 pub(super) fn admit_a_plane(dimension: usize) -> Result<(), [&'static str; 2]> {
     if dimension == 2 {
         return Ok(());

@@ -9,7 +9,7 @@ use crate::exact::tensor::{Tensor, sum, tensor};
 pub struct SmallStrainLaw(Lame);
 
 impl SmallStrainLaw {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// The law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(Lame::new(young, poisson))
     }
@@ -28,7 +28,7 @@ impl ConstitutiveLaw for SmallStrainLaw {
         })
     }
 
-    /// `W = lambda/2 tr(eps)^2 + mu eps : eps`, half of `P : grad u`.
+    /// `W = lambda/2 tr(eps)^2 + mu eps : eps`, which is half of `P : grad u`.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let stress = self.piola(grad);
         let work = stress.iter().flatten().zip(grad.iter().flatten()).map(|(p, slope)| p * slope);
@@ -65,7 +65,7 @@ mod tests {
         assert_relative_eq!(bar.modulus(), 100.0);
     }
 
-    /// u = (x^2 y, x y^2, 0): Div P by hand.
+    /// Div P by hand for u = (x^2 y, x y^2, 0).
     #[test]
     fn the_divergence_agrees_with_a_hand_calculation() {
         let (x, y) = (0.3, 0.7);

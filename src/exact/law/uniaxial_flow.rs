@@ -1,15 +1,15 @@
-//! Plastic flow in uniaxial strain under loading that never reverses.
+//! Plastic flow in uniaxial strain under monotonic loading.
 //!
-//! With elasticity in the logarithmic strain `e` of the driven axis and no hardening, the axial
-//! Kirchhoff stress of a yield surface of planes or of a cone is piecewise linear in `e`: elastic
-//! up to a strain at yield, then with the elastic-plastic modulus, and constant where all principal
-//! stresses are equal, at an apex.
+//! Let `e` be the logarithmic strain of the driven axis, with elasticity linear in `e` and no
+//! hardening. For a yield surface of planes or a cone, the axial Kirchhoff stress is then piecewise
+//! linear in `e`. It is elastic up to yield, then has the elastic-plastic modulus, and is constant
+//! at an apex, where all principal stresses are equal.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
 use crate::exact::tensor::{Tensor, tensor};
 
-/// A law of plastic flow that is known in uniaxial strain.
+/// A plasticity law that is implemented in uniaxial strain.
 pub(super) trait UniaxialPlasticity {
     /// See [`ConstitutiveLaw::NAME`].
     const MATERIAL: &'static str;
@@ -17,7 +17,7 @@ pub(super) trait UniaxialPlasticity {
     /// See [`ConstitutiveLaw::EQUATION`].
     const TEXT: &'static str;
 
-    /// Its axial stress.
+    /// The axial stress of the law.
     fn response(&self) -> &UniaxialLaw;
 }
 
@@ -49,14 +49,14 @@ impl<L: UniaxialPlasticity> ConstitutiveLaw for L {
     }
 }
 
-/// The flow in one sense, of compression or of extension.
+/// The flow in compression or in extension.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct UniaxialFlow {
-    /// Magnitude of the strain at yield; infinite where the body never yields.
+    /// Magnitude of the strain at yield; infinite if the body never yields.
     pub(super) strain: f64,
-    /// `d tau11/de` beyond yield (Pa).
+    /// `d tau11/de` after yield (Pa).
     pub(super) modulus: f64,
-    /// Strain beyond yield at which the apex is reached; infinite where it never is.
+    /// Strain from yield to the apex; infinite if the apex is never reached.
     pub(super) to_apex: f64,
 }
 
@@ -94,14 +94,14 @@ impl UniaxialLaw {
         at_yield + T::from(flow.modulus) * (strain - T::from(sign * flow.strain))
     }
 
-    /// P (Pa) for the displacement gradient of a uniaxial strain along the first axis.
+    /// P (Pa) for the displacement gradient of uniaxial strain along the first axis.
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
         let stretch = T::from(1.0) + grad[0][0];
         let along = self.kirchhoff(Number::ln(stretch)) / stretch;
         tensor(|i, j| if i + j == 0 { along } else { T::from(0.0) })
     }
 
-    /// Whether the body flows at the displacement gradient `grad`.
+    /// Whether the body yields at the displacement gradient `grad`.
     fn flows(&self, grad: f64) -> bool {
         let strain = libm::log1p(grad);
         strain.abs() > self.sense(strain).1.strain

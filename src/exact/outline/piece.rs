@@ -1,54 +1,54 @@
-//! Parts of a body that become particles, and merging of small parts with their neighbours.
+//! Parts of a body that become particles, and merging of small parts.
 
 use super::ROUNDING;
 use std::collections::BTreeMap;
 
-/// Minimum size of a piece, as a share of a lattice cell: a smaller one is merged with a neighbour.
-/// A sliver may be the only particle in the support of a node, and limit the time step like a cell
-/// of its own width.
+/// Minimum size of a piece, as a share of a lattice cell. A smaller piece is merged with a
+/// neighbour. Otherwise a sliver could be the only particle in the support of a node, and limit the
+/// time step like a cell of its own width.
 const LEAST: f64 = 0.25;
 
-/// Part of a share of a lattice that belongs to a body.
+/// The part of a lattice cell that belongs to the body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cut {
-    /// None of it.
+    /// Empty.
     Nothing,
-    /// All of it, by the rule of the outline.
+    /// The whole cell, as determined by the outline.
     Whole,
-    /// Pieces of it.
+    /// One or more pieces.
     Pieces(Vec<Piece>),
 }
 
-/// Part of a body in the plane that becomes one particle.
+/// Part of a plane body that becomes one particle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
-    /// Its volume (m2).
+    /// Volume (m2).
     pub volume: f64,
-    /// Its centroid (m).
+    /// Centroid (m).
     pub place: [f64; 2],
-    /// Mean products of coordinates about the centroid: xx, xy, yy (m2).
+    /// Mean products of the coordinates relative to the centroid: xx, xy, yy (m2).
     pub(super) spread: [f64; 3],
-    /// Lengths (m) of common lines with the lattice cells on the left, the right, below and above.
+    /// Lengths (m) of the boundaries shared with the left, right, lower and upper neighbour cells.
     pub(super) joints: [f64; 4],
 }
 
 impl Piece {
-    /// A whole share.
+    /// A whole lattice cell.
     pub(super) fn whole(place: [f64; 2], half: [f64; 2]) -> Self {
         let [width, height] = half.map(|half| 2.0 * half);
         let spread = [width * width / 12.0, 0.0, height * height / 12.0];
         Self { volume: width * height, place, spread, joints: [height, height, width, width] }
     }
 
-    /// Half-lengths (m) of a parallelogram of its volume, row after row, with the same mean
-    /// products of coordinates in shape: the columns are those of the symmetric root of Q, three
-    /// times the matrix of these products, `(Q + s I)/t` with `s = sqrt(det Q)` and
-    /// `t = sqrt(tr Q + 2 s)` (Higham 2008, *Functions of Matrices*, problem 6.2). For a rectangle
-    /// along the axes it is this rectangle.
+    /// Half-lengths (m), row by row, of a parallelogram with the volume of the piece and
+    /// proportional mean products of coordinates. Its columns are those of the symmetric root
+    /// `(Q + s I)/t`, where Q is three times the matrix of mean products, `s = sqrt(det Q)` and
+    /// `t = sqrt(tr Q + 2 s)` (Higham 2008, *Functions of Matrices*, problem 6.2). For an
+    /// axis-aligned rectangle, the result is the rectangle itself.
     pub fn domain(&self) -> [f64; 4] {
         let [xx, xy, yy] = self.spread.map(|product| 3.0 * product);
         let root = (xx * yy - xy * xy).sqrt();
-        // A line has no area but by rounding.
+        // A line has no area except from rounding.
         if !(root > ROUNDING * (xx + yy)) {
             let half = 0.5 * self.volume.sqrt();
             return [half, 0.0, 0.0, half];
@@ -57,7 +57,7 @@ impl Piece {
         [xx + root, xy, xy, yy + root].map(|entry| scale * entry)
     }
 
-    /// Both together.
+    /// The union of this piece and `other`.
     fn with(&self, other: &Self) -> Self {
         let volume = self.volume + other.volume;
         let shares = [self.volume / volume, other.volume / volume];
@@ -75,10 +75,10 @@ impl Piece {
     }
 }
 
-/// Merges pieces of less than a quarter of a lattice cell with the neighbours that they touch along
-/// the longest lines, the smallest first, if the body contains the common centroid (`holds`).
-/// `cuts` are those of all lattice cells, `along` of them in a row, of half-lengths `half` (m)
-/// about their `centres` (m). Volumes and first moments do not change.
+/// Merges pieces smaller than a quarter of a lattice cell with the neighbour that shares the
+/// longest boundary, starting with the smallest piece. A merged centroid must lie in the body
+/// (`holds`). `cuts` contains all lattice cells, `along` of them in a row, with half-lengths `half`
+/// (m) around their `centres` (m). Volumes and first moments do not change.
 pub fn join_small(
     cuts: &mut [Cut],
     along: usize,
@@ -135,7 +135,7 @@ pub fn join_small(
 mod tests {
     use super::*;
 
-    /// Two halves of a rectangle are that rectangle: volume, centroid, moments and domain.
+    /// Two halves of a rectangle merge to the rectangle: volume, centroid, moments and domain.
     #[test]
     fn halves_make_a_whole() {
         let half = |x: f64| Piece::whole([x, 0.5], [1.0, 0.5]);

@@ -1,16 +1,16 @@
-//! Polygons: their sides, their triangles, and their moments.
+//! Polygons: sides, triangulation and moments.
 
 use super::{Cut, Outline, Piece, ROUNDING};
 use crate::exact::random::Random;
 
-/// Number of random points; a patch takes the one that is furthest from all sides.
+/// Number of random candidates for a patch; the one furthest from all sides is used.
 const CANDIDATES: usize = 8;
 
-/// A simple polygon: sides that neither cross nor touch.
+/// A simple polygon, whose sides neither cross nor touch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
     kind: &'static str,
-    /// Counter-clockwise.
+    /// Corners in counter-clockwise order.
     corners: Vec<Point>,
     triangles: Vec<TriangleCorners>,
 }
@@ -19,8 +19,8 @@ impl Polygon {
     /// The polygon with these corners (m), in either orientation; `kind` is its name in suites.
     ///
     /// # Errors
-    /// The numbers of two sides that cross or touch other than at the end of one and the start of
-    /// the next; side i begins at corner i.
+    /// Indices of two sides that cross, or that touch other than at a common corner. Side i begins
+    /// at corner i.
     pub fn new(kind: &'static str, corners: &[[f64; 2]]) -> Result<Self, (usize, usize)> {
         let n = corners.len();
         for second in 0..n {
@@ -39,7 +39,7 @@ impl Polygon {
         Ok(Self { kind, corners, triangles })
     }
 
-    /// Whether the two have an area in common.
+    /// Whether both polygons have a common area.
     pub fn overlaps(&self, other: &Self) -> bool {
         let area: f64 = [self, other].map(Self::area).into_iter().fold(f64::INFINITY, f64::min);
         let common = |one: &TriangleCorners, other: &TriangleCorners| {
@@ -54,12 +54,12 @@ impl Polygon {
         pairs.map(|(one, two)| common(one, two)).sum::<f64>() > ROUNDING * area
     }
 
-    /// Its area (m2).
+    /// Area (m2).
     fn area(&self) -> f64 {
         self.triangles.iter().map(|[a, b, c]| 0.5 * turn(a, b, c)).sum()
     }
 
-    /// The ends of every side.
+    /// The end points of all sides.
     fn sides(&self) -> impl Iterator<Item = (&Point, &Point)> {
         self.corners.iter().zip(self.corners.iter().cycle().skip(1))
     }
@@ -69,7 +69,7 @@ impl Polygon {
         self.sides().map(|(a, b)| distance(a, b, p)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The piece that consists of convex `parts` of a lattice cell; `None` if it is negligible.
+    /// The piece that consists of the convex `parts` of a lattice cell; `None` if negligible.
     fn piece(parts: &[Vec<Point>], centre: &Point, half: &Point) -> Option<Piece> {
         let AreaMoments { area, first, .. } = AreaMoments::from_pieces(parts, centre);
         if !(area > ROUNDING * 4.0 * half[0] * half[1]) {
@@ -107,7 +107,7 @@ impl Outline for Polygon {
         (end(f64::INFINITY, f64::min), end(f64::NEG_INFINITY, f64::max))
     }
 
-    /// By the sides that a line to the right crosses; the rim belongs to the body.
+    /// Counts the sides that a ray to the right crosses. The rim belongs to the body.
     fn holds(&self, label: &[f64]) -> bool {
         let p = [label[0], label[1]];
         let (from, to) = self.ends();
@@ -123,10 +123,11 @@ impl Outline for Polygon {
         if self.holds(label) { 0.0 } else { self.depth(&[label[0], label[1]]) }
     }
 
-    /// The exact intersection of cell and body, at its centroid: volume and first moment of the
-    /// body equal those of its particles, up to rounding. The sum of V f(X) over the particles is
-    /// the integral of f with an error of second order in their spacing, also at the rim. If the
-    /// centroid lies outside the body, as in a notch, each convex piece becomes a particle.
+    /// The exact intersection of cell and body, with a particle at its centroid. The particles have
+    /// the volume and the first moment of the body, up to rounding. The sum of V f(X) over the
+    /// particles approximates the integral of f to second order in the spacing, also at the rim. If
+    /// the centroid is outside the body, for example in a notch, each convex piece becomes a
+    /// particle.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut {
         let (centre, half) = ([centre[0], centre[1]], [half[0], half[1]]);
         let is_near = |corners: &&TriangleCorners| {
@@ -183,7 +184,8 @@ impl Outline for Polygon {
             left < 0.0
         });
         let chart = chosen.unwrap_or(self.triangles.len() - 1);
-        // The root, for the area on this side of a line grows with the square of its distance.
+        // The square root gives a uniform distribution: the area on one side of a line grows with
+        // the square of the distance.
         self.place(chart, &[random.unit().sqrt(), random.unit()]).0
     }
 
@@ -230,14 +232,14 @@ fn inside(corners: &TriangleCorners, from: &[f64], to: &[f64]) -> Vec<Point> {
 pub(super) struct AreaMoments {
     /// Area (m2).
     pub(super) area: f64,
-    /// Integral of the place (m3).
+    /// Integral of the position (m3).
     pub(super) first: Point,
     /// Integrals of the products of coordinates: xx, xy, yy (m4).
     pub(super) second: [f64; 3],
 }
 
 impl AreaMoments {
-    /// The moments about `origin`.
+    /// The moments relative to `origin`.
     pub(super) fn from_pieces(pieces: &[Vec<Point>], origin: &Point) -> Self {
         let mut all = Self::default();
         for corners in pieces {
@@ -248,8 +250,8 @@ impl AreaMoments {
         all
     }
 
-    /// Adds a triangle: the mean of the product of linear functions over it is 1/12 of the sum of
-    /// their products at the corners plus the product of their sums.
+    /// Adds a triangle. The mean of a product of linear functions over a triangle is 1/12 of the
+    /// sum of their products at the corners plus the product of their sums.
     fn add(&mut self, corners: TriangleCorners) {
         let [a, b, c] = &corners;
         let area = 0.5 * turn(a, b, c);
@@ -268,7 +270,7 @@ impl AreaMoments {
 /// A point in the plane (m).
 pub(super) type Point = [f64; 2];
 
-/// From `a` to `b` (m).
+/// Vector from `a` to `b` (m).
 pub(super) fn side(a: &Point, b: &Point) -> Point {
     [b[0] - a[0], b[1] - a[1]]
 }
@@ -278,17 +280,17 @@ pub(super) fn cross(a: &Point, b: &Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// Twice the area of a triangle (m2), positive where its corners go round counter-clockwise.
+/// Twice the signed area of a triangle (m2), positive for counter-clockwise corners.
 pub(super) fn turn(a: &Point, b: &Point, c: &Point) -> f64 {
     cross(&side(a, b), &side(a, c))
 }
 
-/// Whether two sides have a point in common other than the corner between them.
+/// Whether two sides have a common point other than the corner between them.
 pub(super) fn meet(corners: &[Point], first: usize, second: usize) -> bool {
     let n = corners.len();
     let ends = |i: usize| (&corners[i], &corners[(i + 1) % n]);
     let ((a, b), (c, d)) = (ends(first), ends(second));
-    // A side that reverses direction lies on the previous one.
+    // A side that reverses direction overlaps the previous side.
     let back = |from: &Point, corner: &Point, to: &Point| {
         let (before, after) = (side(from, corner), side(corner, to));
         turn(from, corner, to) == 0.0 && before[0] * after[0] + before[1] * after[1] < 0.0
@@ -309,7 +311,7 @@ pub(super) fn meet(corners: &[Point], first: usize, second: usize) -> bool {
     !(apart(a, b, c, d) || apart(c, d, a, b) || beside(0) || beside(1))
 }
 
-/// Distance of `p` from the line between `a` and `b` (m).
+/// Distance of `p` from the segment between `a` and `b` (m).
 pub(super) fn distance(a: &Point, b: &Point, p: &Point) -> f64 {
     let (along, to) = (side(a, b), side(a, p));
     let square = along[0] * along[0] + along[1] * along[1];
@@ -317,11 +319,11 @@ pub(super) fn distance(a: &Point, b: &Point, p: &Point) -> f64 {
     libm::hypot(to[0] - share * along[0], to[1] - share * along[1])
 }
 
-/// Three corners, counter-clockwise.
+/// Three corners in counter-clockwise order.
 pub(super) type TriangleCorners = [Point; 3];
 
-/// The simple polygon of these corners, counter-clockwise, as triangles that do not overlap, by
-/// cutting off ears (Meisters 1975, Polygons have ears).
+/// Triangulates the simple polygon with these counter-clockwise corners by ear clipping (Meisters
+/// 1975, Polygons have ears).
 pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
     let mut left: Vec<usize> = (0..corners.len()).collect();
     let mut found = Vec::new();
@@ -336,8 +338,8 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
             };
             turn(&a, &b, &c) > 0.0 && left.iter().all(|k| own.contains(k) || !inside(&corners[*k]))
         };
-        // A corner on a straight line removes no area. If rounding hides all ears, the largest one
-        // is removed: the sum of signed areas is still correct.
+        // A corner on a straight line removes no area. If rounding hides all ears, the largest is
+        // removed; the sum of signed areas is still correct.
         let area = |i: &usize| at(*i).map(|p| side(&at(*i)[0], &p));
         let area = |i: &usize| cross(&area(i)[1], &area(i)[2]);
         let flat = (0..n).find(|i| area(i) == 0.0);
@@ -351,7 +353,7 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
     found
 }
 
-/// The part of a convex polygon where `height` is not negative, a linear function of the place
+/// The part of a convex polygon where `height`, a linear function of position, is not negative
 /// (Sutherland & Hodgman 1974, Reentrant polygon clipping).
 pub(super) fn clip(corners: &[Point], height: impl Fn(&Point) -> f64) -> Vec<Point> {
     let mut kept = Vec::with_capacity(corners.len() + 1);

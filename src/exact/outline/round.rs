@@ -1,20 +1,20 @@
-//! Round bodies: an annulus or a disk in the plane, a ball in space.
+//! Round bodies: annuli and disks in the plane, balls in space.
 //!
-//! Volume that a ball about the origin and a box have in common, in any dimension.
+//! Also the common volume of a box and a ball around the origin, in any dimension.
 
 use super::{Cut, Outline};
 use crate::exact::gauss::points;
 use crate::exact::random::Random;
 use std::f64::consts::{PI, TAU};
 
-/// Places on a circle of a trace.
+/// Number of points on each circle of a trace.
 const TRACE: usize = 48;
 
-/// The points at a distance from `inner` to `outer` (m) of a centre; `inner` is zero for a disk
-/// and a ball.
+/// The points whose distance from a centre is between `inner` and `outer` (m). For a disk and a
+/// ball, `inner` is zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Round {
-    /// Centre (m), two or three coordinates.
+    /// Centre (m), with two or three coordinates.
     pub centre: Vec<f64>,
     /// Inner radius (m).
     pub inner: f64,
@@ -22,18 +22,18 @@ pub struct Round {
     pub outer: f64,
 }
 
-/// A rim of a body in the plane that is a circle.
+/// A circular rim of a plane body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Circle {
-    /// Name that suites give it.
+    /// Name of the rim in suites.
     pub name: &'static str,
-    /// Its number in [`Outline::rims`].
+    /// Index in [`Outline::rims`].
     pub number: usize,
     /// Centre (m).
     pub centre: [f64; 2],
     /// Radius (m).
     pub radius: f64,
-    /// Sign of the outward normal of the body along the radius.
+    /// Sign of the body's outward normal along the radius.
     pub outwards: f64,
 }
 
@@ -49,7 +49,7 @@ struct Rim {
 }
 
 impl Round {
-    /// The rims with a radius, the inner first.
+    /// The rims with nonzero radius, the inner rim first.
     fn each_rim(&self) -> impl Iterator<Item = Rim> {
         let rim = |title, name, radius, outwards| Rim { title, name, radius, outwards };
         let inner = rim("the inner rim", "inner", self.inner, -1.0);
@@ -57,7 +57,7 @@ impl Round {
         [inner, outer].into_iter().filter(|rim| rim.radius > 0.0)
     }
 
-    /// A random direction, all equally likely (Archimedes: so is every height on a sphere).
+    /// A random direction, uniform because the height on a sphere is uniform (Archimedes).
     fn direction(&self, random: &mut Random) -> [f64; 3] {
         let angle = random.between(-PI, PI);
         let height = if self.centre.len() == 2 { 0.0 } else { random.between(-1.0, 1.0) };
@@ -123,8 +123,8 @@ impl Outline for Round {
         self.each_rim().enumerate().map(circle).collect()
     }
 
-    /// The whole lattice cell, if its centre is inside: the rim is a staircase, and volume and mass
-    /// differ from those of the body by a share that decreases with the spacing.
+    /// The whole lattice cell if its centre is inside the body. The rim becomes a staircase; volume
+    /// and mass have a relative error that decreases with the spacing.
     fn cut(&self, centre: &[f64], _: &[f64]) -> Cut {
         if self.holds(centre) { Cut::Whole } else { Cut::Nothing }
     }
@@ -168,7 +168,7 @@ impl Outline for Round {
         self.along(&direction, radius.clamp(self.inner, self.outer))
     }
 
-    /// Between the rims.
+    /// A box between the rims.
     fn patch(&self, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
         let radius = self.inner + (self.outer - self.inner) * random.between(0.25, 0.75);
         let away = |rim: Rim| (rim.radius - radius).abs();
@@ -179,13 +179,13 @@ impl Outline for Round {
         (self.along(&direction, radius), half)
     }
 
-    /// Coordinates: the radius, the angle and, in 3-D, the height over the radius.
+    /// Coordinates: radius, angle and, in 3-D, height divided by radius.
     fn charts(&self) -> Vec<Vec<(f64, f64)>> {
         let all = [(self.inner, self.outer), (-PI, PI), (-1.0, 1.0)];
         vec![all[..self.centre.len()].to_vec()]
     }
 
-    /// The volume per unit of the coordinates is r in the plane, r^2 in space.
+    /// The volume per unit of the coordinates is r in the plane and r^2 in space.
     fn place(&self, _: usize, coordinates: &[f64]) -> (Vec<f64>, f64) {
         let (radius, height) = (coordinates[0], coordinates.get(2).copied().unwrap_or(0.0));
         let direction = direction(coordinates[1], height);
@@ -193,17 +193,17 @@ impl Outline for Round {
     }
 }
 
-/// Unit vector at an angle around the third axis, with a component `height` along it.
+/// Unit vector at `angle` around the third axis, whose third component is `height`.
 fn direction(angle: f64, height: f64) -> [f64; 3] {
     let flat = (1.0 - height * height).sqrt();
     [flat * libm::cos(angle), flat * libm::sin(angle), height]
 }
 
-/// Panels of the quadrature between two kinks: with four, a kink just beyond an end costs 1e-9.
+/// Quadrature panels between two kinks. With four, a kink just outside causes an error of 1e-9.
 const PANELS: usize = 8;
 
-/// The volume of the intersection of a ball of this `radius` and the box between `ends`: the
-/// integral, along the last axis, of the corresponding volume of the slices, which are balls of one
+/// Volume of the intersection of a ball with this `radius` and the box between `ends`. This is the
+/// integral along the last axis of the corresponding volumes of slices, which are balls with one
 /// dimension less.
 pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     let Some((&(low, high), others)) = ends.split_last() else { return 1.0 };
@@ -222,8 +222,8 @@ pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     }
 }
 
-/// The integral of `slice` from one kink to the next, beyond which it grows like a power of the
-/// root of the distance: `(3 xi - xi^3)/2` makes it smooth.
+/// The integral of `slice` between two kinks. At a kink, the integrand grows like a power of the
+/// square root of the distance; the substitution `(3 xi - xi^3)/2` makes it smooth.
 fn integral(ends: &[f64], slice: impl Fn(f64) -> f64) -> f64 {
     let (middle, half) = (f64::midpoint(ends[0], ends[1]), 0.5 * (ends[1] - ends[0]));
     let term = |(xi, weight): &(Vec<f64>, f64)| {
@@ -233,8 +233,8 @@ fn integral(ends: &[f64], slice: impl Fn(f64) -> f64) -> f64 {
     points(&[(-1.0, 1.0)], PANELS).iter().map(term).sum()
 }
 
-/// The area of a circle between chords at two `ends`, and between `low` and `high` across
-/// them, if each of these two is either inside the circle or outside all the way.
+/// The area of a circle between chords at the two `ends`, and between `low` and `high` across them.
+/// Each of `low` and `high` must be entirely inside or entirely outside the circle.
 fn between_chords(radius: f64, low: f64, high: f64, ends: &[f64]) -> f64 {
     let (from, to) = (ends[0], ends[1]);
     let root = |x: f64| (radius * radius - x * x).max(0.0).sqrt();
@@ -246,7 +246,7 @@ fn between_chords(radius: f64, low: f64, high: f64, ends: &[f64]) -> f64 {
     if middle.min(high) > low.max(-middle) { top - bottom } else { 0.0 }
 }
 
-/// Sorted places from `low` to `high` at which a slice touches a face, an edge or a corner of
+/// Sorted positions from `low` to `high` at which a slice touches a face, an edge or a corner of
 /// `others`, including both ends.
 fn kinks(radius: f64, others: &[(f64, f64)], low: f64, high: f64) -> Vec<f64> {
     let with = |squares: Vec<f64>, (from, to): &(f64, f64)| -> Vec<f64> {
@@ -280,7 +280,7 @@ mod tests {
         ) {
             let body = Round { centre: vec![3.0, -2.0, 0.5][..d].to_vec(), inner, outer: 1.0 };
             let mut random = Random::new(seed);
-            // Distances have rounding errors.
+            // The tolerance covers rounding errors of distances.
             let wide = Round { inner: inner - 1e-12, outer: 1.0 + 1e-12, ..body.clone() };
             prop_assert!(wide.holds(&body.point(&mut random)));
             let (centre, half) = body.patch(&mut random);
@@ -292,7 +292,7 @@ mod tests {
             for rim in 0..body.rims().len() {
                 let (label, normal) = body.on_rim(rim, &mut random);
                 prop_assert!(wide.holds(&label), "{label:?}");
-                // The normal leads out of the body.
+                // The normal points out of the body.
                 let beside = |by: f64| -> Vec<f64> {
                     label.iter().zip(normal).map(|(x, n)| x + by * n).collect()
                 };
@@ -301,7 +301,7 @@ mod tests {
         }
     }
 
-    /// Its polygon is closed and has the area of the body; the hole has the opposite orientation.
+    /// The traced polygon is closed and has the area of the body; holes have opposite orientation.
     #[rstest]
     fn the_drawn_rims_are_those_of_the_body(#[values(0.0, 0.4)] inner: f64) {
         let trace = Round { centre: vec![1.0, 2.0], inner, outer: 1.5 }.trace();
@@ -311,7 +311,7 @@ mod tests {
         assert!((0.5 * doubled / area - 1.0).abs() < 0.01, "{doubled}");
     }
 
-    /// Half of the points of a body lie nearer to its centre than the radius that halves it.
+    /// Half of the random points are closer to the centre than the radius that halves the volume.
     #[rstest]
     #[case(2, 0.75, 1.25)]
     #[case(2, 0.0, 1.0)]
@@ -347,7 +347,7 @@ mod tests {
     }
 
     proptest! {
-        // The cases that failed once are in tests/proptest-regressions/exact/outline/round.txt.
+        // Cases that failed before are in tests/proptest-regressions/exact/outline/round.txt.
         #![proptest_config(ProptestConfig {
             failure_persistence: Some(Box::new(FileFailurePersistence::SourceParallel(
                 "tests/proptest-regressions",
@@ -355,7 +355,7 @@ mod tests {
             ..ProptestConfig::default()
         })]
 
-        /// A corner inside the ball, and faces, edges and corners on either side of it.
+        /// Splits the box at a point with faces, edges and corners inside and outside the ball.
         #[test]
         fn the_parts_of_a_box_have_its_volume(
             at in prop::array::uniform3(-1.1..1.1_f64),

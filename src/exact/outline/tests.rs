@@ -1,4 +1,4 @@
-//! Tests of polygons: validity, and the intersections with lattice cells.
+//! Tests of polygons: validity, and intersections with lattice cells.
 
 use super::polygon::{AreaMoments, Point, triangles};
 use super::{Cut, Outline, Piece, Polygon, join_small};
@@ -30,7 +30,7 @@ fn polygon(corners: &[[f64; 2]]) -> Polygon {
     Polygon::new("polygon", corners).unwrap()
 }
 
-/// Area and first moments by the sides (the theorem of Green).
+/// Area and first moments computed from the sides (Green's theorem).
 fn by_sides(corners: &[[f64; 2]]) -> [f64; 3] {
     let next = corners.iter().cycle().skip(1);
     let sums = corners.iter().zip(next).fold([0.0; 3], |sums, (a, b)| {
@@ -41,7 +41,7 @@ fn by_sides(corners: &[[f64; 2]]) -> [f64; 3] {
     sums.map(|sum| if sums[0] < 0.0 { -sum } else { sum })
 }
 
-/// The particles of a lattice with `count` cells per unit length, which starts outside the body.
+/// The particles of a lattice with `count` cells per unit length that starts outside the body.
 fn particles(body: &Polygon, count: i32) -> Vec<Piece> {
     let spacing = 1.0 / f64::from(count);
     let half = [0.5 * spacing; 2];
@@ -101,7 +101,7 @@ fn a_whole_share_is_a_rectangle() {
     assert_relative_eq!(domain[..], [0.2, 0.0, 0.0, 0.3][..], epsilon = 1e-15);
 }
 
-/// A star-shaped polygon: any distances from a centre at increasing angles form a simple polygon.
+/// A star-shaped polygon. Any distances from a centre at increasing angles form a simple polygon.
 fn star() -> impl Strategy<Value = Vec<[f64; 2]>> {
     prop::collection::vec((0.05..1.0_f64, 0.1..1.0_f64), 4..12).prop_map(|corners| {
         let whole: f64 = corners.iter().map(|(_, angle)| angle).sum();
@@ -115,7 +115,7 @@ fn star() -> impl Strategy<Value = Vec<[f64; 2]>> {
     })
 }
 
-/// Whether all angles between neighbouring corners are below 180 degrees, so that the centre is
+/// Whether all angles between neighbouring corners are below 180 degrees. The centre is then
 /// inside.
 fn is_around_its_centre(corners: &[[f64; 2]]) -> bool {
     let next = corners.iter().cycle().skip(1);
@@ -150,8 +150,8 @@ proptest! {
         }
     }
 
-    /// Charts cover the body once: the integral of a quadratic polynomial over each is that of its
-    /// values at Gauss points; two points per axis are enough.
+    /// The charts cover the body exactly once: integrals of a quadratic polynomial over all charts,
+    /// with two Gauss points per axis, add up to the integral over the body.
     #[test]
     fn charts_cover_the_polygon(corners in star()) {
         prop_assume!(is_around_its_centre(&corners));
@@ -172,7 +172,7 @@ proptest! {
     }
 }
 
-/// The sum of V f(X) tends to the integral of f with the square of the spacing.
+/// The sum of V f(X) converges to the integral of f with second order in the spacing.
 #[rstest]
 #[case::of_a_triangle(TRIANGLE)]
 #[case::of_an_angle(ANGLE)]
@@ -200,7 +200,7 @@ fn no_sliver_stays() {
     }
 }
 
-/// The share of random points in a part equals its share of the area.
+/// The share of random points in a part of the body equals its share of the area.
 #[test]
 fn points_are_spread_evenly() {
     let (body, half) = (polygon(ANGLE), polygon(&[[0.1, 0.1], [0.4, 0.1], [0.4, 0.9], [0.1, 0.9]]));
@@ -233,8 +233,8 @@ fn bodies_overlap_where_they_have_an_area_in_common() {
     assert_relative_eq!(body.distance(&[0.2, 0.2]), 0.0);
 }
 
-/// The domain of a rectangle along the axes is this rectangle. The domain of a triangle, half of
-/// it, is a parallelogram with the same area and the same inclination.
+/// The domain of an axis-aligned rectangle is the rectangle itself. The domain of a triangle, which
+/// is half of a square, is a parallelogram with the same area and inclination.
 #[test]
 fn domains_have_the_shape_of_the_piece() {
     let piece = |body: Polygon| match body.cut(&[0.5; 2], &[0.5; 2]) {
@@ -250,8 +250,8 @@ fn domains_have_the_shape_of_the_piece() {
     assert!((xx - yy).abs() < 1e-12 && (xy - yx).abs() < 1e-12 && xy < -0.05 * xx, "{xx} {xy}");
 }
 
-/// The volume per unit of the coordinates is linear along a chart, so its value in the middle is
-/// the mean.
+/// The volume per unit of the coordinates is linear along a chart, so its value at the centre is
+/// its mean.
 #[rstest]
 fn charts_have_the_area_of_the_body(#[values(TRIANGLE, ANGLE, COMB)] corners: &[[f64; 2]]) {
     let body = polygon(corners);

@@ -1,4 +1,4 @@
-//! The convergence study: computes every number, resolves every name and checks the exact solution.
+//! Compiles a convergence study: computes numbers, resolves names and checks the exact solution.
 
 use super::check::size::LevelPaths;
 use super::check::{self, load_steps, size, steps, sums};
@@ -16,7 +16,7 @@ use crate::verify::StepKind;
 /// Default number of instants at which the error is measured.
 const INSTANTS: u64 = 50;
 
-/// A convergence study with compiled scene, exact solution, levels and cases.
+/// A convergence study whose scene, exact solution, levels and cases are compiled.
 struct Compiled<'a> {
     evaluator: &'a Evaluator<'a>,
     spec: &'a ConvergenceSpec,
@@ -27,11 +27,11 @@ struct Compiled<'a> {
     latest: f64,
 }
 
-/// A check of keys that belong together.
+/// A check that involves several keys.
 type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
 
-/// Checks of a convergence study before its expectations are read. They are independent: their
-/// order only determines which of several errors is reported.
+/// Checks of a convergence study that precede its expectations. They are independent: the order
+/// only determines which of several errors is reported.
 const CROSS_CHECKS: [CrossCheck; 9] = [
     |suite| load_steps::refuse_unfit(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
@@ -44,7 +44,7 @@ const CROSS_CHECKS: [CrossCheck; 9] = [
     |suite| steps::refuse_unusable(suite.evaluator, suite.plan, &suite.levels),
 ];
 
-/// Checks the scene, exact solution, levels, cases and expectations of a convergence study.
+/// Compiles the scene, exact solution, levels, cases and expectations of a convergence study.
 pub(crate) fn convergence_plan(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -95,7 +95,7 @@ pub(crate) fn convergence_plan(
     plan.cases = run::cases(evaluator, spec, &plan, &until)?;
     let compiled = Compiled { evaluator, spec, plan: &plan, levels, latest };
     CROSS_CHECKS.iter().try_for_each(|check| check(&compiled))?;
-    // The exact value of a sum comes from a solution that has been checked.
+    // The exact value of the sum requires a solution that has been checked.
     plan.sum = sums::judged(evaluator, spec, &plan)?;
     plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
     if let Some(spec) = &spec.any_method {
@@ -105,7 +105,7 @@ pub(crate) fn convergence_plan(
     Ok(plan)
 }
 
-/// The warnings that a suite acknowledges. Each must have a reason, and occur once.
+/// The acknowledged warnings of a suite. Refuses entries without reason and repeated warnings.
 fn acknowledged(
     evaluator: &Evaluator<'_>,
     specs: &[AcknowledgeSpec],

@@ -1,5 +1,4 @@
-//! Expectations: exactly one for each case, or none at all; and the accuracy that any method can
-//! reach.
+//! Expectations of cases (exactly one for each case, or none at all), and the key `any_method`.
 
 use crate::exact::Problem;
 use crate::subject::{HIGHEST_ORDER, PlaneState};
@@ -16,10 +15,10 @@ use crate::verify::{
 };
 use std::str::FromStr;
 
-/// Expectation of a case, and of a full run if that differs.
+/// Expectation of a case, and its expectation for a full run if different.
 type CaseExpectation = (Expectation, Option<Expectation>);
 
-/// One expectation for each of the `cases`, in their order; all `None` if the suite states none.
+/// The expectations of `cases`, in the order of the cases; all `None` if the suite states none.
 pub(crate) fn expectations(
     evaluator: &Evaluator<'_>,
     spec: &[ExpectSpec],
@@ -45,7 +44,7 @@ pub(crate) fn expectations(
     Ok(owners.into_iter().map(|owner| Some(parsed[owner?].clone())).collect())
 }
 
-/// For each case the one entry of `expect` that matches it; all `None` without entries.
+/// For each case, the index of the only matching entry of `expect`; all `None` without entries.
 pub(crate) fn assign(
     evaluator: &Evaluator<'_>,
     selectors: &[Option<&OneOrMany<String>>],
@@ -86,7 +85,7 @@ pub(crate) fn assign(
     names.iter().map(owner).collect()
 }
 
-/// Expectation of a full run, if an entry states a different one.
+/// Expectation for a full run, if an entry states a different one.
 fn in_full(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -193,7 +192,7 @@ fn limits(
     Ok(limits)
 }
 
-/// Refuses the bound at `path` if no case of the suite has the `figure`.
+/// Refuses the bound at `path` if no case has this `figure`.
 fn refuse_missing_figure(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -259,14 +258,13 @@ fn drifts(
     Ok(drifts)
 }
 
-/// Number of points along each axis, and of instants, at which a motion is checked to be a
-/// translation.
+/// Number of points per axis, and of instants, at which a motion is tested for being a translation.
 const PLACES: usize = 5;
 
-/// Largest entry of the displacement gradient of a translation, of formulas that round.
+/// Maximum entry of a translation's displacement gradient, from rounding errors of its formulas.
 const UNDEFORMED: f64 = 1e-14;
 
-/// The key `any_method` of a suite, checked.
+/// Compiles the key `any_method`.
 pub(crate) fn any_method(
     evaluator: &Evaluator<'_>,
     spec: &AnyMethodSpec,
@@ -309,7 +307,7 @@ pub(crate) fn any_method(
     Ok(AnyMethod { order, error_below, any_law: spec.any_law, gated, because })
 }
 
-/// Whether the motion neither strains nor rotates the body, which starts without stress.
+/// Whether the motion is a translation of a stress-free body, without strain or rotation.
 fn is_translation(problem: &Problem) -> bool {
     let d = problem.dimension();
     let along = |axis: usize, k: usize| {

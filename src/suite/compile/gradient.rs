@@ -1,4 +1,4 @@
-//! The gradient study: functional, parameters, exact sensitivities, and expectations.
+//! Compiles a gradient study: functional, parameters, exact sensitivities, and expectations.
 
 use super::convergence::convergence_plan;
 use super::expect::assign;
@@ -14,13 +14,13 @@ use crate::suite::model::{Case, ConvergencePlan, Scene};
 use crate::suite::yaml::{Diagnostic, NumberText, Path, Source};
 use crate::verify::{Axis, GradientTerms};
 
-/// Maximum number of points of a sweep.
+/// Maximum number of sweep points.
 const MOST_POINTS: u64 = 1000;
 
-/// Change of a parameter for which the stated solution must solve the problem as well.
+/// Relative change of a parameter for which the stated solution must still solve the problem.
 const CHANGE: f64 = 1.0 / 64.0;
 
-/// Checks a gradient study.
+/// Compiles a gradient study.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     source: &Source,
@@ -38,7 +38,7 @@ pub(crate) fn plan(
     Ok(plan)
 }
 
-/// The external solvers of the suite; one without a name if it states none.
+/// The external solvers of the suite; a single unnamed solver if the suite states none.
 fn methods(evaluator: &Evaluator<'_>, spec: &GradientSpec) -> Result<Vec<MethodSpec>, Diagnostic> {
     let is_other = |method: &MethodSpec| !matches!(method, MethodSpec::External { .. });
     if let Some(i) = spec.methods.iter().position(is_other) {
@@ -54,7 +54,7 @@ fn methods(evaluator: &Evaluator<'_>, spec: &GradientSpec) -> Result<Vec<MethodS
     Ok(vec![MethodSpec::External { name, formal_order: None, precision }])
 }
 
-/// Refuses a problem whose exact sensitivities are not defined here.
+/// Refuses a problem whose exact sensitivities are not implemented.
 fn refuse_unfit_problem(
     evaluator: &Evaluator<'_>,
     spec: &GradientSpec,
@@ -119,7 +119,7 @@ fn refuse_unfit_problem(
     }
 }
 
-/// A whole number below `count`.
+/// An index: an integer from 0 to `count - 1`.
 fn index(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -159,7 +159,7 @@ fn functional(
     })
 }
 
-/// Number of particles of the coarsest level, at least one.
+/// Number of particles on the coarsest level; at least one.
 fn coarsest_particles(problem: &ConvergencePlan) -> usize {
     let scene = &problem.scene;
     let Some(level) = problem.refine.levels.first() else { return 1 };
@@ -207,7 +207,7 @@ fn parameters(
     }
 }
 
-/// The parameter of the problem that the parameter `name` of the suite sets.
+/// The parameter of the problem that is set by the suite parameter `name`.
 fn differentiated(
     evaluator: &Evaluator<'_>,
     source: &Source,
@@ -268,8 +268,8 @@ fn differentiated(
     Ok(Differentiated { parameter, name: name.clone(), motion, velocity_factor: factor })
 }
 
-/// Whether `value` is that of the parameter in `scene`. An initial velocity is set by a parameter
-/// to which it is proportional: `growth`, its relative growth, is 1.
+/// Whether `value` equals the parameter in `scene`. For an initial velocity, whether its relative
+/// `growth` is 1, which means that it is proportional to the suite parameter.
 fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) -> bool {
     let of_material = || {
         let parameters = scene.material.keyed_parameters();
@@ -286,7 +286,7 @@ fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) ->
     }
 }
 
-/// The result of `check` with another value of a parameter of the suite.
+/// The result of `check` for a changed value of a suite parameter.
 fn with_value<T>(
     source: &Source,
     spec: &GradientSpec,
@@ -299,7 +299,7 @@ fn with_value<T>(
     check(&evaluator)
 }
 
-/// The exact motion as a function of the parameter `name`.
+/// The exact motion as a function of the suite parameter `name`.
 fn motion(
     evaluator: &Evaluator<'_>,
     spec: &GradientSpec,
@@ -323,7 +323,7 @@ fn motion(
     })
 }
 
-/// Index of the level on which parameters are perturbed.
+/// Index of the level whose parameters are perturbed.
 fn level(
     evaluator: &Evaluator<'_>,
     spec: &GradientSpec,

@@ -1,8 +1,8 @@
-//! The internal-force study: the mechanism of grid crossing, without a run.
+//! The internal-force study: the grid-crossing error, without a run.
 //!
-//! Two cells meet at a node; like all other cells, they contain equal particles under one uniform
-//! stress. One particle of the left cell is moved across the node, and the internal force on the
-//! node is computed by P2G of the solver itself.
+//! Two cells meet at a node. All cells contain equal particles with the same uniform stress. One
+//! particle of the left cell is moved across the node, and the solver's P2G computes the internal
+//! force on the node.
 
 use super::expect::assign;
 use crate::mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, Vector, kernel};
@@ -12,18 +12,18 @@ use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::ForceRow;
 
-/// Full cells on either side of the node. The axis is periodic, so that the support of a wide basis
-/// contains neither a wall nor an end of the body.
+/// Number of full cells on each side of the node. The axis is periodic: the support of a wide basis
+/// then contains no wall and no end of the body.
 const SIDE: usize = 4;
 
-/// Maximum number of particles over all positions. It limits the run to about a second and the
-/// report to a readable length.
+/// Maximum number of particles over all positions. Limits the run time to about a second, and the
+/// length of the report.
 const MOST_SUMMANDS: u64 = 1_000_000;
 
 /// Variables of the predicted force.
 const VARIABLES: [&str; 2] = ["n_left", "n_right"];
 
-/// Checks an internal-force study.
+/// Compiles an internal-force study.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     spec: &InternalForceSpec,
@@ -98,13 +98,13 @@ fn expectation(
     }
 }
 
-/// The force on the node for every position of the moving particle.
+/// The force on the node for each position of the moving particle.
 pub(crate) fn rows(plan: &ForcePlan, case: &ForceCase) -> Vec<ForceRow> {
     (0..plan.positions).map(|k| row(plan, case, k)).collect()
 }
 
 fn row(plan: &ForcePlan, case: &ForceCase, k: u64) -> ForceRow {
-    // Positions from -1/2 to 1/2 cells, symmetric, at the middles of equal parts.
+    // Midpoints of equal parts between -1/2 and 1/2 cells, symmetric about the node.
     let position = (k as f64 + 0.5) / plan.positions as f64 - 0.5;
     let right = plan.ppc + u64::from(position >= 0.0);
     let left = 2 * plan.ppc - right;
@@ -126,14 +126,14 @@ fn force(plan: &ForcePlan, basis: BasisName, position: f64) -> f64 {
     let mut particles = Particles::fill(&block, h, plan.ppc as usize);
     particles.vol.fill(plan.volume);
     particles.sigma.fill(Matrix::<1>::new(plan.stress));
-    // The last particle of the left half moves.
+    // The last particle of the left half is the moving particle.
     particles.x[SIDE * plan.ppc as usize - 1][0] = position * h;
     kernel.p2g_internal_force(&particles, &mut grid);
     let node = node_at(kernel.as_ref(), &mut grid, h);
     grid.force[node][0]
 }
 
-/// The node with the largest weight for a particle at x = 0; the right one of two.
+/// The node with the largest weight for a particle at x = 0; if two are equal, the right one.
 fn node_at(kernel: &dyn Kernel<1>, grid: &mut Grid<1>, h: f64) -> usize {
     let (from, to) = (Vector::<1>::new(-0.5 * h), Vector::<1>::new(0.5 * h));
     let alone = Particles::fill(&Block { from, to, density: 1.0 }, h, 1);

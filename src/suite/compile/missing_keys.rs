@@ -1,4 +1,4 @@
-//! Every required key is shown with a valid value.
+//! Tests that the error for each missing required key shows a valid sample value.
 
 use crate::suite::grammar::SuiteSpec;
 use crate::suite::grammar::sample::SAMPLES;
@@ -7,7 +7,7 @@ use crate::suite::{embedded, yaml};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 
-/// A suite with keys that no suite of the repository has.
+/// A suite with the keys that no suite of the repository uses.
 const MORE: &str = "
 suite: more
 title: More
@@ -19,13 +19,13 @@ methods: [{mpm: {basis: linear, transfer: flip, scheme: usl}}, {external: {name:
 expect: [{verdict: failed, because: none}]
 ";
 
-/// Whether a text has all required keys and no unknown ones.
+/// Checks that a text has all required keys and no unknown keys.
 fn grammatical(text: &Value) -> Result<(), Diagnostic> {
     let source = Source::from_text("suite.yaml", text.to_string())?;
     SuiteSpec::read(&source).map(drop)
 }
 
-/// Pointers to all maps, with their keys.
+/// JSON pointers to all maps, with their keys.
 fn keys(value: &Value, pointer: &str, found: &mut Vec<(String, String)>) {
     let below: Vec<(String, &Value)> = match value {
         Value::Object(map) => {

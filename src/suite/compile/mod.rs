@@ -1,5 +1,4 @@
-//! From the grammar to the model: computes every number, resolves every name and checks the exact
-//! solution.
+//! Converts the grammar to the model: numbers, names, and checks of the exact solution.
 
 pub(crate) mod check;
 pub(crate) mod convergence;

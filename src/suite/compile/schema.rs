@@ -1,5 +1,4 @@
-//! JSON Schema of a suite (draft 7, which editors support), generated from the types of the
-//! grammar.
+//! JSON Schema (draft 7, which editors support), generated from the types of the grammar.
 
 use crate::suite::grammar::{
     ConvergenceSpec, GradientSpec, InternalForceSpec, SpectrumSpec, StabilitySpec,
@@ -41,11 +40,11 @@ pub fn suite_schema() -> String {
     RecursiveTransform(without_links).transform(&mut schema);
     RecursiveTransform(without_null).transform(&mut schema);
     RecursiveTransform(names_in_one_list).transform(&mut schema);
-    // Names and texts only, so that the conversion to JSON cannot fail.
+    // The schema contains only names and texts, so the conversion to JSON cannot fail.
     serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
 }
 
-/// Removes descriptions with links to items of the source, which authors of suites do not need.
+/// Removes descriptions with links to Rust items, which authors of suites do not need.
 fn without_links(schema: &mut Schema) {
     let speaks_of_source = |text: &Value| text.as_str().is_some_and(|text| text.contains("[`"));
     if schema.get("description").is_some_and(speaks_of_source) {
@@ -53,7 +52,7 @@ fn without_links(schema: &mut Schema) {
     }
 }
 
-/// Writes a choice between bare names without descriptions as a list.
+/// Replaces alternatives that are names without description by a single list of names.
 fn names_in_one_list(schema: &mut Schema) {
     let bare = |choice: &Value| match choice.as_object() {
         Some(keys) if keys.len() == 2 && keys.get("type") == Some(&"string".into()) => {
@@ -70,8 +69,8 @@ fn names_in_one_list(schema: &mut Schema) {
     }
 }
 
-/// Removes `null` from optional keys, which the program treats as a missing key: an editor should
-/// report a key without a value.
+/// Removes `null` from optional keys. The program treats `null` as a missing key, but an editor
+/// should report a key without a value.
 fn without_null(schema: &mut Schema) {
     if schema.get("default").is_some_and(Value::is_null) {
         schema.remove("default");

@@ -1,5 +1,5 @@
-//! The spectrum study: a wave in a periodic row of cells, the methods with their closed forms, and
-//! the expectations.
+//! Compiles a spectrum study: a wave in a periodic row of cells, methods with their closed forms,
+//! and expectations.
 
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialPlan, Spline, VolumeName, WaveMethod, WaveTransfer, combine};
@@ -19,19 +19,19 @@ use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{AMPLITUDE, SpectrumExpectation};
 use std::f64::consts::TAU;
 
-/// Maximum number of cases, and of waves of a case.
+/// Maximum number of cases, and of waves per case.
 const MOST: usize = 500;
 
-/// Maximum number of particles per cell. The closed form has a term for each of them.
+/// Maximum number of particles per cell. The closed form has one term per particle.
 const MOST_PPC: u64 = 64;
 
-/// Smallest symbol of the mass of a wave that the grid represents.
+/// Minimum mass symbol of a wave that the grid represents.
 const SMALLEST_MASS: f64 = 1e-9;
 
-/// Largest distance of a number of periods from a whole number that counts as rounding.
+/// Deviation of a number of periods from an integer that is treated as rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// Checks a spectrum study.
+/// Compiles a spectrum study.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,
@@ -65,7 +65,7 @@ pub(crate) fn plan(
     Ok(plan)
 }
 
-/// The refusal of a suite without a `property` that the study needs.
+/// The diagnostic for a suite without a `property` that the study requires.
 fn needs(evaluator: &Evaluator<'_>, path: &Path, property: &str) -> Diagnostic {
     evaluator.diagnostic(path, &format!("spectrum needs {property}"))
 }
@@ -76,7 +76,7 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
     let fills = scene.grid.as_ref().is_none_or(|(from, to)| *from == scene.from && *to == scene.to);
     let is_linear = matches!(scene.material, MaterialPlan::LinearElastic { .. });
     let is_periodic = scene.faces.iter().all(|face| face.hold.is_periodic());
-    // A scene without the key has free faces.
+    // Without the key `boundary`, all faces are free.
     let is_free = scene.faces.iter().all(|face| face.hold.is_free());
     let boundary = if is_free { Path::top("scene") } else { top("boundary") };
     let starts_at_rest = scene.initial_displacement.is_empty() && scene.initial_velocity.is_empty();
@@ -96,7 +96,7 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
     }
 }
 
-/// The translation of the particles (m), which leaves each particle in its cell.
+/// The translation of the particles (m), with which no particle leaves its cell.
 fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result<f64, Diagnostic> {
     let Some(texts) = &spec.particles.shift else { return Ok(0.0) };
     let path = Path::top("particles").then("shift");
@@ -109,7 +109,7 @@ fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result
     Err(evaluator.diagnostic(&path, &message).with_label(label))
 }
 
-/// The product of wavelengths and Courant numbers.
+/// The waves: all combinations of wavelengths and Courant numbers.
 fn waves(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,
@@ -149,7 +149,7 @@ fn waves(
     Ok(waves)
 }
 
-/// The velocity (m/s) at the start of a standing wave of this `length` (m).
+/// Initial velocity (m/s) of a standing wave of this `length` (m).
 fn velocity(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -161,7 +161,7 @@ fn velocity(
     evaluator.formula(path, &text, &coordinates_and_time(1))
 }
 
-/// The product of the lists of `methods`, with their closed forms and expectations.
+/// The cases: the product of the lists in `methods`, with closed forms and expectations.
 fn cases(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,
@@ -233,7 +233,7 @@ fn curve(
     Ok(WaveMethod { spline, ppc, shift: plan.shift / plan.h, transfer, scheme })
 }
 
-/// The expectation number `i`, and its reason.
+/// Expectation number `i` and its reason.
 fn expectation(
     evaluator: &Evaluator<'_>,
     i: usize,
@@ -254,7 +254,7 @@ fn expectation(
     Ok((SpectrumExpectation { phase_within, damping_within }, because))
 }
 
-/// Refuses a solver that is compared with a case that does not exist.
+/// Refuses a solver that refers to the prediction of an unknown case.
 fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Result<(), Diagnostic> {
     let names: Vec<&str> = plan.cases.iter().map(|case| case.name.as_str()).collect();
     let Some((solver, case)) =
@@ -267,8 +267,8 @@ fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Resul
     Err(diagnostic.with_help(&suggestion("cases", case, &names)))
 }
 
-/// Refuses a time step above the stability limit of a case, and a wave that its grid does not
-/// represent.
+/// Refuses a time step above the stability limit of a case, and a wave that the grid of a case does
+/// not represent.
 fn refuse_unfit_waves(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,

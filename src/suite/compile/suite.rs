@@ -1,5 +1,5 @@
-//! From the specification to a suite: the kind of study, the head of the file, and changed copies
-//! of a convergence study.
+//! Compiles a suite: the kind of study, the head of the file, and changed copies of a convergence
+//! study.
 
 use super::convergence::convergence_plan;
 use super::{gradient, internal_force, scene, spectrum, stability};
@@ -14,10 +14,10 @@ use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path, Source};
 use std::sync::Arc;
 
 impl Suite {
-    /// Reads and checks a suite. No solver runs.
+    /// Parses and checks a suite, without running a solver.
     ///
     /// # Errors
-    /// A [`Diagnostic`] with the place of the first error.
+    /// A [`Diagnostic`] with the position of the first error.
     pub fn load(source: &Source) -> Result<Self, Diagnostic> {
         let suite = match SuiteSpec::read(source)? {
             SuiteSpec::Convergence(spec) => convergence(source, *spec),
@@ -30,11 +30,11 @@ impl Suite {
         Ok(Self { group: source.group(), fingerprint, ..suite? })
     }
 
-    /// The scene of the convergence study in `source`, without exact solution: the problem of a
-    /// solver with a defect to be found.
+    /// The scene of the convergence study in `source`, without exact solution. Used to run solvers
+    /// with deliberate defects.
     ///
     /// # Errors
-    /// A [`Diagnostic`] with the place of the first error.
+    /// A [`Diagnostic`] with the position of the first error.
     pub fn scene(source: &Source) -> Result<Scene, Diagnostic> {
         let spec = ConvergenceSpec::read(source)?;
         let (evaluator, _) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
@@ -42,19 +42,19 @@ impl Suite {
     }
 }
 
-/// The convergence study in `source`, with the amplitude of the exact motion and of the initial
-/// state multiplied by `factor`. Loads are not scaled.
+/// The convergence study in `source`. The amplitudes of the exact motion and the initial state are
+/// multiplied by `factor`; loads are not scaled.
 ///
 /// # Errors
-/// If the scaled motion is not a solution, as with loads that are not scaled.
+/// If the scaled motion is not a solution, for example because of unscaled loads.
 pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diagnostic> {
     with_changes(source, |spec| scale_amplitude(spec, factor))
 }
 
-/// The convergence study in `source`, without expectations and with these changes.
+/// The convergence study in `source` with a `change`, without expectations.
 ///
 /// # Errors
-/// A [`Diagnostic`] with the reason why the changed suite is refused.
+/// A [`Diagnostic`] with the reason for refusing the changed suite.
 pub(crate) fn with_changes(
     source: &Source,
     change: impl FnOnce(&mut ConvergenceSpec),
@@ -125,7 +125,7 @@ fn stability(source: &Source, spec: StabilitySpec) -> Result<Suite, Diagnostic> 
     Ok(assemble(head, parameters, &spec.functions, plan))
 }
 
-/// A suite with this name, title, source and text about it.
+/// A suite with these texts and parameters.
 fn assemble(
     [name, title, source, about]: [String; 4],
     parameters: Vec<DeclaredParameter>,
@@ -137,7 +137,7 @@ fn assemble(
     Suite { name, group, title, source, about, parameters, functions, study, fingerprint: 0 }
 }
 
-/// A name becomes part of test and file names.
+/// Refuses a name that cannot be part of test and file names.
 fn refuse_unusable_name(evaluator: &Evaluator<'_>, name: &str) -> Result<(), Diagnostic> {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     if !name.is_empty() && name.len() <= 64 && name.chars().all(plain) {

@@ -1,4 +1,4 @@
-//! Evaluates the texts of a file to numbers and formulas; errors have their position.
+//! Evaluates the texts of a suite file to numbers and formulas. Errors have positions.
 
 mod names;
 
@@ -14,13 +14,13 @@ use std::collections::BTreeSet;
 /// Maximum count in a suite (cells, particles per cell, instants).
 const MOST: f64 = 1e7;
 
-/// Names of the coordinates in formulas.
+/// Coordinate names in formulas.
 pub(crate) const COORDINATES: [&str; 3] = ["X", "Y", "Z"];
 
-/// Names of the components of the displacement in loads.
+/// Names of displacement components in load formulas.
 pub(crate) const DISPLACEMENTS: [&str; 3] = ["ux", "uy", "uz"];
 
-/// The coordinates of `dimension` dimensions, followed by t.
+/// The first `dimension` coordinate names, followed by t.
 pub(crate) fn coordinates_and_time(dimension: usize) -> Vec<&'static str> {
     COORDINATES[..dimension].iter().copied().chain(["t"]).collect()
 }
@@ -43,22 +43,22 @@ impl InPlaceOfNumber for TableSpec {
     const EXPECTED: &'static str = "a number, a formula, or `{by: t, table: [[0, 0], [0.1, 1]]}`";
 }
 
-/// A parameter: its name, its text, and its value unless it is a table.
+/// A parameter: its name and text, and its value unless it is a table.
 pub(crate) type DeclaredParameter = (String, String, Option<f64>);
 
-/// The names of a suite, with marks on used ones.
+/// The names that a suite declares. Records which of them are used.
 pub(crate) struct Evaluator<'a> {
     source: &'a Source,
     scope: Scope,
     used: RefCell<BTreeSet<String>>,
     heads: Vec<String>,
-    /// Every parameter of the suite, including those that are not declared yet.
+    /// Names of all parameters of the suite, including those not yet declared.
     parameters: Vec<String>,
 }
 
 impl<'a> Evaluator<'a> {
-    /// Declares the functions and, in the order of the file, the parameters of a suite. Returns
-    /// the evaluator and each parameter's name, text and value.
+    /// Declares the functions of a suite, then its parameters in file order. Returns the evaluator,
+    /// and the name, text and value of each parameter.
     pub(crate) fn new(
         source: &'a Source,
         parameters: &Ordered<ParameterSpec>,
@@ -89,7 +89,7 @@ impl<'a> Evaluator<'a> {
         Ok((evaluator, values))
     }
 
-    /// `s(tau): "..."` declares the function s of one argument.
+    /// Declares a function. For example, `s(tau): "..."` declares a function s of one argument.
     fn declare_function(&mut self, head: &str, body: &str) -> Result<(), Diagnostic> {
         let path = Path::top("functions").then(head);
         let (name, arguments) = head
@@ -113,7 +113,7 @@ impl<'a> Evaluator<'a> {
         })
     }
 
-    /// Binds a formula of `variables`.
+    /// Binds a formula in the given `variables`.
     pub(crate) fn formula(
         &self,
         path: &Path,
@@ -128,7 +128,7 @@ impl<'a> Evaluator<'a> {
         Ok(formula)
     }
 
-    /// Binds one formula for each of `dimension` components.
+    /// Binds a list of `dimension` formulas.
     pub(crate) fn vector(
         &self,
         path: &Path,
@@ -152,7 +152,7 @@ impl<'a> Evaluator<'a> {
         texts.iter().enumerate().map(bind).collect()
     }
 
-    /// A finite number, stated directly or by a formula of parameters.
+    /// A finite number, given directly or by a formula of parameters.
     pub(crate) fn number(&self, path: &Path, text: &NumberText) -> Result<f64, Diagnostic> {
         let formula = self.formula(path, text, &[])?;
         let value = formula.constant().unwrap_or(f64::NAN);
@@ -162,7 +162,7 @@ impl<'a> Evaluator<'a> {
         Err(self.not_finite(path, text, value))
     }
 
-    /// A number above zero.
+    /// A positive number.
     pub(crate) fn positive(
         &self,
         path: &Path,
@@ -177,7 +177,7 @@ impl<'a> Evaluator<'a> {
         Err(self.unusable(path, text, &message, "expected a positive number"))
     }
 
-    /// A whole number from 1 on.
+    /// A positive integer.
     pub(crate) fn count(
         &self,
         path: &Path,
@@ -187,7 +187,7 @@ impl<'a> Evaluator<'a> {
         self.count_up_to(MOST, path, text, what)
     }
 
-    /// A number of items from 1 to `most`.
+    /// An integer from 1 to `most`.
     pub(crate) fn count_up_to(
         &self,
         most: f64,
@@ -204,7 +204,7 @@ impl<'a> Evaluator<'a> {
         Err(self.unusable(path, text, &message, &label))
     }
 
-    /// One number for each of `dimension` axes.
+    /// The coordinates of a point: `dimension` numbers.
     pub(crate) fn point(
         &self,
         path: &Path,
@@ -215,7 +215,7 @@ impl<'a> Evaluator<'a> {
         texts.iter().enumerate().map(|(i, text)| self.number(&path.then(i), text)).collect()
     }
 
-    /// Two ends, the lower one first.
+    /// Both ends of an interval, the lower end first.
     pub(crate) fn interval(
         &self,
         path: &Path,
@@ -234,7 +234,7 @@ impl<'a> Evaluator<'a> {
         Err(self.diagnostic(path, &message).with_label("expected [low, high]"))
     }
 
-    /// The reason at `path` for what is `stated` there; it must not be empty.
+    /// The reason (`because`) at `path` for the `stated` value; must not be empty.
     pub(crate) fn because(
         &self,
         path: &Path,
@@ -250,12 +250,12 @@ impl<'a> Evaluator<'a> {
         Err(diagnostic.with_label("expected words"))
     }
 
-    /// A diagnostic of the value at `path`.
+    /// A diagnostic about the value at `path`.
     pub(crate) fn diagnostic(&self, path: &Path, message: &str) -> Diagnostic {
         self.source.diagnostic_at(path.steps(), message)
     }
 
-    /// A diagnostic of the key at `path`.
+    /// A diagnostic about the key at `path`.
     pub(crate) fn diagnostic_at_key(&self, path: &Path, message: &str) -> Diagnostic {
         match self.source.key_at(path.steps()) {
             Some(place) => self.source.diagnostic(place, message),
@@ -263,7 +263,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// A diagnostic of a part of the formula at `path`, or of the function that it calls.
+    /// A diagnostic about a part of the formula at `path`, or of a function that the formula calls.
     fn in_text(&self, path: &Path, error: &FormulaError) -> Diagnostic {
         let function = error.within.as_ref().and_then(|name| self.head_of(name));
         let path = function
@@ -294,12 +294,12 @@ fn with_help(diagnostic: Diagnostic, error: &FormulaError) -> Diagnostic {
     }
 }
 
-/// A number as an author would write it: 1e300 rather than a one and 300 zeros.
+/// A number as an author would write it: 1e300 instead of 1 followed by 300 zeros.
 pub(crate) fn shown(value: f64) -> String {
     NumberText::Number(value).to_string()
 }
 
-/// The nearest known name, or all `known` names.
+/// The known name closest to `name`, otherwise all `known` names.
 pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
     match nearest(name, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
@@ -307,13 +307,12 @@ pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
     }
 }
 
-/// Values for which most formulas are finite. A parameter is suspected if the formula is finite
-/// with one of them, or with its own magnitude, in its place.
+/// Values for which most formulas are finite. A parameter is a suspected cause if the formula is
+/// finite with one of these values, or with the parameter's magnitude, in place of its value.
 const HARMLESS: [f64; 2] = [1.0, 0.5];
 
 impl Evaluator<'_> {
-    /// A diagnostic of an invalid number from the formula at `path`; it lists the parameters of the
-    /// formula.
+    /// A diagnostic about an invalid number at `path`, with the parameters of its formula.
     pub(crate) fn unusable(
         &self,
         path: &Path,
@@ -326,7 +325,7 @@ impl Evaluator<'_> {
         self.diagnostic(path, message).with_label(label).with_help(&read.join(", "))
     }
 
-    /// A diagnostic of a formula of parameters whose value is not finite.
+    /// A diagnostic about a formula of parameters whose value is not finite.
     pub(super) fn not_finite(&self, path: &Path, text: &NumberText, value: f64) -> Diagnostic {
         let (label, value) = ("expected a finite number", shown(value));
         let what = match path.steps() {
@@ -351,7 +350,7 @@ impl Evaluator<'_> {
         self.diagnostic(path, &message).with_label(label).with_help(&places.join(", "))
     }
 
-    /// The parameters that a formula reads, be it through functions, with their values.
+    /// Names and values of the parameters that a formula uses, directly or through functions.
     fn read_by(&self, text: &NumberText) -> Vec<(String, f64)> {
         let formula =
             Expr::parse(&text.to_string()).and_then(|expr| Formula::bind(&expr, &self.scope, &[]));
@@ -360,7 +359,7 @@ impl Evaluator<'_> {
         constants.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
-    /// Whether the formula is finite with another value of a parameter.
+    /// Whether the formula is finite if parameter `name` has this `value`.
     fn is_finite_with(&self, text: &NumberText, name: &str, value: f64) -> bool {
         let scope = self.scope.with(name, value);
         let formula =
@@ -368,7 +367,7 @@ impl Evaluator<'_> {
         formula.is_ok_and(|formula| formula.constant().is_some_and(f64::is_finite))
     }
 
-    /// A parameter with its value and the line that declares it.
+    /// Text with a parameter, its value and the line of its declaration.
     fn found(&self, name: &str, value: f64) -> String {
         let value = shown(value);
         match self.line_of(name) {
@@ -377,7 +376,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The line that declares a parameter.
+    /// The line number of the declaration of a parameter.
     pub(super) fn line_of(&self, parameter: &str) -> Option<usize> {
         let path = Path::top("parameters").then(parameter);
         self.source.key_at(path.steps()).map(Place::line)

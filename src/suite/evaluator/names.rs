@@ -1,11 +1,11 @@
-//! The names that a suite declares: tables, and errors about duplicate, unused or late names.
+//! Names that a suite declares: tables, and errors about reserved, unused or undeclared names.
 
 use super::{Evaluator, ParameterSpec, TableSpec, shown, with_help};
 use crate::exact::formula::{Expr, Formula, Scope};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 
 impl Evaluator<'_> {
-    /// Refuses a declared name that formulas need for one of their `variables`.
+    /// Refuses declared names that equal one of the formula `variables`.
     pub(crate) fn refuse_taken(&self, variables: &[&str]) -> Result<(), Diagnostic> {
         let diagnostic = |path: &Path, name: &str| {
             let message = format!("`{name}` is a variable of formulas and cannot be declared");
@@ -24,7 +24,7 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// A diagnostic of the first unused parameter or function.
+    /// Refuses unused parameters and functions.
     pub(crate) fn refuse_unused(
         &self,
         parameters: &Ordered<ParameterSpec>,
@@ -53,25 +53,25 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Whether a name is that of a parameter without a value yet.
+    /// Whether `name` is a parameter that is declared later in the file.
     pub(super) fn comes_later(&self, name: &str) -> bool {
         self.parameters.iter().any(|known| known == name)
             && !self.scope.constants().any(|(known, _)| known == name)
             && !self.scope.tables().any(|known| known == name)
     }
 
-    /// The head under which the file declares `function`.
+    /// The declared head of `function`, such as `s(tau)`.
     pub(super) fn head_of(&self, function: &str) -> Option<&String> {
         self.heads.iter().find(|head| name_in(head) == function)
     }
 }
 
 impl<'a> Evaluator<'a> {
-    /// An evaluator whose formulas have the parameter `name` as a variable, which the parameters
-    /// below it and the functions see as well.
+    /// An evaluator in which the parameter `name` is a free variable. Functions and later
+    /// parameters may depend on this variable.
     ///
     /// # Errors
-    /// A diagnostic if a parameter cannot be a function of `name`.
+    /// A diagnostic if a parameter cannot depend on `name`.
     pub(crate) fn with_free(
         &self,
         name: &str,
@@ -107,13 +107,13 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-/// `s` in `s(tau)`.
+/// The function name in a head: `s` in `s(tau)`.
 fn name_in(head: &str) -> &str {
     head.split('(').next().unwrap_or(head).trim()
 }
 
 impl Evaluator<'_> {
-    /// Declares the table `name`. Returns its text and, if its argument is a parameter, its value.
+    /// Declares the table `name`. Returns its text, and its value if its argument is a parameter.
     pub(super) fn declare_table(
         &mut self,
         path: &Path,

@@ -68,12 +68,12 @@ pub(crate) struct ConvergenceSpec {
 }
 
 impl ConvergenceSpec {
-    /// Number of the first entry of `methods` that is an FEM.
+    /// Index of the first FEM entry in `methods`.
     pub(crate) fn fem_method(&self) -> Option<usize> {
         self.methods.iter().position(|method| matches!(method, MethodSpec::Fem { .. }))
     }
 
-    /// Whether the suite has a fine FEM computation.
+    /// Whether the suite has a fine FEM computation as reference.
     pub(crate) fn has_fem_reference(&self) -> bool {
         self.reference.as_ref().is_some_and(|reference| reference.fem.is_some())
     }

@@ -1,4 +1,4 @@
-//! Keys of a method: its parts, its transfer and the length of its steps.
+//! Keys of a method: components, transfer and step length.
 
 use super::EquationName;
 use crate::fem::{Element, Mass, Sampling};
@@ -86,7 +86,7 @@ pub(crate) enum SchemeKey {
 }
 
 impl SchemeKey {
-    /// The explicit scheme with this name; `None` for load steps.
+    /// The explicit scheme; `None` for load steps.
     pub(crate) fn explicit(self) -> Option<SchemeName> {
         match self {
             Self::Usf => Some(SchemeName::Usf),
@@ -108,7 +108,7 @@ impl From<SchemeName> for SchemeKey {
 }
 
 impl MethodSpec {
-    /// Whether it has quasi-static load steps.
+    /// Whether the method uses quasi-static load steps.
     pub(crate) fn is_quasi_static(&self) -> bool {
         match self {
             Self::Mpm { scheme, .. } => scheme.as_slice().contains(&SchemeKey::QuasiStatic),

@@ -1,6 +1,6 @@
 //! The grammar of a suite: the allowed contents of a YAML file, before any number is computed.
 //!
-//! Every map refuses unknown keys. A number may be a formula of declared parameters; the entries of
+//! Every map refuses unknown keys. A number may be a formula of declared parameters. The entries of
 //! a method may be lists, whose product gives the cases.
 
 pub(crate) mod convergence;
@@ -36,7 +36,7 @@ pub(crate) use truth::{ExactSpec, LinearisedSpec, ManufacturedSpec};
 
 use serde::Deserialize;
 
-/// A suite, by its kind of study.
+/// The keys of a suite, by kind of study.
 #[derive(Debug, Clone)]
 pub(crate) enum SuiteSpec {
     /// Errors over a refinement plan.
@@ -51,7 +51,7 @@ pub(crate) enum SuiteSpec {
     Spectrum(Box<SpectrumSpec>),
 }
 
-/// Keys of every suite, for any kind of study.
+/// Keys that every study has.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 pub(crate) struct Head {

@@ -1,4 +1,4 @@
-//! Valid values of required keys, for messages with text to paste.
+//! Sample values of required keys, for error messages with text to paste.
 
 use super::{ConvergenceSpec, Head, StudyName, SuiteSpec};
 use crate::suite::yaml::{CheckedShape, Diagnostic, Source, TopValue};
@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde::de::value::{Error, StrDeserializer};
 
-/// A key, or a key of an owner if it has another value elsewhere, and a sample value.
+/// Keys and their sample values. `owner.key` is a key whose sample depends on its owner.
 pub(crate) const SAMPLES: &[(&str, &str)] = &[
     // Every study.
     ("suite", "my-suite"),
@@ -114,10 +114,10 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
 ];
 
 impl SuiteSpec {
-    /// Reads the keys of a suite. The error of a missing key shows a sample of its value.
+    /// Parses the keys of a suite. The error for a missing key shows a sample value.
     ///
     /// # Errors
-    /// The first error in the file, with its place.
+    /// The first error in the file, with its position.
     pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
         let checked = CheckedShape::new(source, "study")?;
         match StudyName::of_checked(&checked)? {
@@ -140,10 +140,10 @@ impl SuiteSpec {
 }
 
 impl ConvergenceSpec {
-    /// Reads the keys of a convergence study.
+    /// Parses the keys of a convergence study.
     ///
     /// # Errors
-    /// The first error in the file, with its place.
+    /// The first error in the file, with its position.
     pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
         read(&CheckedShape::new(source, "study")?, "convergence")
     }
@@ -161,8 +161,8 @@ impl StudyName {
     }
 }
 
-/// The error of an unknown key of a spectrum study. For a key of irregular particles the help
-/// states that there are none.
+/// The error for an unknown key of a spectrum study. For keys of irregular particles, the help
+/// states that the particles of this study are regular.
 fn with_regular_particles(diagnostic: Diagnostic) -> Diagnostic {
     let is_irregular = ["perturb", "seed", "extra"]
         .iter()
@@ -170,12 +170,12 @@ fn with_regular_particles(diagnostic: Diagnostic) -> Diagnostic {
     if is_irregular { diagnostic.with_help("spectrum needs regular particles") } else { diagnostic }
 }
 
-/// Reads a suite of a kind of `study` into a type.
+/// Parses a suite into the type for this kind of `study`.
 fn read<T: DeserializeOwned>(checked: &CheckedShape<'_>, study: &str) -> Result<T, Diagnostic> {
     checked.read(&|owner, key| sample(if owner.is_empty() { study } else { owner }, key))
 }
 
-/// The sample of a key of `owner`.
+/// The sample value of a key of `owner`.
 fn sample(owner: &str, key: &str) -> Option<&'static str> {
     let of =
         |wanted: &str| SAMPLES.iter().find(|(known, _)| *known == wanted).map(|(_, text)| *text);

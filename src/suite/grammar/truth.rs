@@ -1,4 +1,4 @@
-//! An exact solution by formulas.
+//! Keys of an exact solution given by formulas.
 
 use crate::exact::Equation;
 use crate::fem::BarLaw;
@@ -44,13 +44,13 @@ pub(crate) struct ManufacturedSpec {
     pub(crate) temperature: Option<NumberText>,
 }
 
-/// An equation of motion, named by its constitutive law: a law of exact solutions or of the FEM
-/// bar.
+/// An equation of motion, named after its constitutive law, which is a law of exact solutions or of
+/// the FEM bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct EquationName(&'static str);
 
 impl EquationName {
-    /// The equation with the law `name`, if the name is known.
+    /// The equation whose law is called `name`, if known.
     pub fn find(name: &str) -> Option<Self> {
         Self::all().find(|known| known.0 == name)
     }
@@ -60,7 +60,7 @@ impl EquationName {
         self.0
     }
 
-    /// Every law of exact solutions, then the laws that only the FEM bar has.
+    /// All laws of exact solutions, then the laws that only the FEM bar has.
     fn all() -> impl Iterator<Item = Self> {
         let of_bar = BarLaw::ALL.iter().map(|law| law.name());
         let of_bar_alone = of_bar.filter(|name| !Equation::NAMES.contains(name));
@@ -68,7 +68,7 @@ impl EquationName {
     }
 }
 
-/// Small strains, which every material has to first order.
+/// The small-strain law, to which every material reduces at first order.
 impl Default for EquationName {
     fn default() -> Self {
         Self(BarLaw::SmallStrain.name())

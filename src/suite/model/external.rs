@@ -1,4 +1,4 @@
-//! Suites with an external solver in place of their methods.
+//! Replaces the methods of a suite by an external solver.
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::{Against, Case, ConvergencePlan, Suite};
@@ -6,15 +6,15 @@ use crate::verify::{Axis, CaseFigure, Expectation, Gating, Quantity, Requirement
 use std::sync::Arc;
 
 impl Suite {
-    /// The suite with an external solver in place of its methods; `None` for a study of the inside
-    /// of a method. A convergence study uses the cases of this solver, if it states any, and
-    /// otherwise one case for each reference and end. A `gate` requires an order or a bound of each
-    /// case without an expectation.
+    /// The suite with an external solver in place of its methods; `None` if the study examines the
+    /// internals of a method. A convergence study keeps the cases that the suite states for this
+    /// solver. If there are none, it has one case for each combination of reference and end. With
+    /// `gate`, each case without an expectation must meet an order or an error bound.
     pub fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Self> {
         self.of_external_on(solver, gate.then(GateTerms::default).as_ref())
     }
 
-    /// The suite of [`Suite::of_external`], gated on the `terms` of the solver's author, if any.
+    /// Like [`Suite::of_external`], but with the gate `terms` of the solver's author, if any.
     pub fn of_external_on(
         &self,
         solver: ExternalMethod<'_>,
@@ -35,7 +35,7 @@ impl Suite {
 }
 
 impl ConvergencePlan {
-    /// The study of one external solver.
+    /// The study with one external solver as its method.
     pub(super) fn under(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Self {
         let mut plan = self.clone();
         let is_stated = |case: &Case| case.solver.as_deref() == Some(solver.name);
@@ -43,7 +43,7 @@ impl ConvergencePlan {
             plan.cases.retain(is_stated);
         } else {
             plan.cases = unstated(&plan, solver);
-            // A reference solves the equation of the material; formulas may solve a simpler one.
+            // A reference solves the material's equation; formulas may solve a simplified one.
             let has_reference = plan.cases.iter().any(|case| case.against == Against::Reference);
             if has_reference && terms.is_some() {
                 plan.cases.retain(|case| case.against != Against::Exact);
@@ -57,7 +57,7 @@ impl ConvergencePlan {
         plan
     }
 
-    /// Gates a case: a suite's own expectation of it remains, unless the author excepts the suite.
+    /// Sets the gate of a case. The suite's own expectation remains, unless `terms` replace it.
     fn gate(&self, case: &mut Case, solver: ExternalMethod<'_>, terms: &GateTerms) {
         let has_terms = terms.order.is_some() || terms.error_below.is_some();
         if case.expectation.is_some() && terms.skip.is_none() && !has_terms {
@@ -80,7 +80,7 @@ impl ConvergencePlan {
         case.gating = Some(gating);
     }
 
-    /// Treatment of a case by the gate, for a solver of this formal order.
+    /// Treatment of a case by the gate, for a solver with this formal order.
     fn gating(&self, against: Against, formal_order: f64, terms: &GateTerms) -> Gating {
         if let Some(reason) = &terms.skip {
             return Gating::Excepted(reason.clone());
@@ -112,8 +112,8 @@ impl ConvergencePlan {
         }
     }
 
-    /// The theoretical order of a solver with this formal order on the problem, and the reason;
-    /// `None` for an axis other than space if the suite does not state its order.
+    /// The theoretical order on this problem for a solver with this formal order, and the reason.
+    /// `None` for an axis other than space, unless the suite states the order.
     fn required_order(&self, formal_order: f64) -> Option<(f64, String)> {
         let is_gradient = matches!(self.of, Quantity::Stress | Quantity::DeformationGradient);
         let (of_solver, reason) = if is_gradient && formal_order > 1.0 {
@@ -133,8 +133,8 @@ impl ConvergencePlan {
         }
     }
 
-    /// The smallest `error_below` of the suite's own expectations, if these bound errors only; an
-    /// entry with `error_above` describes a method that fails.
+    /// The smallest `error_below` among the suite's own expectations; `None` if one of them has a
+    /// verdict. Entries with `error_above` are ignored, because they describe methods that fail.
     fn smallest_own_bound(&self) -> Option<f64> {
         let expectations = || self.cases.iter().filter_map(|case| case.expectation.as_ref());
         let bound = |expectation: &Expectation| {
@@ -151,7 +151,7 @@ impl ConvergencePlan {
 }
 
 impl Case {
-    /// Summary of the expectation or of the requirement of the gate, and its reason.
+    /// Summary and reason of the expectation, or of the gate requirement.
     pub(super) fn expected(&self) -> Option<(String, &str)> {
         match (&self.expectation, &self.gating) {
             (Some(expectation), _) => Some((expectation.summary(), &expectation.because)),
@@ -163,7 +163,7 @@ impl Case {
     }
 }
 
-/// A case of the solver for each reference and end.
+/// One case of the solver for each combination of reference and end.
 fn unstated(plan: &ConvergencePlan, solver: ExternalMethod<'_>) -> Vec<Case> {
     let ExternalMethod { name, formal_order, precision } = solver;
     let mut cases: Vec<Case> = Vec::new();

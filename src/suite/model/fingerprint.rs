@@ -1,8 +1,8 @@
 //! Hash of a text.
 
-/// FNV-1a (Fowler, Noll & Vo), 64 bits, with eight bytes per step for speed: a program has tens of
-/// millions of bytes, and each step waits for the previous one. A shift after each product moves
-/// high bits down, so that the next product spreads them. Every step is a bijection of the hash.
+/// 64-bit FNV-1a (Fowler, Noll & Vo), modified to read eight bytes per step. A program has tens of
+/// millions of bytes, and each step depends on the previous one. A shift after each product moves
+/// high bits down, where the next product spreads them. Every step is a bijection of the hash.
 pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
     let next = |hash: u64, word: u64| {
         let product = (hash ^ word).wrapping_mul(0x0100_0000_01b3);
@@ -10,7 +10,7 @@ pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
     };
     let (words, rest) = bytes.as_chunks();
     let hash = words.iter().map(|word| u64::from_le_bytes(*word)).fold(0xcbf2_9ce4_8422_2325, next);
-    // The length distinguishes texts with different numbers of trailing zeros.
+    // The length distinguishes texts that differ in trailing zeros only.
     rest.iter().map(|byte| u64::from(*byte)).chain([bytes.len() as u64]).fold(hash, next)
 }
 
@@ -18,7 +18,7 @@ pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
 mod tests {
     use super::*;
 
-    /// Each bit of each byte affects the hash, at any position, and so does every byte.
+    /// A change of any bit, and an additional byte, changes the hash.
     #[test]
     fn texts_that_differ_have_other_numbers() {
         let text: Vec<u8> = (1..20).collect();
@@ -38,7 +38,7 @@ mod tests {
         assert_eq!(seen.len(), all);
     }
 
-    /// Two differences must not cancel each other, as they would if high bits were not moved.
+    /// Two differences must not cancel, as they would without the shift of high bits.
     #[test]
     fn differences_spread() {
         let changed = |words: [u64; 2]| {

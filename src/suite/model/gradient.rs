@@ -1,4 +1,4 @@
-//! A gradient study whose keys have all been checked.
+//! Checked values of a gradient study.
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::{Case, ConvergencePlan};
@@ -15,11 +15,11 @@ pub struct GradientPlan {
     pub problem: ConvergencePlan,
     /// The functional.
     pub of: Functional,
-    /// The parameters, in the order of the file.
+    /// The parameters, in file order.
     pub parameters: Vec<Differentiated>,
-    /// Index of the level on which parameters are perturbed.
+    /// Index of the level whose parameters are perturbed.
     pub level: usize,
-    /// Interval of one parameter.
+    /// Interval of one parameter to sweep, if any.
     pub sweep: Option<SweepPlan>,
     /// The cases.
     pub cases: Vec<GradientCase>,
@@ -28,45 +28,45 @@ pub struct GradientPlan {
 /// A parameter with respect to which the functional is differentiated.
 #[derive(Debug, Clone)]
 pub struct Differentiated {
-    /// The parameter of the problem.
+    /// The parameter of the problem that is differentiated.
     pub parameter: GradientParameter,
-    /// The parameter of the suite that sets it.
+    /// Name of the suite parameter that sets it.
     pub name: String,
-    /// The exact motion as a function of the parameter of the suite.
+    /// The exact motion as a function of the suite parameter.
     pub motion: ParametricMotion,
-    /// The factor c in `dv/dq = c v` of the suite's initial velocity v; 0 if v does not depend on
-    /// the parameter q.
+    /// Factor c in `dv/dq = c v`, where v is the initial velocity and q the suite parameter; 0 if v
+    /// does not depend on q.
     pub velocity_factor: f64,
 }
 
 /// An interval of one parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SweepPlan {
-    /// The parameter.
+    /// The parameter to vary.
     pub parameter: GradientParameter,
-    /// Half of the interval, as a share of the value of the parameter.
+    /// Half the interval, relative to the value of the parameter.
     pub within: f64,
     /// Number of points.
     pub points: u64,
 }
 
-/// One case: the derivative with respect to one parameter, of one solver.
+/// One case: the derivative with respect to one parameter, computed by one solver.
 #[derive(Debug, Clone)]
 pub struct GradientCase {
-    /// Its name: that of the solver and of the parameter.
+    /// Case name, composed of solver and parameter.
     pub name: String,
     /// The solver, with its formal order and precision.
     pub solver: Case,
-    /// Index of the parameter.
+    /// Index in [`GradientPlan::parameters`].
     pub parameter: usize,
-    /// Expectation, and the reason for it; `None` if the suite explores.
+    /// Expectation and its reason; `None` if the suite states no expectations.
     pub expected: Option<(GradientTerms, String)>,
-    /// Treatment by `run --gate`, of a solver without an expectation.
+    /// Treatment by `run --gate`, for a solver without an expectation.
     pub gating: Option<Gating>,
 }
 
 impl GradientPlan {
-    /// A case of `solver` for each parameter, named after the solver called `name`.
+    /// One case for each parameter; the solver is called `name` in case names.
     pub(crate) fn cases_of(&self, name: &str, solver: &Case) -> Vec<GradientCase> {
         let case = |(parameter, one): (usize, &Differentiated)| GradientCase {
             name: format!("{name}-{}", one.parameter.name().replace('_', "-")),

@@ -1,4 +1,4 @@
-//! An internal-force study whose keys have all been checked.
+//! Checked values of an internal-force study.
 
 use super::{StudyPlan, kept};
 use crate::exact::formula::Formula;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub struct ForcePlan {
     /// Cell size (m).
     pub cell: f64,
-    /// Particles per cell before the moving particle leaves.
+    /// Particles per cell, before the moving particle leaves.
     pub ppc: u64,
     /// Volume of each particle (m).
     pub volume: f64,
@@ -27,22 +27,22 @@ pub struct ForcePlan {
 /// One case of an internal-force study.
 #[derive(Debug, Clone)]
 pub struct ForceCase {
-    /// Its name.
+    /// Case name.
     pub name: String,
     /// Basis functions.
     pub basis: BasisName,
-    /// Expectation of the force; `None` if the suite explores.
+    /// Expectation of the force; `None` if the suite states no expectations.
     pub expected: Option<ForceExpectation>,
-    /// The reason for expecting it.
+    /// Reason for the expectation.
     pub because: String,
 }
 
 /// Expectation of the force on a node while a particle moves through it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceExpectation {
-    /// It deviates from the prediction by at most this share of the largest prediction.
+    /// Maximum deviation from the prediction, relative to the largest prediction.
     AgreesWithin(f64),
-    /// It changes between neighbouring positions by at most this share.
+    /// Maximum change between neighbouring positions, relative to the largest prediction.
     StepsBelow(f64),
 }
 
@@ -62,7 +62,7 @@ impl StudyPlan for ForcePlan {
 }
 
 impl ForceExpectation {
-    /// In one line, for reports.
+    /// One-line summary for reports.
     pub fn summary(self) -> String {
         match self {
             Self::AgreesWithin(share) => format!("agrees with the prediction within {share:e}"),

@@ -1,4 +1,4 @@
-//! Methods of a suite, external solvers among them, and the accuracy that a gate may require of
+//! Methods of a suite, including external solvers, and the accuracy that a gate may require of
 //! external solvers.
 
 use crate::fem::{Element, Mass, Sampling};
@@ -6,10 +6,10 @@ use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice, Vol
 use crate::subject::{Precision, Start};
 use crate::suite::grammar::EquationName;
 
-/// A subject, by the names of its parts.
+/// A method, described by the names of its components.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
-    /// The reference MPM.
+    /// The MPM of this crate.
     Mpm {
         /// Basis functions.
         basis: BasisName,
@@ -21,32 +21,32 @@ pub enum Method {
         start: Start,
         /// Mass matrix.
         mass: MassName,
-        /// Configuration in which the basis lives.
+        /// Configuration in which the basis functions are defined.
         frame: FrameName,
-        /// Volume ratio at which the law computes its stress.
+        /// Volume ratio at which the material law is evaluated.
         volume: VolumeName,
-        /// Precision of its state.
+        /// Precision of the state.
         precision: Precision,
     },
-    /// The reference MPM in quasi-static load steps.
+    /// The MPM of this crate in quasi-static load steps.
     QuasiStatic {
         /// Basis functions.
         basis: BasisName,
         /// Number of load steps.
         load_steps: u64,
     },
-    /// The reference MPM of a body at rest: heat, and no stage of mechanics.
+    /// The MPM of this crate for heat conduction in a body at rest, without mechanics.
     Heat {
         /// Basis functions.
         basis: BasisName,
     },
-    /// The reference FEM.
+    /// The FEM of this crate.
     Fem {
         /// Shape functions.
         element: Element,
         /// Mass matrix.
         mass: Mass,
-        /// Law between stress and strain.
+        /// Stress-strain law.
         law: EquationName,
         /// Treatment of the initial velocity.
         start: Start,
@@ -55,9 +55,9 @@ pub enum Method {
     },
     /// An external solver.
     External {
-        /// Theoretical order in h of its displacements, as stated by the solver.
+        /// Theoretical order of the displacements in h, as stated by the solver.
         formal_order: f64,
-        /// Precision of its numbers, by its own account.
+        /// Precision, as stated by the solver.
         precision: Precision,
     },
 }
@@ -72,7 +72,7 @@ impl Method {
         }
     }
 
-    /// Whether it computes in single precision.
+    /// Whether the method computes in single precision.
     pub fn is_single_precision(&self) -> bool {
         matches!(
             self,
@@ -81,14 +81,14 @@ impl Method {
         )
     }
 
-    /// Whether the law computes its stress at an averaged volume ratio.
+    /// Whether the material law is evaluated at an averaged volume ratio.
     pub(crate) fn averages_volume(&self) -> bool {
         matches!(self, Self::Mpm { volume: VolumeName::Averaged, .. })
     }
 
-    /// The theoretical order of the displacement error of the method on a smooth solution: p + 1
-    /// for a basis of degree p, but at most 2 with the lumped mass matrix of MPM; 2p for the nodal
-    /// values of elements that superconverge (Strang & Fix 1973, section 1.6).
+    /// The theoretical order of the displacement error on a smooth solution. This is p + 1 for a
+    /// basis of degree p, but at most 2 with the lumped mass matrix of MPM. It is 2p for the nodal
+    /// values of superconvergent elements (Strang & Fix 1973, section 1.6).
     pub fn formal_order(&self) -> f64 {
         match self {
             Self::Mpm { basis, mass: MassName::Consistent, .. } => basis.formal_order(),
@@ -101,7 +101,7 @@ impl Method {
         }
     }
 
-    /// The method with this number of load steps, if it has load steps.
+    /// The method with this number of load steps; unchanged if the method has no load steps.
     #[must_use]
     pub(crate) fn with_load_steps(self, steps: u64) -> Self {
         match self {
@@ -110,7 +110,7 @@ impl Method {
         }
     }
 
-    /// The settings of the method, as rows of name and value.
+    /// The settings of the method, as pairs of name and value.
     pub fn settings(&self) -> Vec<(String, String)> {
         let owned = |rows: Vec<(&str, &str)>| -> Vec<(String, String)> {
             rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
@@ -130,7 +130,7 @@ impl Method {
                     ("walls", "nodes on a fixed face are held"),
                     ("start", start.name()),
                 ];
-                // The usual frame is not listed.
+                // The default frame is not listed.
                 if *frame == FrameName::Total {
                     rows.push(("frame", frame.name()));
                 }
@@ -160,7 +160,7 @@ impl Method {
                 ("start", start.name()),
                 ("error taken", sampling.name()),
             ]),
-            // The settings of an external solver come from its factory.
+            // The factory of an external solver provides its settings.
             Self::External { .. } => Vec::new(),
         }
     }
@@ -169,30 +169,30 @@ impl Method {
 /// Properties that an external solver states about itself.
 #[derive(Debug, Clone, Copy)]
 pub struct ExternalMethod<'a> {
-    /// Its name, which is also that of its cases.
+    /// Solver name, which is also the name of its cases.
     pub name: &'a str,
-    /// Theoretical order in h of its displacements.
+    /// Theoretical order of the displacements in h.
     pub formal_order: f64,
-    /// Precision of its numbers.
+    /// Precision of the numbers.
     pub precision: Precision,
 }
 
-/// Accuracy that any method can reach on the problem of a suite: the key `any_method`.
+/// The key `any_method`: the accuracy that any method can reach on the problem of a suite.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnyMethod {
     /// Highest order along the refined axis that the regularity of the solution allows.
     pub order: Option<f64>,
     /// Errors at or below this bound are accepted without an order.
     pub error_below: Option<f64>,
-    /// Whether nothing deforms, so that a solver may use any law.
+    /// Whether nothing deforms; a solver may then use any law.
     pub any_law: bool,
-    /// Whether the gate requires anything of an external solver.
+    /// Whether the gate has requirements for external solvers.
     pub gated: bool,
     /// The reason; empty if the key is absent.
     pub because: String,
 }
 
-/// A suite without the key: the order of the method, and the law of the scene.
+/// Without the key `any_method`, the gate requires the solver's order and the scene's law.
 impl Default for AnyMethod {
     fn default() -> Self {
         let (order, error_below, because) = (None, None, String::new());
@@ -200,14 +200,14 @@ impl Default for AnyMethod {
     }
 }
 
-/// Terms of `run --gate` for one suite, from the configuration file of a solver's author.
+/// Gate terms for one suite, from the configuration file of a solver's author.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct GateTerms {
-    /// Formal order of the solver, in place of the one that the solver states.
+    /// Formal order that replaces the order stated by the solver.
     pub formal_order: Option<f64>,
-    /// Order that is required on this suite.
+    /// Required order on this suite.
     pub order: Option<f64>,
-    /// Bound on errors that are accepted on this suite without an order.
+    /// Error bound below which this suite requires no order.
     pub error_below: Option<f64>,
     /// Reason for not running this suite.
     pub skip: Option<String>,

@@ -1,4 +1,4 @@
-//! A suite whose keys have all been checked and whose numbers have all been computed.
+//! Checked and computed values of a suite.
 
 pub(crate) mod external;
 pub(crate) mod fingerprint;
@@ -29,72 +29,72 @@ use std::sync::Arc;
 /// A suite, ready to run.
 #[derive(Debug, Clone)]
 pub struct Suite {
-    /// Its name, unique among suites.
+    /// Suite name, unique among all suites.
     pub name: String,
-    /// Name of the folder that its file is in.
+    /// Name of the folder that contains the suite file.
     pub group: String,
     /// Headline.
     pub title: String,
     /// Reference for the problem.
     pub source: String,
-    /// Remarks of the author for a reader.
+    /// The author's remarks for readers.
     pub about: String,
-    /// Every parameter: name, text, and its value unless it is a table.
+    /// Name and text of every parameter, and its value unless it is a table.
     pub parameters: Vec<(String, String, Option<f64>)>,
-    /// User functions: head and body.
+    /// Head and body of each user function.
     pub functions: Vec<(String, String)>,
-    /// Plan of its study.
+    /// The study plan.
     pub study: Arc<dyn StudyPlan>,
-    /// Fingerprint of the text of the file.
+    /// Fingerprint of the file's text.
     pub(crate) fingerprint: u64,
 }
 
-/// A convergence study without its methods.
+/// A convergence study.
 #[derive(Debug, Clone)]
 pub struct ConvergencePlan {
     /// The body with its conditions and loads.
     pub scene: Scene,
-    /// The problem that the formulas solve, already checked; `None` if there is only a reference.
+    /// The checked problem that the formulas solve; `None` if the suite has a reference only.
     pub exact: Option<Problem>,
-    /// The heat problem that a temperature solves in a body at rest, already checked.
+    /// The checked heat problem that the stated temperature solves, for a body at rest.
     pub conduction: Option<Conduction>,
-    /// A fine computation to compare with.
+    /// A fine FEM computation to compare with.
     pub reference: Option<ReferencePlan>,
-    /// A reference run by the same method with a much shorter spacing.
+    /// A reference run by the same method with a much smaller spacing.
     pub same_method: Option<SameMethod>,
     /// The levels of refinement.
     pub refine: RefinePlan,
     /// Offsets of particles from their lattice.
     pub scatter: LatticeOffsets,
-    /// Kind of the steps. A load step takes one unit of time, so that a run of N load steps ends at
-    /// time N.
+    /// Kind of the steps. A load step advances time by one unit: a run of N load steps ends at time
+    /// N.
     pub steps: StepKind,
-    /// Instants at which the error is measured.
+    /// Number of instants at which the error is measured.
     pub instants: u64,
     /// The judged error.
     pub norm: NormName,
-    /// Quantity whose error is measured.
+    /// The quantity whose error is measured.
     pub of: Quantity,
-    /// The judged sum with its exact value, if the judged quantity is a sum over the body.
+    /// The judged sum and its exact value, if the judged quantity is a sum over the body.
     pub sum: Option<Arc<JudgedSum>>,
-    /// Scale by which the error is divided, if any.
+    /// Divisor of the error, if any.
     pub scale: Option<f64>,
-    /// Whether levels with crossings may count.
+    /// Whether levels with cell crossings may count.
     pub crossing_levels: CrossingLevels,
     /// Accuracy that any method can reach.
     pub any_method: AnyMethod,
-    /// Point to be observed (m).
+    /// Point whose displacement limit and velocity history are reported (m).
     pub observe: Option<Vec<f64>>,
-    /// The cases, in the order of the product.
+    /// The cases: the product of the lists in `methods`, in order.
     pub cases: Vec<Case>,
-    /// Warnings that the suite intends, in the order of the file.
+    /// Warnings that the suite acknowledges, in file order.
     pub acknowledged: Vec<WarningName>,
 }
 
 /// One case of a convergence study.
 #[derive(Debug, Clone)]
 pub struct Case {
-    /// Its name, unique in the suite.
+    /// Case name, unique in the suite.
     pub name: String,
     /// The method.
     pub method: Method,
@@ -102,46 +102,46 @@ pub struct Case {
     pub solver: Option<String>,
     /// End of the run (s).
     pub until: f64,
-    /// Solution against which errors are measured.
+    /// The truth with which the case is compared.
     pub against: Against,
-    /// Expectation on a usual run; `None` if the suite explores.
+    /// Expectation for a usual run; `None` if the suite states no expectations.
     pub expectation: Option<Expectation>,
-    /// Expectation on a full run, if that differs.
+    /// Expectation for a full run, if different.
     pub expectation_in_full: Option<Expectation>,
-    /// Treatment by `run --gate`, of an external solver without an expectation.
+    /// Treatment by `run --gate`, for an external solver without an expectation.
     pub gating: Option<Gating>,
 }
 
-/// Kind of truth with which a case is compared.
+/// The truth with which a case is compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Against {
-    /// The formulas.
+    /// The exact solution, given by formulas.
     Exact,
-    /// The fine computation.
+    /// The fine FEM computation.
     Reference,
-    /// A run by the same method with a much shorter spacing.
+    /// A run by the same method with a much smaller spacing.
     SameMethod(SameMethod),
-    /// No truth: only drifts of conserved quantities have bounds.
+    /// No truth: only changes of conserved quantities are bounded.
     Nothing,
 }
 
-/// A fine FEM computation as reference, if no formula is known.
+/// A fine FEM computation, used as reference if no formula is known.
 #[derive(Debug, Clone)]
 pub struct ReferencePlan {
-    /// Law between stress and strain.
+    /// Stress-strain law.
     pub equation: EquationName,
     /// Shape functions.
     pub element: Element,
     /// Mass matrix.
     pub mass: Mass,
-    /// Elements.
+    /// Number of elements.
     pub cells: u64,
-    /// Wanted time step (s), a formula of h.
+    /// Requested time step (s), a formula of h.
     pub dt: Formula,
 }
 
 impl Against {
-    /// Phrase for this reference in a sentence.
+    /// Phrase for this truth in a sentence.
     pub fn words(self) -> &'static str {
         match self {
             Self::Exact => "the exact solution",
@@ -151,12 +151,12 @@ impl Against {
         }
     }
 
-    /// Whether it is computed, and available only at instants that all runs share.
+    /// Whether the truth is computed, and available only at instants that all runs share.
     pub fn is_computed(self) -> bool {
         matches!(self, Self::Reference | Self::SameMethod(_))
     }
 
-    /// The level of a reference run on a fine grid; `None` for other references.
+    /// The level of a fine-grid reference run; `None` for other truths.
     pub fn fine_grid(self) -> Option<LevelPlan> {
         match self {
             Self::SameMethod(SameMethod::FineGrid(level)) => Some(level),
@@ -166,8 +166,8 @@ impl Against {
 }
 
 impl ConvergencePlan {
-    /// The steps of a run until `until` (s) that is compared with `against`, for a requested step
-    /// `dt` (s).
+    /// The steps of a run that ends at `until` (s) and is compared with `against`, for a requested
+    /// step `dt` (s).
     pub fn clock(&self, against: Against, until: f64, dt: f64) -> Option<Clock> {
         if against.is_computed() {
             return Clock::with_common_instants(until, dt, self.instants);
@@ -189,23 +189,23 @@ impl Case {
 }
 
 impl Suite {
-    /// Names of the cases, in order.
+    /// Case names, in order.
     pub fn case_names(&self) -> Vec<&str> {
         self.study.case_names()
     }
 
-    /// The suite with only the cases for whose index `keep` returns true.
+    /// The suite with only those cases for whose index `keep` returns true.
     #[must_use]
     pub fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
         Self { study: self.study.only(keep), ..self.clone() }
     }
 
-    /// Whether the suite has no expectations, so that it is not a gate.
+    /// Whether the suite has no expectations. Such a suite is not a gate.
     pub fn explores(&self) -> bool {
         (0..self.case_names().len()).all(|case| self.study.expectation(case).is_none())
     }
 
-    /// The plan, if the study is of this kind.
+    /// The plan, if the study is of kind `P`.
     pub fn plan<P: StudyPlan>(&self) -> Option<&P> {
         let plan: &dyn Any = self.study.as_ref();
         plan.downcast_ref()
@@ -235,7 +235,7 @@ impl StudyPlan for ConvergencePlan {
 }
 
 impl ConvergencePlan {
-    /// The problem with a manufactured force; `None` without one.
+    /// The problem with a manufactured body force; `None` for other problems.
     pub fn manufactured(&self) -> Option<&Problem> {
         self.exact.as_ref().filter(|problem| problem.manufactured)
     }
@@ -245,29 +245,29 @@ impl ConvergencePlan {
         self.exact.is_some() || self.conduction.is_some()
     }
 
-    /// The heat problem that the formulas solve, of a body at rest or in motion.
+    /// The heat problem that the formulas solve, for a body at rest or in motion.
     pub fn heat_problem(&self) -> Option<&Conduction> {
         self.conduction.as_ref().or_else(|| self.exact.as_ref()?.heat.as_ref())
     }
 }
 
-/// Checked values of one kind of study.
+/// Checked values of a study.
 pub trait StudyPlan: Any + Debug + Send + Sync {
-    /// Names of the cases, in order.
+    /// Case names, in order.
     fn case_names(&self) -> Vec<&str>;
 
-    /// Summary of the expectation of the case with this index, and its reason; `None` if the suite
-    /// explores.
+    /// Summary and reason of the expectation of the case with this index; `None` if the suite
+    /// states no expectations.
     ///
     /// # Panics
-    /// If there is no such case.
+    /// If the index is out of range.
     fn expectation(&self, case: usize) -> Option<(String, &str)>;
 
-    /// This study with only the cases for whose index `keep` returns true.
+    /// The study with only those cases for whose index `keep` returns true.
     fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan>;
 
-    /// The study with an external solver in place of its methods, gated on `terms`, if any; `None`
-    /// for a study of the inside of a method.
+    /// The study with an external solver in place of its methods, gated on `terms`, if any. `None`
+    /// if the study examines the internals of a method.
     fn of_external(
         &self,
         _solver: ExternalMethod<'_>,
@@ -277,7 +277,7 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
     }
 }
 
-/// The members of a list for whose index `keep` returns true.
+/// The elements for whose index `keep` returns true.
 pub(super) fn kept<T: Clone>(all: &[T], keep: &dyn Fn(usize) -> bool) -> Vec<T> {
     let kept = all.iter().enumerate().filter(|(i, _)| keep(*i));
     kept.map(|(_, member)| member.clone()).collect()

@@ -1,4 +1,4 @@
-//! A spectrum study whose keys have all been checked.
+//! Checked values of a spectrum study.
 
 use super::Scene;
 use super::method::{ExternalMethod, GateTerms, Method};
@@ -23,15 +23,15 @@ pub struct SpectrumPlan {
     pub ppc: u64,
     /// Translation of every particle (m).
     pub shift: f64,
-    /// The waves, one for each row of a report.
+    /// The waves, one for each report row.
     pub waves: Vec<Wave>,
     /// External solvers, each with the case whose prediction applies to it.
     pub solvers: Vec<(String, String)>,
-    /// The cases, in the order of the product.
+    /// The cases: the product of the lists in `methods`, in order.
     pub cases: Vec<SpectrumCase>,
 }
 
-/// A standing wave of small amplitude, and the time step of its run.
+/// A standing wave of small amplitude, with the time step of its run.
 #[derive(Debug, Clone)]
 pub struct Wave {
     /// Wavelength (cells).
@@ -45,39 +45,39 @@ pub struct Wave {
 /// One case of a spectrum study.
 #[derive(Debug, Clone)]
 pub struct SpectrumCase {
-    /// Its name, unique in the suite.
+    /// Case name, unique in the suite.
     pub name: String,
     /// The method.
     pub method: Method,
-    /// The method in closed form; `None` for an external solver of unknown method.
+    /// Closed form of the method; `None` for an external solver whose method is unknown.
     pub curve: Option<WaveMethod>,
-    /// Stability limit of the Courant number, by the closed form.
+    /// Stability limit of the Courant number, from the closed form.
     pub limit: Option<f64>,
-    /// Expectation, and the reason for it; `None` if the suite explores.
+    /// Expectation and its reason; `None` if the suite states no expectations.
     pub expected: Option<(SpectrumExpectation, String)>,
-    /// Treatment by `run --gate`, of an external solver.
+    /// Treatment by `run --gate`, for an external solver.
     pub gating: Option<Gating>,
 }
 
 impl SpectrumPlan {
-    /// The row of cells and particles, with the time step of `wave`.
+    /// The cells and particles of the study, with the time step of `wave`.
     pub(crate) fn level(&self, wave: &Wave) -> LevelPlan {
         let dt = wave.courant * self.h / self.scene.wave_speed();
         LevelPlan { cells: self.cells, h: self.h, dt, ppc: Some(self.ppc) }
     }
 
-    /// The body at the start of the run of `wave`.
+    /// The scene at the start of the run of `wave`.
     pub(crate) fn started(&self, wave: &Wave) -> Scene {
         Scene { initial_velocity: vec![wave.velocity.clone()], ..self.scene.clone() }
     }
 
-    /// The translation of the particles.
+    /// The translation of the particle lattice by `shift`.
     pub(crate) fn lattice(&self) -> LatticeEdits {
         LatticeEdits { shift: vec![self.shift], ..LatticeEdits::default() }
     }
 
-    /// The case whose prediction applies to the external solver `name`: the one that the suite
-    /// states, or the one with this name.
+    /// The case whose prediction applies to the external solver `name`: the case that the suite
+    /// assigns to the solver, otherwise the case with the same name.
     fn case_of(&self, name: &str) -> Option<&SpectrumCase> {
         let stated = self.solvers.iter().find(|(solver, _)| solver == name);
         let case = stated.map_or(name, |(_, case)| case);

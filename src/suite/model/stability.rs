@@ -1,4 +1,4 @@
-//! A stability study whose keys have all been checked.
+//! Checked values of a stability study.
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::{StudyPlan, kept};
@@ -11,54 +11,54 @@ use std::sync::Arc;
 /// A stability study.
 #[derive(Debug, Clone)]
 pub struct StabilityPlan {
-    /// Template of the set-ups, evaluated for every value of the parameters.
+    /// Template from which the set-up for any parameter values is computed.
     pub(crate) template: SetupTemplate,
-    /// The parameter that is swept.
+    /// Name of the swept parameter.
     pub swept: String,
-    /// Its values, one for each row.
+    /// Values of the swept parameter, one for each row.
     pub values: Vec<f64>,
-    /// The parameter whose limit is sought, and the range.
+    /// The parameter whose stability limit is sought, and its range.
     pub sought: Option<(String, f64, f64)>,
     /// Whether the particles do not move.
     pub frozen: bool,
-    /// Figures that tables show.
+    /// Figures in the report tables.
     pub figures: Vec<RunFigure>,
-    /// The cases, in the order of the product.
+    /// The cases: the product of the lists in `methods`, in order.
     pub cases: Vec<StabilityCase>,
 }
 
-/// A suite that can be read with other values of its parameters.
+/// A suite that can be evaluated for other values of its parameters.
 #[derive(Debug, Clone)]
 pub(crate) struct SetupTemplate {
     pub(crate) source: Source,
     pub(crate) spec: StabilitySpec,
 }
 
-/// Changes to the lattice of particles before a run.
+/// Changes of the particle lattice before a run.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct LatticeEdits {
-    /// Translation of all particles (m), one number for each axis; empty: none.
+    /// Translation of all particles (m), one number for each axis; empty for none.
     pub(crate) shift: Vec<f64>,
-    /// Offsets from the lattice.
+    /// Offsets of the particles from the lattice.
     pub(crate) scatter: LatticeOffsets,
-    /// Positions of further particles (m), each like the first particle of the lattice.
+    /// Positions of additional particles (m), otherwise equal to the first particle of the lattice.
     pub(crate) extra: Vec<Vec<f64>>,
 }
 
 /// One case of a stability study.
 #[derive(Debug, Clone)]
 pub struct StabilityCase {
-    /// Its name, unique in the suite.
+    /// Case name, unique in the suite.
     pub name: String,
     /// The method.
     pub method: Method,
-    /// Expectation of each row; empty if the suite explores.
+    /// Expectation for each row; empty if the suite states no expectations.
     pub expected: Vec<StabilityExpectation>,
-    /// All expectations in one line; `None` if the suite explores.
+    /// All expectations in one line; `None` if the suite states no expectations.
     pub summary: Option<String>,
     /// The reason for the expectations.
     pub because: String,
-    /// Treatment by `run --gate`, of an external solver.
+    /// Treatment by `run --gate`, for an external solver.
     pub gating: Option<Gating>,
 }
 

@@ -1,11 +1,11 @@
-//! Faces of a body, and their names.
+//! Faces of a body and their names.
 
 use super::boundary::BoundaryCondition;
 use crate::suite::evaluator::{Evaluator, suggestion};
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
-/// Names of the faces: low and high, axis by axis.
+/// Names of the faces in axis order, the low face of each axis before the high face.
 pub(crate) const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
 
 /// One face of the body.
@@ -17,18 +17,18 @@ pub struct SceneFace {
     pub axis: usize,
     /// Whether it is the face with the larger coordinate.
     pub high: bool,
-    /// Condition on its motion.
+    /// Condition on the motion of the face.
     pub(crate) hold: Arc<dyn BoundaryCondition>,
 }
 
 impl SceneFace {
-    /// Name of the condition on its motion, in suites.
+    /// Name of the condition in suites.
     pub fn condition(&self) -> &'static str {
         self.hold.name()
     }
 }
 
-/// Number of the face that a suite calls `name`; the name is a key or a value of the file.
+/// Number of the face called `name`, which is a key or a value of the file.
 pub(crate) fn face(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -48,20 +48,20 @@ pub(crate) fn face(
     })
 }
 
-/// Schema of the name of a face.
+/// JSON schema of a face name.
 #[cfg(feature = "schemas")]
 pub(crate) fn face_name(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     schemars::json_schema!({"type": "string", "enum": FACES})
 }
 
-/// Schema of the name of a face or of a rim of a round body.
+/// JSON schema of the name of a face, or of a rim of a round body.
 #[cfg(feature = "schemas")]
 pub(crate) fn face_or_rim(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     let names: Vec<&str> = FACES.into_iter().chain(["inner", "outer"]).collect();
     schemars::json_schema!({"type": "string", "enum": names})
 }
 
-/// Schema of a map from names of faces.
+/// JSON schema of a map whose keys are face names.
 #[cfg(feature = "schemas")]
 pub(crate) fn by_face<T: schemars::JsonSchema>(
     all: &mut schemars::SchemaGenerator,

@@ -1,10 +1,10 @@
-//! The lattice of particles that fills a body.
+//! The particle lattice that fills a body.
 //!
-//! A box is divided into equal parts. A body with another outline uses the lattice of the cells of
-//! the grid, `h/n` apart with n particles along a cell, and of each lattice cell the part given by
-//! its outline ([`Outline::cut`](crate::exact::Outline::cut)): all or nothing in a round body, the
-//! exact intersection in a polygon. A quadrilateral is filled by its bilinear map, independent of
-//! the grid.
+//! A box is divided into equal parts. Other bodies use a lattice on the grid cells, with spacing
+//! `h/n` for n particles along a cell. The outline determines the part of each lattice cell in the
+//! body ([`Outline::cut`](crate::exact::Outline::cut)): all or nothing in a round body, the exact
+//! intersection in a polygon. A quadrilateral is filled by its bilinear map, independently of the
+//! grid.
 
 use super::Scene;
 use super::grid_size::grid_axis;
@@ -15,7 +15,7 @@ use crate::mpm::{Block, Vector};
 /// Offsets of particles from their lattice, in shares of their spacing.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LatticeOffsets {
-    /// Translation of all particles, one share per axis; empty: none.
+    /// Translation of all particles as a share of the spacing, one number per axis; empty for none.
     pub shift: Vec<f64>,
     /// Maximum random displacement of each particle along an axis.
     pub perturb: f64,
@@ -24,14 +24,14 @@ pub struct LatticeOffsets {
 }
 
 impl LatticeOffsets {
-    /// Whether particles stay on the lattice.
+    /// Whether all particles are on the lattice.
     pub fn is_none(&self) -> bool {
         self.perturb == 0.0 && self.shift.iter().all(|share| *share == 0.0)
     }
 }
 
-/// The box to be filled: that of the body or, around a body with another outline, whole cells of
-/// the grid that starts at `origin`.
+/// The box to fill. For a body that is a box, this is the body. For other bodies, the box consists
+/// of whole cells of the grid that starts at `origin`.
 pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -> Block<D> {
     let node = |axis: usize, x: f64, round: fn(f64) -> f64| match scene.outline {
         Some(_) => origin[axis] + round((x - origin[axis]) / h) * h,
@@ -44,8 +44,7 @@ pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -
     }
 }
 
-/// Whether a body of the scene with a free rim is smaller than the volume of a particle with cells
-/// of size `h`.
+/// Whether a body with a free rim is smaller than one particle volume, for cell size `h`.
 pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     scene.each().iter().filter(|body| body.outline.is_some() && body.mapped.is_none()).any(|body| {
         let mut shares = 0.0;
@@ -56,8 +55,9 @@ pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     })
 }
 
-/// Whether `holds` returns true for a particle of a `body` with a free rim, given the position (m)
-/// of the particle and its part of a lattice cell, on the grid of `scene` with cells of size `h`.
+/// Whether `holds` returns true for any particle of a `body` with a free rim. Its arguments are the
+/// particle position (m) and the particle's share of a lattice cell. The grid of `scene` has cells
+/// of size `h`.
 pub(crate) fn any_particle(
     body: &Scene,
     scene: &Scene,

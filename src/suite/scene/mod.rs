@@ -1,7 +1,7 @@
 //! The scene of a suite: the body with its conditions and loads.
 //!
-//! Loads and boundary conditions are families: the file of a member contains its keys, their
-//! checks, and its conversion for the solver and the exact solution.
+//! Loads and boundary conditions are families. The file of a member contains its keys, the checks
+//! of the keys, and the conversions for the solver and the exact solution.
 
 pub(crate) mod boundary;
 pub(crate) mod face;
@@ -24,63 +24,64 @@ use std::sync::Arc;
 /// The body with its conditions and loads.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// Lowest corner of the body, or of the box around it (m); its length is the dimension.
+    /// Lowest corner (m) of the body or its bounding box; the number of entries is the dimension.
     pub from: Vec<f64>,
     /// Highest corner (m).
     pub to: Vec<f64>,
-    /// The shape of a body that is not a box.
+    /// Shape of the body, unless it is a box.
     pub outline: Option<Arc<dyn Outline>>,
-    /// The map of a body with an outline that is a mapped box; any other has a free rim.
+    /// The map of a body that is a mapped box. All other bodies with an outline have free rims.
     pub mapped: Option<Quadrilateral>,
-    /// Stated grid, lowest and highest corner (m).
+    /// Lowest and highest corner of the stated grid (m).
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
-    /// State of the bodies across the plane of two dimensions.
+    /// Plane state of the bodies in two dimensions.
     pub plane: PlaneState,
-    /// The material, without its density.
+    /// The material without density.
     pub material: MaterialPlan,
     /// Reference density.
     pub density: Density,
-    /// The 2 D faces of a box: low and high, axis by axis. A body with a free rim has none.
+    /// The 2 D faces of a box in axis order, the low face of each axis before the high face. Empty
+    /// for a body with a free rim.
     pub faces: Vec<SceneFace>,
-    /// Sets of particles; one load acts on each.
+    /// Particle sets, each with one load.
     pub sets: Vec<Region>,
     /// Loads and effects, in the order in which solvers apply them.
     pub(crate) loads: Vec<ListedLoad>,
-    /// Several bodies, each as a scene with the grid, the faces and the loads of this one; empty if
-    /// there is one body. Otherwise this scene is the box around all of them, with the material of
-    /// the first.
+    /// The bodies if there are several, otherwise empty. Each is a scene with the same grid, faces
+    /// and loads. This scene is then the bounding box of all bodies, with the material of the first
+    /// body.
     pub bodies: Vec<Self>,
-    /// Coefficient of friction between bodies that are in contact; absent: they share one velocity
+    /// Friction coefficient of the contact between bodies; `None` if the bodies share one velocity
     /// field.
     pub contact: Option<f64>,
     /// Stress of the reference configuration.
     pub initial_stress: InitialStress,
-    /// Initial displacement (m), formulas of the coordinates and t; empty: not stated.
+    /// Initial displacement (m), formulas of the coordinates and t; empty if not stated.
     pub initial_displacement: Vec<Formula>,
-    /// Initial velocity (m/s), formulas of the coordinates and t; empty: not stated.
+    /// Initial velocity (m/s), formulas of the coordinates and t; empty if not stated.
     pub initial_velocity: Vec<Formula>,
 }
 
-/// Distance that counts as rounding, relative to the size of the body.
+/// Distance that is treated as rounding error, relative to the size of the body.
 const ROUNDING: f64 = 1e-9;
 
 impl Scene {
-    /// The bodies: this one, or several.
+    /// All bodies: the list of bodies, or this scene if there is one body.
     pub fn each(&self) -> &[Self] {
         if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies }
     }
 
-    /// Length of the longest side of the box around the body (m).
+    /// Length of the longest side of the bounding box (m).
     pub(crate) fn size(&self) -> f64 {
         self.from.iter().zip(&self.to).map(|(from, to)| to - from).fold(0.0, f64::max)
     }
 
-    /// Largest distance of a place from the body or from a face that counts as rounding (m).
+    /// Distance from the body or a face that is treated as rounding error (m).
     pub(crate) fn rounding(&self) -> f64 {
         ROUNDING * self.size()
     }
 
-    /// Whether the body contains a reference position, up to rounding.
+    /// Whether the body contains the reference position `label`, up to rounding error.
     pub(crate) fn holds(&self, label: &[f64]) -> bool {
         let near = self.rounding();
         let mut ends = self.from.iter().zip(&self.to).zip(label);
@@ -88,8 +89,7 @@ impl Scene {
             return false;
         }
         let Some(outline) = &self.outline else { return true };
-        // A place next to the rim counts as inside if it is inside after a small shift across the
-        // rim.
+        // A position near the rim is inside if a small shift moves it inside.
         let moved = |k: usize| {
             let step = |axis: usize| near * ((k / [1, 3, 9][axis]) % 3) as f64 - near;
             label.iter().enumerate().map(|(axis, x)| x + step(axis)).collect::<Vec<f64>>()
@@ -107,13 +107,13 @@ impl Scene {
         self.loads.iter().filter(move |load| load.target() == target)
     }
 
-    /// The rim that a load acts on.
+    /// The rim on which a load acts.
     pub(crate) fn rim(&self, load: &ListedLoad) -> Option<Circle> {
         let LoadTarget::Rim(number) = load.target() else { return None };
         self.outline.as_ref()?.circles().into_iter().find(|circle| circle.number == number)
     }
 
-    /// The conduction that the scene lists.
+    /// The heat conduction of the scene, if any.
     pub(crate) fn heat(&self) -> Option<&SceneHeat> {
         self.loads.iter().find_map(|load| load.heat())
     }
@@ -123,7 +123,7 @@ impl Scene {
         self.loads.iter().map(|load| load.load.clone() as Arc<dyn Term>).collect()
     }
 
-    /// The name of the first set that is driven.
+    /// Name of the first set with a prescribed velocity.
     pub(crate) fn driven_set(&self) -> Option<&str> {
         self.loads.iter().find_map(|load| Some(load.driven()?.0.name.as_str()))
     }

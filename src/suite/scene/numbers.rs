@@ -1,50 +1,50 @@
-//! Formulas and numbers of loads and boundary conditions: as functions for the solver, and as
+//! Formulas and numbers of loads and boundary conditions, as functions for the solver and as
 //! numbers for external solvers.
 
 use crate::exact::formula::{Formula, Number};
 use crate::exact::{Region, variables};
 use crate::mpm::{ScalarField, Vector, VelocityField};
 
-/// The numbers of a load or of a condition on a face.
+/// The numbers of a load or of a boundary condition.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct LoadNumbers {
-    /// Constants by their keys (SI units).
+    /// Constants with their keys (SI units).
     pub(crate) constants: Vec<(&'static str, f64)>,
-    /// The quantity given by formulas.
+    /// Quantity given by formulas, if any.
     pub(crate) field: Option<NumberField>,
-    /// The part of the bodies that the load acts on, if it acts on a set.
+    /// Part of the bodies on which the load acts, if it acts on a set.
     pub(crate) region: Option<Region>,
 }
 
-/// A quantity given by formulas of t, of the coordinates and t, or of these and the displacement.
+/// A quantity given by formulas of t, the coordinates and the displacement, or of a part of these.
 #[derive(Debug, Clone)]
 pub(crate) struct NumberField {
     /// Key of the quantity.
     pub(crate) key: &'static str,
-    /// Whether it is a vector with D components.
+    /// Whether the quantity is a vector with D components.
     pub(crate) is_vector: bool,
     formulas: Vec<Formula>,
 }
 
 impl LoadNumbers {
-    /// Constants by their keys (SI units).
+    /// Numbers with these constants (key and value, SI units).
     pub(crate) fn constants(constants: &[(&'static str, f64)]) -> Self {
         Self { constants: constants.to_vec(), ..Self::default() }
     }
 
-    /// A vector with one formula for each component.
+    /// Numbers with one vector, given by one formula for each component.
     pub(crate) fn vector(key: &'static str, formulas: &[Formula]) -> Self {
         let field = NumberField { key, is_vector: true, formulas: formulas.to_vec() };
         Self { field: Some(field), ..Self::default() }
     }
 
-    /// A scalar.
+    /// Numbers with one scalar.
     pub(crate) fn scalar(key: &'static str, formula: &Formula) -> Self {
         let field = NumberField { key, is_vector: false, formulas: vec![formula.clone()] };
         Self { field: Some(field), ..Self::default() }
     }
 
-    /// These numbers, restricted to a part of the bodies.
+    /// The numbers, restricted to a part of the bodies.
     pub(crate) fn on(self, region: &Region) -> Self {
         Self { region: Some(region.clone()), ..self }
     }
@@ -74,8 +74,8 @@ impl NumberField {
         [reads(0, d), reads(d, d + 1), reads(d + 1, 2 * d + 1)]
     }
 
-    /// The value at the place `label` (m, D numbers) and time `t` (s), with the displacement `u`
-    /// (m).
+    /// The value at the reference position `label` (m, D numbers) and time `t` (s), for the
+    /// displacement `u` (m).
     pub(crate) fn at(&self, label: &[f64], t: f64, u: &[f64]) -> Vec<f64> {
         let mut all = label.to_vec();
         all.push(t);
@@ -88,7 +88,7 @@ impl NumberField {
     }
 }
 
-/// Formulas of t, one for each component.
+/// Converts formulas of t, one for each component, to a function.
 pub(crate) fn of_time<const D: usize>(
     formulas: &[Formula],
 ) -> Box<dyn Fn(f64) -> Vector<D> + Send> {
@@ -96,7 +96,7 @@ pub(crate) fn of_time<const D: usize>(
     Box::new(move |t| Vector::from_fn(|i, _| formulas[i].eval(&[t])))
 }
 
-/// Formulas of the coordinates and t, one for each component.
+/// Converts formulas of the coordinates and t, one for each component, to a field.
 pub(crate) fn of_place_and_time<const D: usize>(formulas: &[Formula]) -> VelocityField<D> {
     let formulas = formulas.to_vec();
     Box::new(move |x: &Vector<D>, t| {
@@ -105,14 +105,14 @@ pub(crate) fn of_place_and_time<const D: usize>(formulas: &[Formula]) -> Velocit
     })
 }
 
-/// A formula of the coordinates and t.
+/// Converts a formula of the coordinates and t to a field.
 pub(crate) fn scalar<const D: usize>(formula: &Formula) -> ScalarField<D> {
     let formula = formula.clone();
     Box::new(move |x: &Vector<D>, t| formula.eval(&variables(x.as_slice(), t)[..=D]))
 }
 
-/// A formula of the coordinates, t and, if it was bound to it, the displacement, at the place
-/// `label` (m) with the displacement `u` (m).
+/// Value of a formula at the reference position `label` (m) and time `t` for the displacement `u`
+/// (m). The formula need not depend on the displacement.
 pub(crate) fn of_displacement<T: Number>(
     formula: &Formula,
     label: &[f64],
@@ -128,7 +128,7 @@ pub(crate) fn of_displacement<T: Number>(
     formula.eval(&all[..formula.variables()])
 }
 
-/// The formulas as text.
+/// The formulas as text, for reports.
 pub(crate) fn sources(formulas: &[Formula]) -> String {
     formulas.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
 }

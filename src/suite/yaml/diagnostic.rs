@@ -1,4 +1,4 @@
-//! An error in a file, and its place.
+//! An error in a file, and its position.
 
 use super::place::{Place, line_around};
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
@@ -11,18 +11,18 @@ const MAX_WORDS: usize = 300;
 /// Severity of the diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// A hint without required change.
+    /// A hint that requires no change.
     Note,
-    /// The suite runs, but has an unintended effect.
+    /// The suite runs, but probably not as its author intends.
     Warning,
     /// The suite cannot be used.
     Error,
 }
 
-/// One error in a file: what it is, where it is, and what would be right.
+/// An error in a file: message, position, and correct form.
 ///
-/// `Display` shows it as `rustc` would, with the line and a caret; [`Diagnostic::one_line`] is
-/// for editors and logs.
+/// `Display` formats it like an error of `rustc`, with the source line and a caret.
+/// [`Diagnostic::one_line`] is for editors and logs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic(Box<Parts>);
 
@@ -45,7 +45,7 @@ struct Excerpt {
 }
 
 impl Diagnostic {
-    /// A diagnostic of a file as a whole.
+    /// A diagnostic about a whole file.
     pub fn about(file: &str, message: &str) -> Self {
         Self(Box::new(Parts {
             severity: Severity::Error,
@@ -57,7 +57,7 @@ impl Diagnostic {
         }))
     }
 
-    /// A diagnostic of a range of bytes of `text`, the contents of `file`.
+    /// A diagnostic about a byte range of `text`, the contents of `file`.
     pub fn at(file: &str, text: &str, range: Range<usize>, message: &str) -> Self {
         let place = Place::of(text, range);
         let bytes = place.bytes();
@@ -71,7 +71,7 @@ impl Diagnostic {
         diagnostic
     }
 
-    /// Adds the label under the caret: what was expected there.
+    /// Adds the label under the caret, which states the expected value.
     #[must_use]
     pub fn with_label(mut self, label: &str) -> Self {
         self.0.label = Some(printable(label)).filter(|label| !label.is_empty());
@@ -97,27 +97,27 @@ impl Diagnostic {
         self.0.severity
     }
 
-    /// The file, as named by the user.
+    /// The file name, as given by the user.
     pub fn file(&self) -> &str {
         &self.0.file
     }
 
-    /// Its place, unless it concerns the file as a whole.
+    /// Position of the error; `None` if the diagnostic concerns the whole file.
     pub fn place(&self) -> Option<Place> {
         self.0.excerpt.as_ref().map(|excerpt| excerpt.place)
     }
 
-    /// The error.
+    /// The error message.
     pub fn message(&self) -> &str {
         &self.0.message
     }
 
-    /// The text under the caret: what was expected at the place.
+    /// The label under the caret, which states the expected value.
     pub fn label(&self) -> Option<&str> {
         self.0.label.as_deref()
     }
 
-    /// A remedy for the author.
+    /// Advice for the author.
     pub fn help(&self) -> Option<&str> {
         self.0.help.as_deref()
     }

@@ -1,8 +1,8 @@
-//! Finds the position of a value after it has been read.
+//! Locates a value in a file after parsing.
 //!
-//! The YAML library reports positions only in errors. So the text is read again by a seed that
-//! follows a path and fails on purpose at its end. No second parser is needed, and the position is
-//! where the first pass read the value.
+//! The YAML library reports positions only in errors. The text is therefore parsed again with a
+//! seed that follows a path and fails on purpose at the end of the path. This needs no second
+//! parser, and the position agrees with the first parse.
 
 use super::{Diagnostic, OneOrMany, Place, Source};
 use serde::de::{self, DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
@@ -10,12 +10,12 @@ use std::cell::Cell;
 use std::fmt;
 use std::ops::Range;
 
-/// One step down from a map or a list.
+/// One step into a map or a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// To the value of a key.
+    /// Into the value of a key.
     Key(String),
-    /// To an entry of a list, from zero.
+    /// Into a list entry; indices start at zero.
     Index(usize),
 }
 
@@ -31,41 +31,41 @@ impl From<usize> for Step {
     }
 }
 
-/// The way to a value in a file.
+/// The path of a value in a file.
 #[derive(Debug, Clone)]
 pub(crate) struct Path(Vec<Step>);
 
 impl Path {
-    /// The value of a key of the whole file.
+    /// The path of a top-level key.
     pub(crate) fn top(key: &str) -> Self {
         Self(vec![Step::from(key)])
     }
 
-    /// One step further down.
+    /// The path with one more step.
     pub(crate) fn then(&self, step: impl Into<Step>) -> Self {
         let mut longer = self.0.clone();
         longer.push(step.into());
         Self(longer)
     }
 
-    /// The path to alternative `i` of the alternatives here.
+    /// The path of alternative `i`, for `alternatives` at this path.
     pub(crate) fn alternative<T>(&self, alternatives: &OneOrMany<T>, i: usize) -> Self {
         if alternatives.is_listed() { self.then(i) } else { self.clone() }
     }
 
-    /// The way, step by step.
+    /// The steps of the path.
     pub(crate) fn steps(&self) -> &[Step] {
         &self.0
     }
 }
 
 impl Source {
-    /// The place of a value; of its first character if it is a list or a map.
+    /// The position of a value. For a list or a map, this is the position of its first character.
     pub fn value_at(&self, path: &[Step]) -> Option<Place> {
         self.find(path, Sought::Value).map(|at| Place::of(self.text(), self.token_at(at)))
     }
 
-    /// A diagnostic of the value at `path`, or of the whole file if there is no such value.
+    /// A diagnostic about the value at `path`, or about the whole file if there is no such value.
     pub fn diagnostic_at(&self, path: &[Step], message: &str) -> Diagnostic {
         match self.value_at(path) {
             Some(place) => self.diagnostic(place, message),
@@ -73,15 +73,15 @@ impl Source {
         }
     }
 
-    /// The place of the key that the last step names.
+    /// The position of the key in the last step of `path`.
     pub fn key_at(&self, path: &[Step]) -> Option<Place> {
         self.find(path, Sought::Key).map(|at| Place::of(self.text(), self.token_at(at)))
     }
 
-    /// The place of some bytes of a value that is text, such as one name in a formula.
+    /// The position of a byte range within a text value, such as one name in a formula.
     ///
-    /// If the file does not contain the value verbatim (escapes, several lines), this is the place
-    /// of the whole value.
+    /// If the file does not contain the value verbatim (escapes, several lines), returns the
+    /// position of the whole value.
     pub fn within(&self, path: &[Step], bytes: Range<usize>) -> Option<Place> {
         let at = self.find(path, Sought::Value)?;
         let verbatim = self.scalar_at(at).and_then(|scalar| scalar.verbatim(self.text()));
@@ -201,7 +201,7 @@ impl<'de> Visitor<'de> for Walk<'_> {
     }
 }
 
-/// Compares a key, and fails at the key whose place is sought.
+/// Compares a key with `wanted`. Fails on purpose at the key to be located.
 struct Key<'a> {
     wanted: &'a str,
     last: bool,

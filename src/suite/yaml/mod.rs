@@ -1,14 +1,14 @@
-//! Safe reading of handwritten YAML, with the place of every error.
+//! Safe parsing of handwritten YAML, with a position for every error.
 //!
 //! ```text
 //! path -> Source          size, encoding, characters, nesting: refused before the parser runs
-//!      -> read::<Suite>   typed; every error becomes a Complaint with file:line:column
-//!      -> Source::value_at, within   the place of a value that proves wrong later on
+//!      -> read::<Suite>   typed; every error becomes a Diagnostic with file:line:column
+//!      -> Source::value_at, within   the position of a value that is rejected later
 //! ```
 //!
-//! This is the only module that names the YAML library. What a suite does not need is refused:
-//! anchors, aliases, tags, merge keys and a second document. A suite names a value once under
-//! `parameters`, and without aliases no file can unfold into more than it holds.
+//! Only this module uses the YAML library. Features that suites do not need are refused: anchors,
+//! aliases, tags, merge keys and a second document. A suite defines a repeated value once under
+//! `parameters`. Because aliases are refused, a small file cannot expand into a large value.
 //!
 //! ```
 //! use mpm_verify::suite::yaml::{Source, read};
@@ -55,8 +55,8 @@ pub(crate) use shape::TopValue;
 pub use shape::refuse;
 pub use source::{MAX_BYTES, Source};
 
-/// The most entries that one list or one map may have.
+/// Maximum number of entries in a list or a map.
 pub const MAX_ENTRIES: usize = 1000;
 
-/// The deepest nesting of lists and maps; the YAML parser's cost is quadratic in it.
+/// Maximum nesting depth of lists and maps. The cost of the YAML parser is quadratic in the depth.
 pub const MAX_NESTING: usize = 64;

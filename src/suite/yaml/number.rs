@@ -1,4 +1,4 @@
-//! A number, the text of a formula, or a map in the place of a number.
+//! A number, a formula, or a map that replaces a number.
 
 use super::shape::finite;
 use serde::de::value::MapAccessDeserializer;
@@ -6,19 +6,19 @@ use serde::de::{self, Deserialize, Deserializer, Error, IntoDeserializer, MapAcc
 use std::fmt;
 use std::marker::PhantomData;
 
-/// A number in a suite, or a formula for one: `25`, `1e-3` or `"pi/(2*L)"`.
+/// A number in a suite, or a formula for a number: `25`, `1e-3` or `"pi/(2*L)"`.
 ///
-/// Formulas are not parsed here; `Display` gives the text to parse. For a number this is the
-/// shortest text that reads back as the same number.
+/// Formulas are not parsed here. `Display` returns the text to parse; for a number, it returns the
+/// shortest text that parses to the same number.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NumberText {
     /// A finite number.
     Number(f64),
-    /// The text of a formula, as YAML understands it: without quotes, escapes resolved.
+    /// The text of a formula, without quotes and with escapes resolved.
     Formula(String),
 }
 
-/// Zero: the default of an optional number.
+/// Zero, the default of an optional number.
 impl Default for NumberText {
     fn default() -> Self {
         Self::Number(0.0)
@@ -89,18 +89,18 @@ impl Visitor<'_> for NumberOrFormula {
     }
 }
 
-/// A number or formula, or a map that describes a number: `1e-3`, `{courant: 0.5}`.
+/// A number or formula, or a map in its place: `1e-3`, `{courant: 0.5}`.
 #[derive(Clone, Debug)]
 pub(crate) enum NumberOr<T> {
     /// A number, or the text of a formula.
     Number(NumberText),
-    /// A map.
+    /// A map in place of a number.
     Map(T),
 }
 
 /// A map that may replace a number.
 pub(crate) trait InPlaceOfNumber {
-    /// Phrase for messages with all allowed forms.
+    /// Phrase for messages that lists all allowed forms.
     const EXPECTED: &'static str;
 }
 

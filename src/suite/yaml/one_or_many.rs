@@ -7,10 +7,10 @@ use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, MapAccess, Se
 use std::fmt;
 use std::marker::PhantomData;
 
-/// A setting that a suite may vary: `scheme: usl`, or `scheme: [musl, usl]` for a case of each.
+/// A setting that a suite may vary. `scheme: [musl, usl]` gives one case for each entry.
 ///
-/// Never empty. `T` may be a number, text, a struct or an enum, but not a list: the first bracket
-/// is always that of the alternatives.
+/// The list is never empty. `T` may be a number, text, a struct or an enum. It must not be a list,
+/// because the first bracket always opens the list of alternatives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OneOrMany<T> {
     values: Vec<T>,
@@ -23,19 +23,19 @@ impl<T> OneOrMany<T> {
         &self.values
     }
 
-    /// The alternatives themselves; at least one.
+    /// Converts the setting to its alternatives; at least one.
     pub fn into_vec(self) -> Vec<T> {
         self.values
     }
 
-    /// Whether the file has brackets around them.
+    /// Whether the file writes the alternatives in brackets.
     pub fn is_listed(&self) -> bool {
         self.listed
     }
 }
 
 impl<T> OneOrMany<T> {
-    /// These values in the form of `self`: a list, or the first value alone; `None` without values.
+    /// `values` as a list if `self` is a list, otherwise the first value; `None` without values.
     pub(crate) fn with_values(&self, values: impl IntoIterator<Item = T>) -> Option<Self> {
         let limit = if self.listed { usize::MAX } else { 1 };
         let values: Vec<T> = values.into_iter().take(limit).collect();

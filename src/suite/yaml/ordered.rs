@@ -1,4 +1,4 @@
-//! A map whose keys the author invents.
+//! A map whose keys are chosen by the author.
 
 use super::shape::NewKey;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};

@@ -1,6 +1,6 @@
-//! Messages of serde and of the parser, in plain English.
+//! Rewrites messages of serde and of the parser in plain English.
 
-/// The expected value, without the names of Rust types.
+/// Plain text for an expected value, without Rust type names.
 pub(crate) fn expected(serde: &str) -> String {
     let words = match serde {
         "f64" | "f32" => "a number",
@@ -18,7 +18,7 @@ pub(crate) fn expected(serde: &str) -> String {
     words.to_owned()
 }
 
-/// The forms that hold a type's name or a count.
+/// Plain text for an expectation that contains a type name or a count.
 fn expected_of(serde: &str) -> String {
     let count = serde.split(' ').find_map(|word| word.parse::<usize>().ok());
     match (serde, count) {
@@ -38,7 +38,7 @@ fn is_list(serde: &str) -> bool {
         .any(|list| serde.starts_with(list))
 }
 
-/// The value that was found.
+/// Plain text for the value in the file.
 pub(crate) fn found(serde: &str) -> String {
     match serde {
         "sequence" => return "a list".to_owned(),
@@ -60,13 +60,13 @@ pub(crate) fn found(serde: &str) -> String {
     )
 }
 
-/// Names in a row, each in backticks.
+/// The names in backticks, separated by commas.
 pub(crate) fn listed(names: &[&str]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     quoted.join(", ")
 }
 
-/// Message and help for text that is not YAML.
+/// Message and help for invalid YAML.
 pub(crate) fn syntax(error: &str) -> Option<(&'static str, &'static str)> {
     const TABLE: [(&str, &str, &str); 14] = [
         (

@@ -1,8 +1,8 @@
-//! A stretch of one line of a file.
+//! A range within one line of a file.
 
 use std::ops::Range;
 
-/// Position in a file: line, column and length, in characters and from one.
+/// Position in a file (line and column from one) and length, counted in characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
     line: usize,
@@ -13,10 +13,10 @@ pub struct Place {
 }
 
 impl Place {
-    /// The place of a byte range of `text`, cut at the end of its first line.
+    /// The position of a byte range of `text`, cut at the end of its first line.
     ///
-    /// Any range is valid: it is moved onto character boundaries and into the text. A range that
-    /// starts at the end of the text is moved back to the last visible character.
+    /// Any range is valid: its ends are moved into the text and to character boundaries. A range
+    /// that starts at the end of the text is moved back to the last visible character.
     pub fn of(text: &str, range: Range<usize>) -> Self {
         let start = if range.start >= text.len() {
             text.trim_end().len()
@@ -37,28 +37,28 @@ impl Place {
         }
     }
 
-    /// The line, from one.
+    /// The line number, starting at one.
     pub fn line(self) -> usize {
         self.line
     }
 
-    /// The column in characters, from one.
+    /// The column in characters, starting at one.
     pub fn column(self) -> usize {
         self.column
     }
 
-    /// Number of characters; zero for a point between two characters.
+    /// Number of characters; zero for a position between two characters.
     pub fn length(self) -> usize {
         self.length
     }
 
-    /// The bytes of the text.
+    /// The byte range.
     pub fn bytes(self) -> Range<usize> {
         self.start..self.end
     }
 }
 
-/// The bytes of the line around `offset`, a character boundary, without its line break.
+/// The byte range, without line break, of the line at `offset`, a character boundary.
 pub(crate) fn line_around(text: &str, offset: usize) -> Range<usize> {
     let start = text[..offset].rfind('\n').map_or(0, |at| at + 1);
     let end = text[offset..].find('\n').map_or(text.len(), |at| offset + at);

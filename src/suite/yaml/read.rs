@@ -1,5 +1,5 @@
-//! From a checked text to a typed value, with errors of the YAML library in terms of a suite; and
-//! back for text that the program writes for itself.
+//! Converts a checked text to a typed value, and rewrites errors of the YAML library for authors of
+//! suites. Also writes and reads text that only this program uses.
 
 use super::phrase::{expected, found, listed, syntax};
 use super::shape::{TopValue, refused};
@@ -8,30 +8,30 @@ use crate::nearest::nearest;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// Reads a file into a type.
+/// Parses a file into a type.
 ///
-/// Enums are written as a map of one key (`material: {linear_elastic: {young: E}}`), or as a plain
-/// name if the variant has no parameters (`basis: linear`). Types should have
-/// `#[serde(deny_unknown_fields)]`, and use neither untagged nor internally tagged enums nor
-/// `flatten`: those lose the place of an error.
+/// Enums are written as a map with one key (`material: {linear_elastic: {young: E}}`), or as a
+/// plain name if the variant has no parameters (`basis: linear`). Types should have
+/// `#[serde(deny_unknown_fields)]`. They should not use untagged enums, internally tagged enums or
+/// `flatten`, which lose the position of an error.
 ///
 /// # Errors
-/// The first error in the file, with its place.
+/// The first error in the file, with its position.
 pub fn read<T: DeserializeOwned>(source: &Source) -> Result<T, Diagnostic> {
     CheckedShape::new(source, "")?.read(&|_, _| None)
 }
 
-/// A file with checked shape, ready to be read into a type.
+/// A file whose shape has been checked, ready to be parsed into a type.
 pub(crate) struct CheckedShape<'s> {
     source: &'s Source,
     top: TopValue,
 }
 
 impl<'s> CheckedShape<'s> {
-    /// Checks the shape of `source`, and stores the value of its key `key`, which selects the type.
+    /// Checks the shape of `source`. Stores the value of the top-level key `key`.
     ///
     /// # Errors
-    /// The first error of shape, with its place.
+    /// The first shape error, with its position.
     pub(crate) fn new(source: &'s Source, key: &str) -> Result<Self, Diagnostic> {
         let top = shape::check(source, key);
         let top = top.map_err(|error| diagnostic(source, &error, &|_, _| None))?;
@@ -43,10 +43,10 @@ impl<'s> CheckedShape<'s> {
         &self.top
     }
 
-    /// Reads the file into a type, with a sample value for a missing key if one is known.
+    /// Parses the file into a type. The error for a missing key shows a value from `sample`.
     ///
     /// # Errors
-    /// The first error in the file, with its place.
+    /// The first error in the file, with its position.
     pub(crate) fn read<T: DeserializeOwned>(&self, sample: &SampleOf<'_>) -> Result<T, Diagnostic> {
         let parser = serde_yaml::Deserializer::from_str(self.source.text());
         serde_yaml::with::singleton_map_recursive::deserialize(parser)
@@ -54,19 +54,19 @@ impl<'s> CheckedShape<'s> {
     }
 }
 
-/// The error of the YAML library about a value that it cannot write.
+/// Error of the YAML library for a value that it cannot write.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
 pub(crate) struct WriteError(#[from] serde_yaml::Error);
 
-/// One line, for logs.
+/// The error in one line, for logs.
 impl From<WriteError> for String {
     fn from(error: WriteError) -> Self {
         error.to_string()
     }
 }
 
-/// The text of a value.
+/// The YAML text of a value.
 ///
 /// # Errors
 /// [`WriteError`] if the library cannot write the value.
@@ -74,15 +74,15 @@ pub(crate) fn written<T: Serialize>(value: &T) -> Result<String, WriteError> {
     Ok(serde_yaml::to_string(value)?)
 }
 
-/// The value of a text; `None` if it is invalid.
+/// Parses a text of [`written`]; `None` if the text is invalid.
 pub(crate) fn read_again<T: DeserializeOwned>(text: &str) -> Option<T> {
     serde_yaml::from_str(text).ok()
 }
 
-/// A valid value for a map: from the type of the map (empty for the whole file) and the key.
+/// Returns a valid value for a key. Arguments: owner of the key (empty: the whole file), and key.
 pub(crate) type SampleOf<'a> = dyn Fn(&str, &str) -> Option<&'static str> + 'a;
 
-/// Converts an error of the library to a diagnostic at the same place.
+/// Converts an error of the library to a diagnostic at the same position.
 fn diagnostic(source: &Source, error: &serde_yaml::Error, sample: &SampleOf<'_>) -> Diagnostic {
     let text = error.to_string();
     let offset = error.location().map_or(source.text().len(), |location| location.index());
@@ -106,7 +106,7 @@ fn diagnostic(source: &Source, error: &serde_yaml::Error, sample: &SampleOf<'_>)
         .unwrap_or_else(|| fault.at_token(problem))
 }
 
-/// Prefix of a problem by the library, `scene.material: `, and the problem.
+/// Splits an error of the library into its path, such as `scene.material`, and the problem.
 fn split_path(text: &str) -> (&str, &str) {
     const OPENINGS: [&str; 7] = [
         "unknown field `",
@@ -133,7 +133,7 @@ impl<'a> Fault<'a> {
         Diagnostic::at(self.source.name(), self.source.text(), range, message)
     }
 
-    /// The fault moved to the first name after a bracket, and this name.
+    /// This fault, moved to the first name after a bracket, and that name.
     fn at_first_name(self) -> (Self, &'a str) {
         let scalar = self.source.scalar_from(self.offset);
         let offset = scalar.map_or(self.offset, |scalar| scalar.range.start);
@@ -150,8 +150,7 @@ impl<'a> Fault<'a> {
             Some(rest) => ("key", rest),
             None => ("name", problem.strip_prefix("unknown variant `")?),
         };
-        // The name is from the file, and may contain anything; the expected text is from this
-        // crate.
+        // The name may contain anything from the file; the expected text is from this crate.
         let (name, valid) =
             rest.rsplit_once("`, expected ").or_else(|| rest.rsplit_once("`, there are no "))?;
         let valid: Vec<&str> = valid.split('`').skip(1).step_by(2).collect();
@@ -199,7 +198,7 @@ impl<'a> Fault<'a> {
         })
     }
 
-    /// A named choice with unexpected settings, without required settings, or several choices.
+    /// Error for a named choice with unexpected or missing settings, or for several choices.
     fn wrong_settings(self, unexpected: &str, wanted: &str) -> Option<Diagnostic> {
         let (fault, name) = self.at_first_name();
         match (unexpected, wanted) {

@@ -29,7 +29,7 @@ impl Scanner<'_> {
         Ok(())
     }
 
-    /// Skips blanks and line breaks; returns whether there was a break since the last word.
+    /// Skips blanks and line breaks. Returns whether there was a line break since the last word.
     fn blanks_in_plain(&mut self, mut after_break: bool) -> Result<bool, Diagnostic> {
         while let Some(byte) = self.byte(0) {
             match byte {
@@ -59,7 +59,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// The first column that belongs to the block around this point.
+    /// The first column that belongs to the current block.
     fn least_column(&self) -> usize {
         self.indents.last().map_or(0, |indent| indent + 1)
     }
@@ -123,7 +123,7 @@ impl Scanner<'_> {
         self.keep(start..end, Style::Block);
     }
 
-    /// The stated indentation of a header such as `|2-`.
+    /// The explicit indentation of a block header such as `|2-`.
     fn stated_indent(&self) -> Option<usize> {
         let digit = (1..=2).find_map(|ahead| self.byte(ahead).filter(u8::is_ascii_digit))?;
         Some(self.indents.last().copied().unwrap_or(0) + usize::from(digit - b'0'))

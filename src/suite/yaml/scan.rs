@@ -1,15 +1,15 @@
-//! Scan of a file before the parser: its nesting depth, and features that suites do not need.
+//! Scans a file before parsing: checks its nesting depth and refuses unsupported features.
 //!
-//! The cost of the YAML parser is quadratic in the nesting, and its own limit acts too late. This
-//! pass follows the rules of the parser for the start of tokens only, and builds no values. If a
-//! file is not YAML the scan stops, and the parser reports the reason. The scan also records the
-//! extent of each scalar, so that a caret can underline a whole one, and finds brackets and quotes
-//! that are never closed, which the parser would only report at the end of the file.
+//! The cost of the YAML parser is quadratic in the nesting depth, and its own limit applies too
+//! late. The scan follows the parser's rules for the start of tokens only, and builds no values. If
+//! a file is not YAML, the scan stops, and the parser reports the reason. The scan records the
+//! extent of each scalar, for carets that underline a whole scalar. It also reports brackets and
+//! quotes that are never closed, which the parser would only report at the end of the file.
 
 use super::{Diagnostic, MAX_NESTING, Place};
 use std::ops::Range;
 
-/// The extent of one scalar, with its quotes.
+/// The extent of one scalar, including its quotes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Scalar {
     pub(crate) range: Range<usize>,
@@ -25,7 +25,7 @@ pub(crate) enum Style {
 }
 
 impl Scalar {
-    /// The bytes of the value, if they are verbatim: without escapes and folded lines.
+    /// The byte range of the value, if it is verbatim: without escapes or folded lines.
     pub(crate) fn verbatim(&self, text: &str) -> Option<Range<usize>> {
         let Range { start, end } = self.range;
         let (inside, altered) = match self.style {
@@ -43,7 +43,7 @@ impl Scalar {
     }
 }
 
-/// The scalars of a text in their order, or the reason why it is refused.
+/// The scalars of a text in order, or the reason for refusing the text.
 pub(crate) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Diagnostic> {
     let mut scanner = Scanner {
         name,
@@ -61,19 +61,19 @@ pub(crate) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Diagnostic> {
     Ok(scanner.scalars)
 }
 
-/// The state of the walk, named after the rules of YAML that it decides.
+/// State of the scan. Its methods are named after YAML rules.
 pub(crate) struct Scanner<'t> {
     pub(crate) name: &'t str,
     pub(crate) text: &'t str,
     pub(crate) at: usize,
     line_start: usize,
-    /// The columns of the block lists and maps around this point.
+    /// Columns of the enclosing block lists and maps.
     pub(crate) indents: Vec<usize>,
-    /// The offsets of the brackets not yet closed.
+    /// Offsets of the open brackets.
     pub(crate) open: Vec<usize>,
-    /// Whether a key may start here.
+    /// Whether a key may start at this position.
     pub(crate) key_allowed: bool,
-    /// Start of a token that a later `:` on the line makes a key.
+    /// Start of a token that becomes a key if a `:` follows on the same line.
     pub(crate) possible_key: Option<usize>,
     document: DocumentState,
     pub(crate) scalars: Vec<Scalar>,
@@ -173,7 +173,7 @@ impl Scanner<'_> {
         Ok(())
     }
 
-    /// `- ` and `? `, which open a block list or map at their own column.
+    /// Handles `- ` and `? `, which open a block list or map at their own column.
     fn block_indicator(&mut self) -> Result<Next, Diagnostic> {
         if self.in_flow() {
             self.pass(false);
@@ -188,7 +188,7 @@ impl Scanner<'_> {
         Ok(Next::More)
     }
 
-    /// `:`, which marks the text before it on the line as a key of a block map.
+    /// Handles `:`, which makes the preceding text on the line a key of a block map.
     fn value_indicator(&mut self) -> Result<Next, Diagnostic> {
         let key = self.possible_key.take().filter(|key| *key >= self.line_start);
         match key {
@@ -232,13 +232,13 @@ impl Scanner<'_> {
     }
 }
 
-/// The reading head.
+/// Position in the text.
 impl Scanner<'_> {
     pub(crate) fn byte(&self, ahead: usize) -> Option<u8> {
         self.text.as_bytes().get(self.at + ahead).copied()
     }
 
-    /// Whether there is a blank, a line break or the end of the text.
+    /// Whether a blank, a line break or the end of the text is `ahead` bytes away.
     pub(crate) fn blank(&self, ahead: usize) -> bool {
         matches!(self.byte(ahead), None | Some(b' ' | b'\t' | b'\n' | b'\r'))
     }
@@ -247,7 +247,7 @@ impl Scanner<'_> {
         !self.open.is_empty()
     }
 
-    /// In bytes: the text before a block key or dash on its line is ASCII.
+    /// Column in bytes: only ASCII text precedes a block key or dash on its line.
     pub(crate) fn column(&self) -> usize {
         self.at - self.line_start
     }
@@ -269,7 +269,7 @@ impl Scanner<'_> {
         self.at += rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
     }
 
-    /// Remembers that the token starting here is a key if a `:` follows it.
+    /// Records that the token at this position becomes a key if a `:` follows.
     pub(crate) fn may_be_key(&mut self) {
         if self.key_allowed && !self.in_flow() {
             self.possible_key = Some(self.at);
@@ -305,7 +305,7 @@ impl Scanner<'_> {
             .with_label(&format!("no matching `{closing}`")))
     }
 
-    /// A bracket closed by one of another kind: the missing bracket belongs to the first one.
+    /// Error for a bracket closed by one of another kind. The first bracket is the unclosed one.
     pub(crate) fn crossed(&self, start: usize, byte: u8) -> Diagnostic {
         let (bracket, byte) = (&self.text[start..=start], byte as char);
         let closing = Place::of(self.text, self.here());

@@ -1,21 +1,21 @@
 //! Rules for every suite file, independent of its keys: no duplicate keys, no merge keys, limited
 //! lists, finite numbers only.
 //!
-//! The shape is checked in a separate pass, because a typed reader notices a duplicate key only
-//! after its value, and a field of type `f64` accepts `.nan`.
+//! A separate pass checks the shape. A typed parser would notice a duplicate key only after its
+//! value, and a field of type `f64` accepts `.nan`.
 
 //!
-//! Refusals are messages of this crate, passed through the error type of a deserializer. This is
-//! one string, to which the YAML library adds a path before and a position after. Separators around
-//! the parts allow finding them again. No file can forge them, because a source with control
-//! characters is refused.
+//! Refusals are messages of this crate that pass through the error type of a deserializer. That
+//! type holds one string; the YAML library adds a path before the message and a position after it.
+//! Separators mark the parts of the message. A file cannot forge separators, because sources with
+//! control characters are refused.
 
 use super::{MAX_ENTRIES, Source};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::collections::HashSet;
 use std::fmt;
 
-/// Value of a key of the whole file.
+/// Value of a top-level key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum TopValue {
     /// The file has no such key.
@@ -26,7 +26,7 @@ pub(crate) enum TopValue {
     Other,
 }
 
-/// Walks the whole file. Returns the value of its key `key`.
+/// Checks the whole file. Returns the value of the top-level key `key`.
 pub(crate) fn check(source: &Source, key: &str) -> Result<TopValue, serde_yaml::Error> {
     let parser = serde_yaml::Deserializer::from_str(source.text());
     let mut found = TopValue::Absent;
@@ -34,11 +34,11 @@ pub(crate) fn check(source: &Source, key: &str) -> Result<TopValue, serde_yaml::
     Ok(found)
 }
 
-/// The check of a value.
+/// Checks the shape of a value.
 enum ShapeCheck<'k> {
-    /// The whole file, with the key whose value is stored.
+    /// The whole file, and the key whose value is stored.
     Root { key: &'k str, found: &'k mut TopValue },
-    /// The value to be stored.
+    /// The value to store.
     Kept(&'k mut TopValue),
     /// Any other value.
     Inside,
@@ -129,7 +129,7 @@ impl<'de> Visitor<'de> for ShapeCheck<'_> {
     }
 }
 
-/// Reads a key of a map that must be new; an error is located at the key.
+/// Deserializes a map key and refuses duplicates. The error is located at the key.
 pub(crate) struct NewKey<'a> {
     pub(crate) seen: &'a mut HashSet<String>,
 }
@@ -169,7 +169,7 @@ impl Visitor<'_> for NewKey<'_> {
     }
 }
 
-/// Refuses a list or a map that has grown past the cap.
+/// Refuses a list or a map with more than the maximum number of entries.
 pub(crate) fn within_cap<E: de::Error>(length: usize, what: &str) -> Result<(), E> {
     if length <= MAX_ENTRIES {
         return Ok(());
@@ -178,7 +178,7 @@ pub(crate) fn within_cap<E: de::Error>(length: usize, what: &str) -> Result<(), 
     Err(refuse(&message, "", ""))
 }
 
-/// Refuses `.nan` and `.inf`, which YAML counts as numbers.
+/// Refuses `.nan` and `.inf`, which are valid numbers in YAML.
 pub(crate) fn finite<E: de::Error>(value: f64, expected: &str) -> Result<f64, E> {
     if value.is_finite() {
         return Ok(value);
@@ -193,16 +193,16 @@ pub(crate) fn finite<E: de::Error>(value: f64, expected: &str) -> Result<f64, E>
 
 const FENCE: char = '\u{1f}';
 
-/// A refusal to raise while deserializing: the error, the expectation, and advice.
+/// Error that refuses a value during deserialization: message, label and help.
 ///
 /// `label` and `help` may be empty. [`read`](super::read()) shows the three texts unchanged, at the
-/// place of the innermost value that was being read.
+/// position of the innermost value being parsed.
 pub fn refuse<E: de::Error>(message: &str, label: &str, help: &str) -> E {
     let [message, label, help] = [message, label, help].map(|part| part.replace(FENCE, " "));
     E::custom(format!("{FENCE}{message}{FENCE}{label}{FENCE}{help}{FENCE}"))
 }
 
-/// Message, label and help of a refusal, if `error` is the text of one.
+/// Message, label and help, if `error` is the text of a refusal.
 pub(crate) fn refused(error: &str) -> Option<[&str; 3]> {
     let mut parts = error.split(FENCE).skip(1);
     Some([parts.next()?, parts.next()?, parts.next()?])

@@ -1,4 +1,4 @@
-//! A suite file in memory, checked before anything interprets it.
+//! A suite file in memory, checked before parsing.
 
 use super::scan::{Scalar, scan};
 use super::{Diagnostic, Place};
@@ -7,10 +7,10 @@ use std::io::{self, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// The largest file that is read; a long suite is a tenth of it.
+/// Maximum file size (bytes). A long suite has a tenth of this size.
 pub const MAX_BYTES: usize = 64 * 1024;
 
-/// A text that is safe to parse, with its name for messages.
+/// A text that is safe to parse, with its file name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
     name: String,
@@ -22,18 +22,19 @@ impl Source {
     /// Reads a file.
     ///
     /// # Errors
-    /// If there is no such file, if it is a folder, too large or not UTF-8, or if
-    /// [`Source::from_text`] refuses it.
+    /// If the file does not exist, is a folder, is too large or not UTF-8, or if
+    /// [`Source::from_text`] refuses the text.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Diagnostic> {
         let name = path.as_ref().display().to_string();
         let bytes = bytes_of(path.as_ref(), &name)?;
         Self::from_bytes(&name, bytes)
     }
 
-    /// Reads the output of a program, up to the maximum size of a suite.
+    /// Reads the output of a program, up to the maximum file size of a suite.
     ///
     /// # Errors
-    /// If it cannot be read, is too large or not UTF-8, or if [`Source::from_text`] refuses it.
+    /// If reading fails, or the output is too large, not UTF-8, or refused by
+    /// [`Source::from_text`].
     pub fn from_reader(name: &str, reader: impl Read) -> Result<Self, Diagnostic> {
         Self::from_bytes(name, limited(name, reader)?)
     }
@@ -45,18 +46,18 @@ impl Source {
         }
     }
 
-    /// Takes a text that is already in memory, such as a suite built into the program.
+    /// Checks a text in memory, such as a suite embedded in the program.
     ///
     /// # Errors
-    /// If the text is too large, nests too deeply, is indented with tabs, holds control
-    /// characters, brackets or quotes that are never closed, anchors, aliases, tags, or more
-    /// than one document.
+    /// If the text is too large, nests too deeply or is indented with tabs. Also if it contains
+    /// control characters, unclosed brackets or quotes, anchors, aliases, tags, or more than one
+    /// document.
     pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Result<Self, Diagnostic> {
         let (name, mut text) = (name.into(), text.into());
         if text.len() > MAX_BYTES {
             return Err(too_large(&name, Some(text.len() as u64)));
         }
-        // A byte order mark has no meaning in UTF-8, and would shift the columns of line one.
+        // A byte order mark has no meaning in UTF-8, and would shift the columns of the first line.
         if text.starts_with('\u{feff}') {
             text.remove(0);
         }
@@ -65,8 +66,8 @@ impl Source {
         Ok(Self { name, text, scalars })
     }
 
-    /// Paths of the suites (`.yaml` and `.yml`) of a folder and of the folders in it, sorted by
-    /// file name.
+    /// Paths of the suites (`.yaml` and `.yml`) in a folder and its subfolders, sorted by file
+    /// name.
     ///
     /// # Errors
     /// If a folder cannot be read.
@@ -83,7 +84,7 @@ impl Source {
         Ok(paths)
     }
 
-    /// Name of the folder with a file: the group of a suite.
+    /// Name of the folder that contains a file, which is the group of a suite.
     pub fn group_of(file: &Path) -> String {
         let folder = file.parent().and_then(Path::file_name);
         folder.unwrap_or_default().to_string_lossy().into_owned()
@@ -93,32 +94,32 @@ impl Source {
         Self::group_of(Path::new(&self.name))
     }
 
-    /// The file, as named by the user.
+    /// The file name, as given by the user.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The text of the file, without a byte order mark.
+    /// The text of the file, without byte order mark.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// A diagnostic of a place in this file.
+    /// A diagnostic at a position in this file.
     pub fn diagnostic(&self, place: Place, message: &str) -> Diagnostic {
         Diagnostic::at(&self.name, &self.text, place.bytes(), message)
     }
 
-    /// The first scalar that starts at or after a byte.
+    /// The first scalar that starts at or after byte `offset`.
     pub(crate) fn scalar_from(&self, offset: usize) -> Option<&Scalar> {
         self.scalars.get(self.scalars.partition_point(|scalar| scalar.range.start < offset))
     }
 
-    /// The scalar that starts at a byte.
+    /// The scalar that starts at byte `offset`.
     pub(crate) fn scalar_at(&self, offset: usize) -> Option<&Scalar> {
         self.scalar_from(offset).filter(|scalar| scalar.range.start == offset)
     }
 
-    /// The bytes of the token at `offset`: a scalar, or one character of anything else.
+    /// The byte range of the token at `offset`: a scalar, or any other single character.
     pub(crate) fn token_at(&self, offset: usize) -> Range<usize> {
         self.scalar_at(offset).map_or(offset..offset + 1, |scalar| scalar.range.clone())
     }
@@ -143,7 +144,7 @@ fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Diagnostic> {
     limited(name, File::open(path).map_err(|error| unreadable(&error))?)
 }
 
-/// All bytes of a reader: a device or a pipe does not tell their number, and a file may grow.
+/// All bytes of a reader, up to the maximum. The size may be unknown in advance, or grow.
 fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     let mut bytes = Vec::new();
     let read = reader.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
@@ -151,8 +152,8 @@ fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     if bytes.len() > MAX_BYTES { Err(too_large(name, None)) } else { Ok(bytes) }
 }
 
-/// Whether it is a named pipe, which may have no writer, so that reading would not end. A pipe that
-/// the shell opens for a command has a writer.
+/// Whether the file is a named pipe. A named pipe may have no writer, so reading it may block. A
+/// pipe that the shell opens for a command has a writer.
 fn is_named_pipe(path: &Path, metadata: &Metadata) -> bool {
     #[cfg(unix)]
     let is_pipe = std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type());
@@ -190,7 +191,7 @@ fn not_utf8(name: &str, bytes: &[u8], offset: usize) -> Diagnostic {
     diagnostic.with_help(&format!("save the file as UTF-8{was}"))
 }
 
-/// Refuses invisible characters: control characters, and line breaks that only YAML treats as such.
+/// Refuses control characters, and line breaks that only YAML recognises.
 fn characters(name: &str, text: &str) -> Result<(), Diagnostic> {
     let bad = text.char_indices().find(|(at, c)| match c {
         '\t' | '\n' => false,

@@ -1,13 +1,13 @@
-//! Repeatability checks: a second sample, half of the step, a new subject, a resumed run.
+//! Repeatability checks: repeated sampling, half-length step, new subject, resumed run.
 
 use super::course::ROUNDING;
 use super::record::{Breach, RunState, difference, largest, record};
 use crate::subject::{Checkpoint, Samples, Subject, SubjectError};
 
-/// Makes the subject in its initial state.
+/// Creates the subject in its initial state.
 pub(super) type Make<'a> = &'a dyn Fn() -> Result<Box<dyn Subject>, SubjectError>;
 
-/// A breach if a second call of `sample` gives other samples, or adds to those it was given.
+/// Reports a breach if a second call of `sample` changes the given samples or appends to them.
 pub(super) fn sample(subject: &dyn Subject, first: &Samples) -> Option<Breach> {
     let mut second = first.clone();
     subject.sample(&mut second);
@@ -16,8 +16,8 @@ pub(super) fn sample(subject: &dyn Subject, first: &Samples) -> Option<Breach> {
     Some(Breach::new("sample", wanted, seen))
 }
 
-/// A breach if a step does not have its given length: half of the length must move points by half.
-/// Not applicable to a body that starts at rest.
+/// Reports a breach if a step ignores its given length: points must move half as far in a step of
+/// half the length. Not applicable to a body that starts at rest.
 pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let [first, second, ..] = states else { return None };
     let fastest = largest(&first.samples.velocity);
@@ -32,7 +32,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     };
     let (whole, half) = (moved(&second.samples), moved(&halved[0].samples));
     let far = largest(&whole);
-    // A quarter of the way is more than any force does in a step that is stable.
+    // In a stable step, forces cannot reduce the distance to a quarter.
     if !(far >= 0.25 * dt * fastest) {
         let wanted = format!("points to move by about {:e} m in a step of {dt:e} s", dt * fastest);
         return Some(Breach::new("step", wanted, format!("{far:e} m at most")));
@@ -45,8 +45,8 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     })
 }
 
-/// A breach if another subject of the same problem gives another run. Sums may be computed in
-/// another order.
+/// Reports a breach if another subject of the same problem gives a different run. Rounding
+/// differences are allowed, because sums may be computed in another order.
 pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let mut subject = make().ok()?;
     let mut again = vec![RunState::from_subject(subject.as_ref())];
@@ -61,7 +61,7 @@ pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Bre
     Some(Breach::new("repeat", wanted, off.next()?))
 }
 
-/// A breach if a checkpoint disturbs the run, does not match, or gives another continuation than
+/// Reports a breach if a checkpoint disturbs the run, does not match, or continues differently from
 /// the uninterrupted run. Not applicable to a subject without checkpoints.
 pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breach> {
     let (first, rest) = states.split_at(states.len().div_ceil(2));

@@ -1,4 +1,4 @@
-//! The state before the first step and the course of a run: labels, weights, finite numbers,
+//! Checks of the initial state and of the course of a run: labels, weights, finite numbers,
 //! counters and sums.
 
 use super::record::{Breach, RunState, columns, largest};
@@ -6,14 +6,14 @@ use crate::external::LevelProblem;
 use crate::mpm::det_of_rows;
 use crate::subject::Samples;
 
-/// Maximum relative rounding error of numbers that are passed to a solver.
+/// Maximum relative rounding error of numbers passed to a solver.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// Maximum relative difference between the volume of the body and the weights of sample points,
-/// which may resolve the rim differently.
+/// Maximum relative difference between the body volume and the weights of all sample points, which
+/// may resolve the rim differently.
 const RIM: f64 = 0.1;
 
-/// Breaches by columns of the wrong size, and by numbers that are not finite.
+/// Breaches due to columns of wrong size and numbers that are not finite.
 pub(super) fn counts(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let (d, n) = (problem.dimension, samples.len());
     if samples.dimension != d {
@@ -40,7 +40,7 @@ pub(super) fn counts(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     breaches
 }
 
-/// Places, weights and motion at the start.
+/// Breaches due to wrong labels, weights and motion in the initial state.
 pub(super) fn start(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let mut breaches = weights(problem, samples);
     breaches.extend(labels(problem, samples));
@@ -50,14 +50,14 @@ pub(super) fn start(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     breaches
 }
 
-/// Whether the labels are the reference positions of the particles, in their order.
+/// Whether the labels are the reference positions of the particles in the same order.
 fn is_of_particles(problem: &LevelProblem, samples: &Samples) -> bool {
     let (wanted, near) = (&problem.particles.reference_position, ROUNDING * problem.grid.h);
     let mut pairs = wanted.iter().zip(&samples.label);
     wanted.len() == samples.label.len() && pairs.all(|(a, b)| (a - b).abs() <= near)
 }
 
-/// Labels outside of the grid.
+/// A breach due to labels outside the grid.
 fn labels(problem: &LevelProblem, samples: &Samples) -> Option<Breach> {
     let (grid, d) = (&problem.grid, problem.dimension);
     let near = ROUNDING * grid.h;
@@ -93,8 +93,9 @@ fn weights(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     vec![Breach::new("weights", wanted, format!("{sum:e} m^D"))]
 }
 
-/// Breaches by displacements and velocities that differ from those of the particles. Velocities may
-/// be those half a step before the start, which changes them by less than half of the largest.
+/// Breaches due to displacements and velocities that differ from those of the particles. Velocities
+/// may be those half a step before the start, which differ by less than half of the largest
+/// velocity.
 fn motion(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let particles = &problem.particles;
     let mut breaches = Vec::new();
@@ -117,7 +118,7 @@ fn motion(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     breaches
 }
 
-/// Breaches by labels, weights and sizes that change, and by numbers that are not finite.
+/// Breaches due to labels, weights or sizes that change, and numbers that are not finite.
 pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
     let first = &states[0].samples;
     let mut breaches = Vec::new();
@@ -141,7 +142,7 @@ pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
                 breaches.push(Breach::new(about, wanted, seen));
             }
         }
-        // The first step that breaks the contract is enough.
+        // The first step with a breach is sufficient.
         if !breaches.is_empty() {
             break;
         }
@@ -149,7 +150,7 @@ pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
     breaches
 }
 
-/// Work that does not grow with each step.
+/// A breach due to work that does not grow with each step.
 pub(super) fn work(states: &[RunState]) -> Option<Breach> {
     let work: Vec<u64> = states.iter().map(|state| state.counters.transfers).collect();
     let step = (1..work.len()).find(|step| work[*step] <= work[step - 1])?;
@@ -159,7 +160,7 @@ pub(super) fn work(states: &[RunState]) -> Option<Breach> {
     Some(Breach::new("work counters", wanted, seen))
 }
 
-/// A breach by counters that do not count the run so far.
+/// Breaches due to counters that do not count the run so far.
 pub(super) fn counters(problem: &LevelProblem, states: &[RunState]) -> Vec<Breach> {
     let given = problem.particles.len() as u64;
     let volumes = problem.particles.volume.iter().zip(&problem.particles.reference_volume);
@@ -189,7 +190,7 @@ pub(super) fn counters(problem: &LevelProblem, states: &[RunState]) -> Vec<Breac
                 note(wanted, format!("{:e}", now.min_j));
             }
         }
-        // The first step that breaks the contract is enough.
+        // The first step with a breach is sufficient.
         if !breaches.is_empty() {
             break;
         }
@@ -210,7 +211,7 @@ pub(super) fn totals(problem: &LevelProblem, states: &[RunState]) -> Option<Brea
     ))
 }
 
-/// The smallest det F of the points; infinite if F is not reported.
+/// The smallest det F of all points; infinite if the subject does not report F.
 fn smallest_j(samples: &Samples) -> f64 {
     let d = samples.dimension;
     let all = samples.deformation_gradient.chunks_exact(d * d);

@@ -1,10 +1,10 @@
-//! Conformance checks of a solver with the contract of [`Subject`](crate::subject::Subject), before
+//! Checks whether a solver conforms to the contract of [`Subject`](crate::subject::Subject), before
 //! any verdict.
 //!
 //! ```text
-//! start    sizes of columns, labels, weights and motion before the first step
+//! start    column sizes, labels, weights and motion before the first step
 //! course   order of labels, finite numbers, counters and sums over a few steps
-//! again    a second sample, half of the step, a new subject, a resumed run
+//! again    repeated sampling, half-length step, new subject, resumed run
 //! ```
 
 mod again;
@@ -19,15 +19,15 @@ use crate::subject::SubjectError;
 use crate::suite::{ConvergencePlan, Suite, embedded};
 use record::{RunState, record};
 
-/// Steps of each run.
+/// Number of steps per run.
 const STEPS: usize = 6;
 
-/// Built-in suites for the checks, the simplest first: their bodies move from the start.
+/// Built-in suites for the checks, starting with the simplest. Their bodies move from the start.
 const SUITES: [&str; 4] =
     ["vibrating-bar", "mms-periodic-bar-sin", "translating-body", "mms-axis-aligned-2d"];
 
-/// Every breach of the contract on the coarsest level of the first built-in suite that the solver
-/// can run; empty if there is none.
+/// All breaches of the contract on the coarsest level of the first built-in suite that the solver
+/// supports; empty if there are none.
 ///
 /// ```no_run
 /// # use mpm_verify::prelude::*;
@@ -51,7 +51,7 @@ pub fn conformance(solver: &dyn SolverFactory) -> Vec<Breach> {
     vec![Breach::new("problem", wanted, refused.join("; "))]
 }
 
-/// Every breach of the contract on the coarsest level of `suite`; empty if there is none.
+/// All breaches of the contract on the coarsest level of `suite`; empty if there are none.
 pub fn conformance_on(solver: &dyn SolverFactory, suite: &Suite) -> Vec<Breach> {
     examined(solver, suite).unwrap_or_else(|why| {
         let wanted = format!("a solver that can be put to `{}`", suite.name);
@@ -59,7 +59,7 @@ pub fn conformance_on(solver: &dyn SolverFactory, suite: &Suite) -> Vec<Breach> 
     })
 }
 
-/// The breaches on the coarsest level of `suite`.
+/// All breaches of the contract on the coarsest level of `suite`.
 ///
 /// # Errors
 /// One line with the reason why the solver cannot run the suite.
@@ -70,10 +70,10 @@ pub(crate) fn examined(
     Ok(breaches(solver, &problem(solver, suite)?))
 }
 
-/// The coarsest level of a suite, if the solver can run it.
+/// The coarsest level of a suite.
 ///
 /// # Errors
-/// One line with the reason if it cannot.
+/// One line with the reason why the solver cannot run the suite.
 fn problem(solver: &dyn SolverFactory, suite: &Suite) -> Result<LevelProblem, SubjectError> {
     let plan = suite.plan::<ConvergencePlan>().ok_or("it is no convergence study")?;
     let lacks = lacking(suite, solver);
@@ -98,7 +98,7 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
     let mut states = vec![RunState::from_subject(subject.as_ref())];
     let mut breaches = course::counts(problem, &states[0].samples);
     if !breaches.is_empty() {
-        // Nothing else can be compared.
+        // Without valid columns nothing else can be compared.
         return breaches;
     }
     breaches.extend(course::start(problem, &states[0].samples));
@@ -115,7 +115,7 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
     if breaches.is_empty() {
         breaches.extend(again::repeat(&make, &states, problem.dt));
     }
-    // Two subjects can be compared only if they go one way.
+    // These comparisons need two subjects, and are meaningful only if runs are repeatable.
     if breaches.is_empty() {
         breaches.extend(again::step_length(&make, &states, problem.dt));
         breaches.extend(again::restart(&make, &states, problem.dt));

@@ -3,7 +3,7 @@
 use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use std::fmt;
 
-/// A subject as it shows itself between two steps.
+/// Observable state of a subject between two steps.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RunState {
     pub(super) samples: Samples,
@@ -19,7 +19,7 @@ impl RunState {
     }
 }
 
-/// Adds the states after each of `count` steps of length `dt` (s), up to one that fails.
+/// Appends the state after each of the `steps` steps of length `dt` (s), until a step fails.
 pub(super) fn record(
     subject: &mut dyn Subject,
     steps: usize,
@@ -33,7 +33,7 @@ pub(super) fn record(
     Ok(())
 }
 
-/// Every column of samples by its name, with the numbers that each point has in it for dimension D.
+/// Name, numbers and width of every sample column. The width is the number of values per point.
 pub(super) fn columns(samples: &Samples) -> [(&'static str, &[f64], usize); 8] {
     let d = samples.dimension;
     [
@@ -48,8 +48,8 @@ pub(super) fn columns(samples: &Samples) -> [(&'static str, &[f64], usize); 8] {
     ]
 }
 
-/// The first number of `seen` that differs from `wanted` by more than `tolerance` times the largest
-/// number of its column.
+/// Describes the first number of `seen` that differs from `wanted` by more than `tolerance` times
+/// the largest number of its column.
 pub(super) fn difference(wanted: &Samples, seen: &Samples, tolerance: f64) -> Option<String> {
     if wanted.dimension != seen.dimension {
         return Some(format!("dimension {} and not {}", seen.dimension, wanted.dimension));
@@ -74,11 +74,11 @@ pub(super) fn largest(column: &[f64]) -> f64 {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Breach {
-    /// The part of the contract: `counts`, `labels`, `restart`.
+    /// Name of the violated part of the contract, such as `counts`, `labels` or `restart`.
     pub about: &'static str,
-    /// Behaviour by the contract.
+    /// Behaviour that the contract requires.
     pub expected: String,
-    /// Behaviour of the subject.
+    /// Observed behaviour of the subject.
     pub seen: String,
 }
 

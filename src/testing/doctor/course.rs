@@ -1,4 +1,4 @@
-//! Recorded runs, their figures, and fields of vectors of up to three components.
+//! Recorded runs, figures of recorded runs, and vector fields.
 
 use crate::external::LevelProblem;
 use crate::subject::{Samples, Subject};
@@ -6,14 +6,14 @@ use crate::subject::{Samples, Subject};
 /// The states of a run, starting with the initial state.
 pub(super) struct Course {
     pub(super) problem: LevelProblem,
-    /// Times (s) of the states.
+    /// Times of the states (s).
     pub(super) times: Vec<f64>,
     pub(super) states: Vec<Samples>,
-    /// Why the run did not reach its end; `None` if it did.
+    /// Why the run ended early; `None` if the run is complete.
     pub(super) failure: Option<String>,
 }
 
-/// A column of a state.
+/// A sample column of a state.
 pub(super) type Field = fn(&Samples) -> &[f64];
 
 /// Displacements (m).
@@ -39,8 +39,8 @@ impl Course {
         self.states.push(samples);
     }
 
-    /// Sets displacements and velocities of the first state to the initial fields, which a solver
-    /// with its own sample points does not report.
+    /// Sets displacements and velocities of the first state to the initial fields. A solver with
+    /// its own sample points does not report them.
     pub(super) fn start(&mut self, displacement: &AffineField, velocity: &AffineField) {
         let d = self.problem.dimension;
         let Some(samples) = self.states.first_mut() else { return };
@@ -61,7 +61,7 @@ impl Course {
         self.states.len() - 1
     }
 
-    /// Mean of a vector over the body in state `k`.
+    /// Mean over the body of a vector column in state `k`.
     pub(super) fn mean(&self, field: Field, k: usize) -> [f64; 3] {
         let (samples, d) = (&self.states[k], self.problem.dimension);
         let (mut sum, mut all) = ([0.0; 3], 0.0);
@@ -74,12 +74,12 @@ impl Course {
         sum.map(|sum| sum / all)
     }
 
-    /// Largest distance between the vector of a point and `wanted` in state `k`.
+    /// Largest distance between a point's vector and `wanted` in state `k`.
     pub(super) fn farthest(&self, field: Field, k: usize, wanted: [f64; 3]) -> f64 {
         self.points(field, k).map(|(_, vector)| size(minus(vector, wanted))).fold(0.0, f64::max)
     }
 
-    /// Every point's label and vector in state `k`; components beyond the dimension are zero.
+    /// Label and vector of every point in state `k`; components beyond the dimension are zero.
     pub(super) fn points(
         &self,
         field: Field,
@@ -93,7 +93,7 @@ impl Course {
     }
 }
 
-/// The line `y = a + b x` of least squares: a, b, and the largest distance from it.
+/// Least-squares line `y = a + b x`: a, b, and the largest distance from the line.
 pub(super) fn line(x: &[f64], y: &[f64]) -> (f64, f64, f64) {
     let n = x.len() as f64;
     let (mx, my) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
@@ -105,7 +105,7 @@ pub(super) fn line(x: &[f64], y: &[f64]) -> (f64, f64, f64) {
     (a, b, off)
 }
 
-/// A number for a reader: four digits.
+/// Formats a number with four digits.
 pub(super) fn shown(x: f64) -> String {
     let magnitude = x.abs();
     if x == 0.0 {
@@ -118,7 +118,7 @@ pub(super) fn shown(x: f64) -> String {
     }
 }
 
-/// A vector for a reader.
+/// Formats a vector.
 pub(super) fn shown_vector(x: [f64; 3], dimension: usize) -> String {
     let all: Vec<String> = x[..dimension].iter().map(|x| shown(*x)).collect();
     format!("({})", all.join(", "))
@@ -140,23 +140,23 @@ pub(super) fn size(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// A vector field `value + gradient (X - centre)` of the reference position.
+/// The vector field `value + gradient (X - centre)` of the reference position X.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct AffineField {
     pub(super) value: [f64; 3],
-    /// Row i has the derivatives of component i.
+    /// Row i contains the derivatives of component i.
     pub(super) gradient: [[f64; 3]; 3],
     /// Position (m) at which the field has `value`.
     pub(super) centre: [f64; 3],
 }
 
 impl AffineField {
-    /// A field with the same vector at every point.
+    /// A uniform field.
     pub(super) fn uniform(value: [f64; 3]) -> Self {
         Self { value, ..Self::default() }
     }
 
-    /// The field at a place (m).
+    /// The field at a position (m).
     pub(super) fn at(&self, place: [f64; 3]) -> [f64; 3] {
         let from = minus(place, self.centre);
         std::array::from_fn(|i| {
@@ -168,7 +168,7 @@ impl AffineField {
         *self == Self { centre: self.centre, ..Self::default() }
     }
 
-    /// One formula of X, Y, Z for each component.
+    /// The field as one formula of X, Y, Z for each component.
     pub(super) fn formulas(&self, dimension: usize) -> Vec<String> {
         let term = |i: usize, j: usize| {
             let (slope, axis, centre) = (self.gradient[i][j], ["X", "Y", "Z"][j], self.centre[j]);
@@ -181,7 +181,7 @@ impl AffineField {
         (0..dimension).map(formula).collect()
     }
 
-    /// The field in units of length and value that are smaller by these factors.
+    /// The field in units of value and length that are smaller by these factors.
     pub(super) fn scaled(&self, value: f64, length: f64) -> Self {
         Self {
             value: self.value.map(|x| x * value),

@@ -1,4 +1,4 @@
-//! Findings, and the report of an examination as text.
+//! Findings, and the report of all examinations as text.
 
 use crate::named::named;
 use crate::report::text::prose::{paragraph_lines, row};
@@ -7,9 +7,9 @@ use serde::Serialize;
 named! {
     /// Weight of a finding.
     pub enum FindingWeight {
-        /// A defect to be repaired.
+        /// A defect that should be repaired.
         Defect = "defect",
-        /// A property of a correct scheme that an author should know.
+        /// A property of a correct scheme that its author should know.
         Remark = "remark",
     }
 }
@@ -18,15 +18,15 @@ named! {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SolverFinding {
-    /// Its weight.
+    /// Defect or remark.
     pub weight: FindingWeight,
-    /// Its name: `gravity-left-on`.
+    /// Name of the finding, such as `gravity-left-on`.
     pub name: &'static str,
     /// Observed figures.
     pub seen: String,
-    /// The likely cause.
+    /// Likely cause.
     pub cause: String,
-    /// Parts of a solver to look at.
+    /// Parts of the solver's code to check.
     pub look_at: String,
 }
 
@@ -46,49 +46,49 @@ impl SolverFinding {
 #[serde(tag = "result", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum ExaminationResult {
-    /// The examination was made.
+    /// The examination was completed.
     Examined {
-        /// Figures that were measured.
+        /// Measured figures.
         measured: String,
-        /// Findings; empty if there are none.
+        /// The findings, if any.
         findings: Vec<SolverFinding>,
     },
     /// The solver lacks a required capability.
     NotApplicable {
-        /// Capabilities that are missing, or the solver's own reason.
+        /// Missing capabilities, or the solver's own reason.
         lacks: String,
     },
-    /// The examination is skipped because another one has findings.
+    /// The examination was skipped because another examination has findings.
     LeftOut {
-        /// Name of that examination.
+        /// Name of the examination with findings.
         after: &'static str,
     },
 }
 
-/// One examination, with its result.
+/// An examination and its result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ExaminationReport {
-    /// Its name: `fall`.
+    /// Name of the examination, such as `fall`.
     pub examination: &'static str,
     /// Expected behaviour of a correct solver, in one sentence.
     pub expected: &'static str,
-    /// Its result.
+    /// Result of the examination.
     #[serde(flatten)]
     pub result: ExaminationResult,
 }
 
-/// All examinations of a solver.
+/// Results of all examinations of a solver.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DoctorReport {
     /// Name of the solver.
     pub solver: String,
-    /// The solver's account of itself, as rows of name and value.
+    /// The solver's description of itself, as pairs of name and value.
     pub settings: Vec<(String, String)>,
-    /// Why no examination was possible; `None` if one was.
+    /// Why no examination was possible; `None` if at least one was.
     pub silent: Option<String>,
-    /// The examinations, the plainest first.
+    /// The examinations, starting with the simplest.
     pub examinations: Vec<ExaminationReport>,
 }
 
@@ -105,7 +105,7 @@ impl DoctorReport {
 }
 
 impl ExaminationResult {
-    /// Its findings; empty if the examination was not made.
+    /// The findings; empty if the examination was not completed.
     pub fn findings(&self) -> &[SolverFinding] {
         match self {
             Self::Examined { findings, .. } => findings,
@@ -114,11 +114,11 @@ impl ExaminationResult {
     }
 }
 
-/// Advice if nodes with little mass are ignored.
+/// Advice for solvers that ignore nodes with little mass.
 pub(super) const MASS_THRESHOLD: &str = "a threshold on the mass of nodes, below which they get no velocity: it must \
      be zero, or far below the mass of a particle times the smallest weight";
 
-/// The report of all examinations as a page.
+/// The report of all examinations as text.
 pub fn page(report: &DoctorReport) -> String {
     let mut lines = Vec::new();
     let settings = report.settings.iter().map(|(name, value)| format!("{name}: {value}"));
@@ -168,7 +168,7 @@ fn finding_lines(lines: &mut Vec<String>, finding: &SolverFinding) {
     row(lines, "  look at", &finding.look_at);
 }
 
-/// The verdict in one sentence.
+/// The overall result in one sentence.
 fn verdict(report: &DoctorReport) -> String {
     if let Some(why) = &report.silent {
         return format!("verdict: {} cannot be examined: {why}", report.solver);

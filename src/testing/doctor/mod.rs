@@ -1,16 +1,13 @@
-//! Examinations of a solver on small problems. Each problem shows one kind of defect, which the
-//! findings describe in terms of the solver's code (docs/doctor.md).
+//! Examines a solver on small problems. Each problem reveals one kind of defect, and findings
+//! describe the defect in terms of the solver's code (docs/doctor.md).
 //!
 //! ```text
-//! finding       findings and reports
-//! scene         small scenes, passed to the solver as those of suites
-//! vectors       vectors and fields of them
-//! patient       capabilities of a solver, and its runs
-//! question      one question to a solver
-//! course        records of runs, and figures of them
-//! motion/       causes if a body in uniform motion slows down
-//! examination/  one file for each question, the simplest first
-//! page          the report as text
+//! finding       findings, and the report as text
+//! scene         small scenes, passed to the solver like those of suites
+//! patient       capabilities of a solver, its runs, and the type of an examination
+//! course        recorded runs, their figures, and vector fields
+//! motion/       causes of errors in uniform motion
+//! examination/  one file for each examination
 //! ```
 
 mod course;
@@ -28,8 +25,9 @@ use crate::external::SolverFactory;
 use examination::ALL;
 use patient::{Examination, Hindrance, Patient};
 
-/// Examines a solver, with the simplest examination first. An examination that depends on others is
-/// skipped if these report defects. `progress` is called with the name of each.
+/// Runs all examinations of a solver, starting with the simplest. An examination is skipped if an
+/// examination on which it depends reports defects. `progress` is called with the name of each
+/// examination.
 pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorReport {
     let mut report = DoctorReport {
         solver: solver.name().to_owned(),
@@ -54,7 +52,7 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
     report
 }
 
-/// Why nothing can be examined, from the first examination.
+/// Why no examination is possible, from the result of the first examination.
 fn silent(first: &ExaminationResult) -> Option<String> {
     match first {
         ExaminationResult::Examined { findings, .. } => {
@@ -95,7 +93,7 @@ fn broke(seen: String) -> SolverFinding {
     )
 }
 
-/// The first examination with defects that this one builds upon.
+/// The first examination with defects on which this examination depends.
 fn ground(examination: &Examination, report: &DoctorReport) -> Option<&'static str> {
     let is_ground = |made: &&ExaminationReport| examination.after.contains(&made.examination);
     let has_defect = |made: &&ExaminationReport| {

@@ -1,4 +1,4 @@
-//! A solver under examination: its capabilities, its runs, and requests to it.
+//! A solver under examination: its capabilities and its runs.
 
 use super::course::Course;
 use super::finding::SolverFinding;
@@ -10,14 +10,14 @@ use rayon::prelude::*;
 /// Result of an examination.
 #[derive(Default)]
 pub(super) struct Examined {
-    /// Figures that were measured.
+    /// Measured figures.
     pub(super) measured: String,
     pub(super) findings: Vec<SolverFinding>,
 }
 
-/// Reason why an examination could not be made.
+/// Reason why an examination could not be completed.
 pub(super) enum Hindrance {
-    /// Capabilities that are missing, or the solver's own reason.
+    /// Missing capabilities, or the solver's own reason.
     Lacks(String),
     /// Message of a solver that did not complete a run.
     Broke(String),
@@ -44,16 +44,16 @@ impl Examined {
 }
 
 impl Patient<'_> {
-    /// Largest relative error of a motion that is exact except for rounding.
+    /// Maximum relative error of a motion that is exact except for rounding.
     pub(super) fn rounding(&self) -> f64 {
         match self.solver.precision() {
             Precision::Double => 1e-9,
-            // 24 bits are 6e-8; some hundred steps and a change of units add to that.
+            // 24 bits resolve 6e-8; several hundred steps and a change of units increase the error.
             Precision::Single => 1e-3,
         }
     }
 
-    /// The first scene that the solver supports, over these dimensions and laws, in this order.
+    /// The first scene that the solver supports among these dimensions and laws, in this order.
     pub(super) fn able(
         &self,
         dimensions: &[usize],
@@ -63,7 +63,7 @@ impl Patient<'_> {
         self.able_with(dimensions, laws, scene, &|_| {})
     }
 
-    /// [`Patient::able`] for a scene with `more` needs than its suite has.
+    /// [`Patient::able`] for scenes with additional requirements, set by `more`.
     pub(super) fn able_with(
         &self,
         dimensions: &[usize],
@@ -87,13 +87,13 @@ impl Patient<'_> {
         Err(Hindrance::Lacks(fewest.unwrap_or_default().join(", ")))
     }
 
-    /// Runs `scene`, which may end early with a failure.
+    /// Runs `scene`. The run may end early with a failure.
     pub(super) fn run(&self, scene: &BoxScene) -> Result<Course, Hindrance> {
         let (problem, _) = scene.problem()?;
         self.run_problem(scene, problem)
     }
 
-    /// The complete runs of `scenes`.
+    /// Runs `scenes`. All runs must complete.
     pub(super) fn run_all(&self, scenes: &[BoxScene]) -> Result<Vec<Course>, Hindrance> {
         let complete = |scene| {
             let course = self.run(scene)?;
@@ -102,13 +102,13 @@ impl Patient<'_> {
                 None => Ok(course),
             }
         };
-        // Collected first, so that the returned error does not depend on the order in which runs
-        // end.
+        // Results are collected first, so that the returned error does not depend on the order in
+        // which the runs end.
         let courses: Vec<Result<Course, Hindrance>> = scenes.par_iter().map(complete).collect();
         courses.into_iter().collect()
     }
 
-    /// Runs `problem`, which belongs to `scene`, to its end or to a failure.
+    /// Runs `problem`, created from `scene`, to its end or to a failure.
     pub(super) fn run_problem(
         &self,
         scene: &BoxScene,
@@ -136,13 +136,13 @@ impl Patient<'_> {
     }
 }
 
-/// One question to a solver.
+/// An examination of a solver.
 pub(super) struct Examination {
-    /// Its name in reports.
+    /// Name in reports.
     pub(super) name: &'static str,
     /// Expected behaviour of a correct solver, in one sentence.
     pub(super) expected: &'static str,
-    /// Examinations that must be without defects before this one.
+    /// Examinations that must have no defects before this one runs.
     pub(super) after: &'static [&'static str],
     pub(super) examine: fn(&Patient<'_>) -> Result<Examined, Hindrance>,
 }

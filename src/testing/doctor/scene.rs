@@ -1,4 +1,4 @@
-//! Small scenes, written as suites and passed to the solver in the same way.
+//! Small scenes, written as suites and passed to the solver like suites.
 
 use super::course::{AffineField, Course};
 use crate::external::{LevelProblem, ProblemNeeds};
@@ -7,30 +7,30 @@ use crate::subject::SubjectError;
 use crate::suite::yaml::Source;
 use crate::suite::{ConvergencePlan, Suite};
 
-/// A dimension and the name of a law.
+/// Number of dimensions and name of a law.
 pub(super) type Kind = (usize, &'static str);
 
-/// Laws of finite elasticity, linear at small strains, the simplest first.
+/// Finite-strain elastic laws that are linear at small strains, starting with the simplest.
 pub(super) const FINITE: [&str; 4] = ["linear_elastic", "neo_hookean", "corotated", "hencky"];
 
-/// Laws that are linear elastic at small strains; `j2` with a yield stress that no scene reaches.
+/// Laws that are linear elastic at small strains; `j2` has a yield stress that no scene reaches.
 pub(super) const ELASTIC: [&str; 5] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2"];
 
-/// All laws, for scenes in which the law has no effect, or its effect is not examined.
+/// All laws, for scenes in which the law has no effect or its effect is not examined.
 pub(super) const ANY: [&str; 7] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2", "newtonian", "linear_fluid"];
 
-/// Cell size (m): a power of two, so that a lattice can be on cell faces without rounding.
+/// Cell size (m): a power of two, so lattice points can lie on cell faces without rounding.
 pub(super) const H: f64 = 0.125;
 
-/// Factor of a stiffness without effect, even at nodes whose mass is only rounding error.
+/// Stiffness factor without visible effect, even at nodes whose mass is only a rounding error.
 pub(super) const SOFT: f64 = 1e-24;
 
-/// Names of the faces of a box: those with the lower and the higher coordinate of each axis.
+/// Names of the faces of a box, lower and higher face of each axis.
 pub(super) const FACES: [[&str; 2]; 3] = [["left", "right"], ["bottom", "top"], ["back", "front"]];
 
-/// A box of particles on a grid. Vectors have one number per dimension of the scene.
+/// A box of particles on a grid. Vectors have one number per dimension.
 #[derive(Debug, Clone)]
 pub(super) struct BoxScene {
     pub(super) dimension: usize,
@@ -39,9 +39,9 @@ pub(super) struct BoxScene {
     pub(super) ppc: u64,
     /// Cell size (m).
     pub(super) h: f64,
-    /// Ends of the body (m).
+    /// Lowest and highest corner of the body (m).
     pub(super) body: (Vec<f64>, Vec<f64>),
-    /// Ends of the grid (m).
+    /// Lowest and highest corner of the grid (m).
     pub(super) grid: (Vec<f64>, Vec<f64>),
     /// Young's modulus (Pa).
     pub(super) young: f64,
@@ -52,23 +52,23 @@ pub(super) struct BoxScene {
     pub(super) velocity: AffineField,
     /// Initial displacement (m).
     pub(super) displacement: AffineField,
-    /// Gravity (m/s2), if it acts.
+    /// Gravity (m/s2), if any.
     pub(super) gravity: Option<Vec<f64>>,
-    /// Faces by name, with their conditions; all others are free.
+    /// Names of faces and their conditions; all other faces are free.
     pub(super) faces: Vec<(&'static str, &'static str)>,
-    /// Number and length (s) of the steps.
+    /// Number of steps and step length (s).
     pub(super) steps: u64,
     pub(super) dt: f64,
 }
 
 impl BoxScene {
-    /// A soft body at rest, of `cells` cells along each axis from `from` on, with `margin` empty
-    /// cells around it.
+    /// A soft body at rest with `cells` cells along each axis, starting at `from`, and `margin`
+    /// empty cells around it.
     pub(super) fn of_cells(kind: Kind, from: [f64; 3], cells: f64, margin: f64) -> Self {
         let (dimension, law) = kind;
         let low = from[..dimension].to_vec();
         let high = low.iter().map(|x| x + cells * H).collect();
-        // Nodes lie at whole multiples of H.
+        // Nodes are at integer multiples of H.
         let node = |x: f64| libm::floor(x / H) * H;
         let grid_low: Vec<f64> = low.iter().map(|x| node(*x) - margin * H).collect();
         let grid_high = grid_low.iter().map(|x| x + (cells + 1.0 + 2.0 * margin) * H).collect();
@@ -81,7 +81,7 @@ impl BoxScene {
             grid: (grid_low, grid_high),
             young: 0.1,
             poisson: 0.3,
-            // Not a power, product or ratio of the other figures: see `fall::factors`.
+            // Must not be a power, product or ratio of the other figures, see `fall::factors`.
             density: 1.7,
             velocity: AffineField::default(),
             displacement: AffineField::default(),
@@ -97,7 +97,7 @@ impl BoxScene {
         Self { dt: 0.5 * self.dt, steps: 2 * self.steps, ..self.clone() }
     }
 
-    /// This scene with `steps` steps, in which dilatational waves travel `cells` cells in total.
+    /// This scene with `steps` steps, during which dilatational waves travel `cells` cells.
     pub(super) fn with_waves(self, cells: f64, steps: u64) -> Self {
         let dt = cells * self.h / self.wave_speed() / steps as f64;
         Self { steps, dt, ..self }
@@ -127,7 +127,7 @@ impl BoxScene {
         ((lambda + 2.0 * mu) / self.density).sqrt()
     }
 
-    /// This scene in other units of length, time and mass.
+    /// This scene in different units of length, time and mass.
     pub(super) fn scaled(&self, length: f64, time: f64, mass: f64) -> Self {
         let by = |all: &[f64]| all.iter().map(|x| x * length).collect::<Vec<f64>>();
         let volume = (0..self.dimension).fold(1.0, |product, _| product * length);
@@ -146,7 +146,7 @@ impl BoxScene {
         }
     }
 
-    /// The material, in the notation of suites.
+    /// The material in suite notation.
     fn material(&self) -> String {
         let Self { law, young, poisson, density, .. } = self;
         let bulk = young / (3.0 * (1.0 - 2.0 * poisson));
@@ -159,7 +159,7 @@ impl BoxScene {
         format!("{{{law}: {{{parameters}, density: {density:e}}}}}")
     }
 
-    /// The scene as a suite with this method.
+    /// The scene as the text of a suite with this method.
     fn text(&self, method: &str) -> String {
         let (from, to) = &self.body;
         let (low, high) = &self.grid;
@@ -194,7 +194,7 @@ impl BoxScene {
         )
     }
 
-    /// The scene as a problem, with its requirements. The state is requested after every step.
+    /// The scene as a problem, with its requirements. The state is sampled after every step.
     ///
     /// # Errors
     /// One line with the reason why the scene is not a valid problem.
@@ -214,10 +214,10 @@ impl BoxScene {
         suite.map_err(|diagnostic| diagnostic.to_string().into())
     }
 
-    /// A run of the built-in MPM with PIC and the named basis: the effect of averaging alone.
+    /// A run of this crate's MPM with PIC and the named basis, to show averaging alone.
     ///
     /// # Errors
-    /// One line with the reason why there is none.
+    /// One line with the reason why this run is not possible.
     pub(super) fn averaged(&self, basis: &str) -> Result<Course, SubjectError> {
         let suite = self.suite(&format!("basis: {basis}, transfer: pic, scheme: usl"))?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;

@@ -1,4 +1,4 @@
-//! The gate of a suite: theory, drift of the report from its snapshot, and the time of each case.
+//! The gate of a suite: comparison with theory, report drift from the snapshot, and case run times.
 
 use crate::external::SolverFactory;
 use crate::report;
@@ -17,18 +17,18 @@ use std::path::{Path, PathBuf, absolute};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-/// A folder of suites, with the solver that is tested.
+/// A folder of suites, and the solver to test.
 pub(super) struct Gate {
     pub(super) folder: PathBuf,
     pub(super) snapshots: PathBuf,
-    /// The solver in place of the methods of the suites.
+    /// The solver that replaces the methods of the suites, if any.
     pub(super) solver: Option<&'static dyn SolverFactory>,
-    /// Whether there are also snapshots of all suites together.
+    /// Whether to compare snapshots of all suites together.
     pub(super) with_overview: bool,
 }
 
 impl Gate {
-    /// The tests of all files. A folder without suites is a failure.
+    /// The tests for all files. Fails if the folder contains no suites.
     pub(super) fn trials(&self) -> Vec<Trial> {
         let shown = self.folder.display();
         let nothing = |why: String| vec![broken("suites::exist", why)];
@@ -37,14 +37,14 @@ impl Gate {
             Ok(files) => files,
             Err(error) => return nothing(format!("{shown}: {error}")),
         };
-        // The check of an exact solution takes 0.1 s, and there may be many suites.
+        // In parallel: checking an exact solution takes 0.1 s, and there may be many suites.
         let found: Vec<_> = files.par_iter().map(|file| self.of_file(file)).collect();
         let (mut trials, mut suites) = (Vec::new(), Vec::new());
         for (cases, suite) in found {
             trials.extend(cases);
             suites.extend(suite);
         }
-        // A report waits for all cases of its suite, and its thread is idle meanwhile.
+        // Reports come last: each blocks its thread until all cases of its suite are complete.
         trials.extend(suites.iter().map(report));
         if self.with_overview {
             trials.extend(self.of_all(suites));
@@ -52,7 +52,7 @@ impl Gate {
         trials
     }
 
-    /// The snapshots that all suites have in common.
+    /// The tests of the snapshots of all suites together.
     fn of_all(&self, suites: Vec<Arc<SharedSuite>>) -> [Trial; 2] {
         let suites: Arc<[Arc<SharedSuite>]> = suites.into();
         let trial = |name: &'static str, text: fn(&[SuiteOutcome]) -> String| {
@@ -80,7 +80,7 @@ impl Gate {
         }
     }
 
-    /// The folder of the snapshot of a suite, from the place of its file among the suites.
+    /// The snapshot folder of a suite, given by the relative path of its file.
     fn snapshots_of(&self, file: &Path) -> PathBuf {
         let folder = file.parent().unwrap_or(Path::new(""));
         self.snapshots.join(folder.strip_prefix(&self.folder).unwrap_or(Path::new("")))
@@ -123,7 +123,7 @@ fn stem(file: &Path) -> String {
     file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The contract of a subject.
+/// Checks whether a solver conforms to the contract of `Subject`.
 fn conforms(solver: &dyn SolverFactory, suite: &Suite) -> Result<Completion, Failed> {
     match examined(solver, suite) {
         Err(why) => Ok(Completion::ignored_with(why)),
@@ -134,7 +134,7 @@ fn conforms(solver: &dyn SolverFactory, suite: &Suite) -> Result<Completion, Fai
     }
 }
 
-/// A suite with its outcomes: each case runs once, also if several tests need it.
+/// A suite and its outcomes. Each case runs once, even if several tests need it.
 struct SharedSuite {
     suite: &'static Suite,
     runner: Runner<'static>,
@@ -153,7 +153,7 @@ impl SharedSuite {
         })
     }
 
-    /// Theory.
+    /// Compares a case with its expectation.
     fn hold(&self, index: usize) -> Result<Completion, Failed> {
         let outcome = self.case(index);
         if !outcome.is_tested() {
@@ -172,7 +172,7 @@ impl SharedSuite {
         })
     }
 
-    /// Drift; of a suite that was not run there is no report.
+    /// Compares the report with its snapshot. Without any run there is no report.
     fn compare_report(&self) -> Result<Completion, Failed> {
         let outcome = self.outcome();
         if let [first, ..] = &outcome.cases[..]
@@ -185,7 +185,7 @@ impl SharedSuite {
     }
 }
 
-/// The test of the report of a suite.
+/// The test that compares the report of a suite.
 fn report(suite: &Arc<SharedSuite>) -> Trial {
     let of_report = Arc::clone(suite);
     Trial::ignorable_test(format!("{}::report", suite.suite.name), move || {
@@ -193,13 +193,13 @@ fn report(suite: &Arc<SharedSuite>) -> Trial {
     })
 }
 
-/// The tests of the cases of a suite, under a solver or the methods that it lists.
+/// The tests of the cases of a suite, with the listed methods or with `solver`.
 fn trials(
     suite: Suite,
     snapshots: &Path,
     solver: Option<&'static dyn SolverFactory>,
 ) -> (Vec<Trial>, Arc<SharedSuite>) {
-    // The tests, and so the suite, live until the end of the process.
+    // The tests live until the end of the process, and so must the suite.
     let suite: &'static Suite = Box::leak(Box::new(suite));
     let names = suite.case_names();
     let runner = Runner::new(suite);
@@ -215,7 +215,7 @@ fn trials(
     });
     let case = |(index, case): (usize, &&str)| {
         let shared = Arc::clone(&shared);
-        // An exploring suite has no expectations: it must not look like a gate that passed.
+        // A suite without expectations is ignored; it must not look like a passing gate.
         Trial::ignorable_test(format!("{}::{case}", suite.name), move || shared.hold(index))
             .with_ignored_flag(suite.explores())
     };
@@ -227,7 +227,7 @@ fn trials(
     (trials, shared)
 }
 
-/// Compares the report of the suite called `suite` with the snapshot of its name in `folder`.
+/// Compares the report of `suite` with its snapshot in `folder`.
 pub(super) fn compare_snapshot(suite: &str, text: &str, folder: &Path) -> Result<(), Failed> {
     let mut settings = Settings::clone_current();
     settings.set_snapshot_path(absolute(folder)?);
@@ -249,7 +249,7 @@ pub(super) fn compare_snapshot(suite: &str, text: &str, folder: &Path) -> Result
     })
 }
 
-/// Compares reports number by number; see [`report::drift`].
+/// Compares reports number by number, see [`report::drift`].
 #[derive(Clone)]
 struct ReportDrift;
 
@@ -268,15 +268,15 @@ impl Comparator for ReportDrift {
 
 static CASES: Mutex<Vec<(Duration, String)>> = Mutex::new(Vec::new());
 
-/// As many as are worth a look.
+/// Number of cases and suites in the list of the slowest.
 const SHOWN: usize = 10;
 
-/// Remembers how long a case took.
+/// Records the run time of a case.
 pub(super) fn record_time(time: Duration, case: &str) {
     CASES.lock().unwrap_or_else(PoisonError::into_inner).push((time, case.to_string()));
 }
 
-/// The slowest cases and suites, if there are enough of them to ask.
+/// The slowest cases and suites; empty if there are only a few cases.
 pub(super) fn slowest_cases() -> String {
     let mut cases = CASES.lock().unwrap_or_else(PoisonError::into_inner).clone();
     if cases.len() <= SHOWN {
@@ -306,7 +306,7 @@ mod tests {
     use super::*;
     use std::fs;
 
-    /// The failure names the snapshot file and the command that accepts the change.
+    /// The failure message names the snapshot file and the command that accepts the change.
     #[test]
     fn a_difference_says_which_file_and_how_it_is_accepted() {
         let folder = std::env::temp_dir().join(format!("mpm-verify-drift-{}", std::process::id()));

@@ -1,8 +1,8 @@
-//! A test for each case of each suite of a folder.
+//! Generates a test for each case of each suite in a folder.
 //!
-//! Two gates that never mix. Theory is asserted in plain Rust: no environment variable and no
-//! snapshot command can accept it away. Drift is the snapshot of a report: `cargo insta review`
-//! shows and accepts it.
+//! There are two independent gates. Comparisons with theory are asserted in plain Rust: no
+//! environment variable and no snapshot command can accept a failure. Report drift is checked by
+//! snapshots: `cargo insta review` shows changes and accepts them.
 
 mod gate;
 
@@ -13,14 +13,15 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Number of tests that may wait for their cases at the same time, per thread that runs cases.
+/// Number of tests that may wait for their cases at the same time, per rayon thread.
 const WAITING: usize = 4;
 
-/// Suites of a folder as tests: `SUITE::CASE` compares a case with its expectation, `SUITE::report`
-/// the report of a suite with its snapshot, and `SUITE::conformance` checks that a solver meets the
-/// contract of a subject. `FILE::parse` fails for a file that cannot be used.
+/// Runs the suites of a folder as tests. `SUITE::CASE` compares a case with its expectation,
+/// `SUITE::report` compares the report of a suite with its snapshot, and `SUITE::conformance`
+/// checks that a solver conforms to the contract of `Subject`. `FILE::parse` fails if a file is not
+/// a valid suite.
 ///
-/// In `tests/verification.rs`, for which `Cargo.toml` sets `harness = false`:
+/// Example: `tests/verification.rs`, for which `Cargo.toml` sets `harness = false`:
 ///
 /// ```no_run
 /// # mod of_yours {
@@ -39,36 +40,36 @@ const WAITING: usize = 4;
 /// }
 /// ```
 ///
-/// Suites are found when the tests run: a new file needs no registration.
+/// Suites are found when the tests run, so new files need no registration.
 pub struct SuiteFolder(Gate);
 
 impl SuiteFolder {
-    /// The suites of a folder with the methods that they list. A relative path starts at the root
-    /// of the package, where tests run.
+    /// Tests the suites of a folder with the methods that they list. A relative path starts at the
+    /// root of the package, where tests run.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
         let folder = folder.into();
         Self(Gate { snapshots: folder.clone(), folder, solver: None, with_overview: false })
     }
 
-    /// Tests a solver in place of the methods of the suites. Its order is compared with the
-    /// expectation of the suite for this solver, or else with the order that it claims. A case that
-    /// needs a missing capability is ignored, with the reason, and does not count as passed.
+    /// Tests a solver in place of the methods of the suites. Its order is compared with the suite's
+    /// expectation for this solver, otherwise with the order that the solver states. A case that
+    /// needs a missing capability is ignored with the reason, and does not count as passed.
     #[must_use]
     pub fn judging(mut self, solver: impl SolverFactory + 'static) -> Self {
-        // The tests, and so the solver, live until the end of the process.
+        // The tests live until the end of the process, and so must the solver.
         self.0.solver = Some(Box::leak(Box::new(solver)));
         self
     }
 
-    /// The folder of the snapshots, if not that of the suites.
+    /// Sets the folder of the snapshots; the default is the folder of the suites.
     #[must_use]
     pub fn snapshots(mut self, folder: impl Into<PathBuf>) -> Self {
         self.0.snapshots = folder.into();
         self
     }
 
-    /// Adds two snapshots of all suites: `OVERVIEW`, with the result of each case and the matrix of
-    /// problems and methods, and `profile`, with the memory and passes of a step.
+    /// Adds two snapshots of all suites together: `OVERVIEW`, with the result of each case and the
+    /// matrix of problems and methods, and `profile`, with the memory and passes of a step.
     #[must_use]
     pub fn with_overview(mut self) -> Self {
         self.0.with_overview = true;
@@ -77,20 +78,20 @@ impl SuiteFolder {
 
     /// Runs the tests with the command line of `cargo test` or nextest.
     pub fn main(self) -> ExitCode {
-        // A changed snapshot panics; its backtrace is of no use.
+        // A changed snapshot panics, and a backtrace does not help.
         std::panic::set_hook(Box::new(|panic| eprintln!("{panic}")));
         if self.run(std::env::args_os()) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
     }
 
     /// Runs the tests that a command line selects (its first argument is the program). Returns
-    /// whether all passed.
+    /// whether all tests passed.
     pub fn run<Words>(&self, words: Words) -> bool
     where
         Words: IntoIterator,
         Words::Item: Into<OsString> + Clone,
     {
         let mut arguments = Arguments::from_iter(words);
-        // Cases run on the threads of rayon, and the thread of a test only waits. A thread that has
+        // Cases run on rayon threads, and a test thread only waits. A rayon thread that has
         // finished its part of one case starts another case, which then delays the first.
         arguments.test_threads =
             arguments.test_threads.or(Some(WAITING * rayon::current_num_threads()));

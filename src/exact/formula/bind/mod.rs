@@ -1,14 +1,14 @@
-//! Syntax tree to program: resolves names, puts functions in place, folds constants.
+//! Compiles a syntax tree to a program: resolves names, inlines functions, folds constants.
 //!
-//! Registers are allocated like a stack. Compiling a node at the register `at` writes to `at` and
-//! above, never below, and returns the location of the value: this register, a variable, a lower
-//! register with an argument or an index, or a constant.
+//! Registers are allocated like a stack. Compiling a node at register `at` writes only to `at` and
+//! above. It returns the location of the value: this register, a variable, a lower register with an
+//! argument or an index, or a constant.
 //!
-//! Calls of user functions, whose bodies are put in place.
+//! User functions are inlined at their calls.
 //!
-//! Tables: names of expressions of one variable or constant.
+//! A table is a named expression of one variable or constant.
 //!
-//! Sums, which become loops.
+//! Sums become loops.
 
 mod name;
 
@@ -28,13 +28,13 @@ const MAX_DEPTH: usize = 256;
 /// Maximum number of operations of one evaluation, including every term of every sum.
 const MAX_OPERATIONS: u64 = 10_000_000;
 
-/// The formula or function body that is being compiled, and the values of its local names.
+/// The formula or function body being compiled, and the values of its local names.
 struct Frame<'a> {
     expr: &'a Expr,
     function: Option<&'a str>,
     /// Variables of the formula, or parameters of the function.
     locals: Vec<(&'a str, Operand)>,
-    /// Indices of the enclosing sums, the outermost first.
+    /// Indices of the enclosing sums, starting with the outermost.
     indices: Vec<Operand>,
 }
 
@@ -44,13 +44,13 @@ pub(super) struct ProgramBuilder<'a> {
     pub(super) code: Vec<Instruction>,
     pub(super) registers: usize,
     pub(super) uses: BTreeSet<String>,
-    /// Functions whose bodies are being compiled, the innermost last.
+    /// Functions whose bodies are being compiled; the innermost is last.
     calls: Vec<&'a str>,
-    /// The variable that functions and definitions see, if the scope has one.
+    /// The free variable of the scope, if any, which functions and definitions may use.
     free: Option<(&'a str, Operand)>,
     depth: usize,
     nodes: usize,
-    /// How often the code under construction runs in one evaluation.
+    /// Number of times the code under construction runs per evaluation.
     runs: u64,
     pub(super) operations: u64,
 }
@@ -71,7 +71,7 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// Compiles a whole formula of `variables`.
+    /// Compiles a complete formula in `variables`.
     pub(super) fn formula(
         &mut self,
         expr: &'a Expr,
@@ -84,8 +84,8 @@ impl<'a> ProgramBuilder<'a> {
         self.compile(&mut frame, expr.root(), 0)
     }
 
-    /// Compiles a node and its children. A chain of left operands, which may be as long as the
-    /// source, is processed in a loop; recursion is limited by the nesting depth of the parser.
+    /// Compiles a node and its children. A loop processes chains of left operands, which may be as
+    /// long as the source. The nesting depth of the parser limits recursion.
     fn compile(
         &mut self,
         frame: &mut Frame<'a>,
@@ -110,7 +110,7 @@ impl<'a> ProgramBuilder<'a> {
         Ok(left)
     }
 
-    /// Compiles a node that is not a binary operation.
+    /// Compiles any node except a binary operation.
     fn leaf(
         &mut self,
         frame: &mut Frame<'a>,
@@ -136,7 +136,7 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// Counts a node against the limits.
+    /// Counts a node and refuses it above the limits.
     fn count(&mut self, node: &Node) -> Result<(), FormulaError> {
         self.nodes += 1;
         self.operations = self.operations.saturating_add(self.runs);
@@ -152,8 +152,8 @@ impl<'a> ProgramBuilder<'a> {
         Err(FormulaError::new(node.span.clone(), excess))
     }
 
-    /// Appends an instruction with the result in the register `to`, or evaluates it immediately if
-    /// its arguments are constant.
+    /// Appends an instruction whose result goes to register `to`. If all arguments are constant,
+    /// evaluates it immediately instead.
     fn emit(&mut self, action: Action, to: usize) -> Operand {
         if action.arguments().all(|operand| matches!(operand, Operand::Constant(_))) {
             let mut result = [0.0];
@@ -170,7 +170,7 @@ impl<'a> ProgramBuilder<'a> {
     }
 }
 
-/// The first register at or above `at` that does not hold `operand`.
+/// The first register at or above `at` that does not contain `operand`.
 fn above(operand: Operand, at: usize) -> usize {
     match operand {
         Operand::Register(register) if register >= at => register + 1,
@@ -178,7 +178,7 @@ fn above(operand: Operand, at: usize) -> usize {
     }
 }
 
-/// A binary operation; powers to a whole constant are multiplied out.
+/// A binary operation; powers with a constant integer exponent become multiplications.
 fn binary(function: Binary, left: Operand, right: Operand) -> Action {
     match (function, right) {
         (Binary::Power, Operand::Constant(exponent)) => match whole(exponent) {
@@ -190,7 +190,7 @@ fn binary(function: Binary, left: Operand, right: Operand) -> Action {
 }
 
 impl<'a> ProgramBuilder<'a> {
-    /// Compiles the arguments, each once, and then the body with its parameters standing for them.
+    /// Compiles each argument once, then the body with the arguments in place of its parameters.
     pub(self) fn call(
         &mut self,
         frame: &mut Frame<'a>,
@@ -236,7 +236,7 @@ impl<'a> ProgramBuilder<'a> {
 }
 
 impl<'a> ProgramBuilder<'a> {
-    /// Compiles the expression of a table at its argument.
+    /// Compiles the expression of a table for its argument.
     pub(self) fn table(
         &mut self,
         frame: &Frame<'a>,
@@ -261,7 +261,7 @@ impl<'a> ProgramBuilder<'a> {
 }
 
 impl<'a> ProgramBuilder<'a> {
-    /// Compiles the expression that a name stands for.
+    /// Compiles the expression that defines a name.
     pub(self) fn definition(
         &mut self,
         name: &'a str,
@@ -280,8 +280,7 @@ impl<'a> ProgramBuilder<'a> {
 const MAX_TERMS: f64 = 100_000.0;
 
 impl<'a> ProgramBuilder<'a> {
-    /// Compiles a sum to a loop, whose total is in the register `at` and whose index in the next
-    /// one.
+    /// Compiles a sum to a loop. The total is in register `at`, the index in the next register.
     pub(self) fn sum(
         &mut self,
         frame: &mut Frame<'a>,
@@ -311,7 +310,7 @@ impl<'a> ProgramBuilder<'a> {
         Ok(self.settle(start, at, terms))
     }
 
-    /// Compiles the body of a sum, which runs once for each of the `terms`.
+    /// Compiles the body of a sum, which runs once per term.
     fn term(
         &mut self,
         frame: &mut Frame<'a>,
@@ -328,7 +327,7 @@ impl<'a> ProgramBuilder<'a> {
         Ok(term)
     }
 
-    /// The value of a bound of a sum.
+    /// The value of a sum's bound.
     fn bound(
         &mut self,
         frame: &mut Frame<'a>,
@@ -345,8 +344,8 @@ impl<'a> ProgramBuilder<'a> {
         Err(FormulaError::new(frame.expr.node(node).span.clone(), message))
     }
 
-    /// Removes the loop that begins at `start` if it can be evaluated immediately: because there
-    /// are no terms, or because it reads only constants and its own registers.
+    /// Removes the loop that begins at `start` if it can be evaluated immediately: if it has no
+    /// terms, or if it reads only constants and its own registers.
     fn settle(&mut self, start: usize, at: usize, terms: f64) -> Operand {
         let own = |operand| match operand {
             Operand::Constant(_) => true,

@@ -1,4 +1,4 @@
-//! Names of a formula: their meaning, and suggestions for unknown names.
+//! Meaning of names in a formula, and suggestions for unknown names.
 
 use super::{Frame, ProgramBuilder};
 use crate::exact::formula::ast::Node;
@@ -45,7 +45,7 @@ impl<'a> ProgramBuilder<'a> {
         Err(FormulaError::unknown(span, name).help(help))
     }
 
-    /// The error for the call of a `name` that is not a function.
+    /// The error for a call of `name` if it is not a function.
     pub(super) fn not_a_function(&self, frame: &Frame, node: &Node, name: &str) -> FormulaError {
         let local = frame.locals.iter().any(|(local, _)| *local == name);
         let role = match frame.function {
@@ -67,7 +67,7 @@ impl<'a> ProgramBuilder<'a> {
             .help(format!("write `{name}*(...)` to multiply"))
     }
 
-    /// Suggestions for `name`: the nearest name, or else the variables and constants.
+    /// Suggestions for `name`: the closest known name, otherwise the variables and constants.
     fn instead(&self, frame: &Frame, name: &str) -> String {
         let known = frame.locals.iter().map(|(local, _)| *local);
         match (meant(name, known.chain(self.declared())), self.constants(name)) {
@@ -78,7 +78,7 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// The constants, the nearest to `name` first.
+    /// The constants, sorted by similarity to `name`.
     fn constants(&self, name: &str) -> Option<String> {
         let sorted = by_nearness(name, self.scope.constants().map(|(known, _)| known));
         let listed: Vec<String> =
@@ -88,7 +88,7 @@ impl<'a> ProgramBuilder<'a> {
         (!listed.is_empty()).then(|| format!("declared: {}{more}", listed.join(", ")))
     }
 
-    /// Every name that is valid in any frame.
+    /// All names that are valid in every formula and function.
     fn declared(&self) -> impl Iterator<Item = &str> {
         let constants = self.scope.constants().map(|(name, _)| name);
         let declared = constants.chain(self.scope.tables()).chain(self.scope.functions());
@@ -110,7 +110,7 @@ impl Frame<'_> {
     }
 }
 
-/// Names that other languages have and this one writes differently.
+/// Names in other languages that are written differently here.
 const ELSEWHERE: &[(&str, &str)] = &[
     ("e", "there is no constant `e`: write `exp(1)`"),
     ("log", "the natural logarithm is `ln`"),
@@ -118,13 +118,13 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("heaviside", "the unit step is `step`"),
 ];
 
-/// Spelling here of a name that other languages have.
+/// Advice for a name from another language.
 pub(in crate::exact::formula) fn elsewhere(name: &str) -> Option<String> {
     let known = ELSEWHERE.iter().find(|(foreign, _)| *foreign == name);
     known.map(|(_, help)| (*help).to_owned())
 }
 
-/// The text "did you mean" with the nearest candidate, if one is near.
+/// The text "did you mean" with the closest candidate, if any is similar.
 pub(in crate::exact::formula) fn meant<'a>(
     name: &str,
     candidates: impl Iterator<Item = &'a str>,

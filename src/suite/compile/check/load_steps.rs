@@ -1,5 +1,5 @@
-//! Checks of suites with load steps in place of time: keys of a motion, and loads, conditions and
-//! laws that the quasi-static solver does not support.
+//! Checks of suites with load steps instead of time steps. Refuses keys of a motion in time, and
+//! loads, conditions and laws that the quasi-static solver does not support.
 
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{COORDINATES, Evaluator};
@@ -75,11 +75,11 @@ pub(crate) fn refuse_time(
     }
 }
 
-/// Refuses a scene that load steps have no meaning for, or that the quasi-static solver does not
+/// Refuses a scene for which load steps are meaningless, or which the quasi-static solver does not
 /// support.
 ///
 /// # Errors
-/// A diagnostic at the part of the scene, with the reason.
+/// A diagnostic at the unsupported part of the scene, with the reason.
 pub(crate) fn refuse_unfit(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -142,7 +142,7 @@ pub(crate) fn refuse_unfit(
     }
 }
 
-/// Whether a face holds the body along an axis.
+/// Whether a face prevents rigid translation along an axis.
 fn is_held(scene: &Scene, axis: usize) -> bool {
     let holds = |face: &SceneFace| {
         face.hold.holds_all_components() || (face.hold.is_held() && face.axis == axis)
@@ -150,10 +150,10 @@ fn is_held(scene: &Scene, axis: usize) -> bool {
     scene.faces.iter().any(holds)
 }
 
-/// Conditions on faces that neither move nor depend on the motion.
+/// Conditions on faces that do not depend on time or on the motion.
 const KNOWN_CONDITIONS: [&str; 4] = ["free", "fixed", "roller", "periodic"];
 
-/// Why a load cannot be applied in load steps.
+/// Why the quasi-static solver cannot apply a load; `None` if it can.
 fn against_load(load: &ListedLoad, dimension: usize) -> Option<&'static str> {
     match load.effect {
         EffectName::Damping | EffectName::LocalDamping | EffectName::ArtificialViscosity => {
@@ -179,7 +179,7 @@ fn against_load(load: &ListedLoad, dimension: usize) -> Option<&'static str> {
     of_displacement.then_some("it depends on the displacement, and the tangent has no such term")
 }
 
-/// Paths of the loads, in the order of the scene.
+/// Paths of the loads in the file, in the order of the scene.
 fn listed_paths(spec: &ConvergenceSpec, scene: &Scene) -> Vec<Path> {
     let mut stated: Vec<(EffectName, Path)> = spec
         .scene

@@ -1,4 +1,4 @@
-//! Checks of several keys of a suite together: features that its solvers, its loads or its exact
+//! Checks that involve several keys. They refuse features that the solvers, the loads or the exact
 //! solution do not support. Sizes, time steps and judged sums have separate files.
 
 pub(crate) mod load_steps;
@@ -16,7 +16,7 @@ use crate::suite::scene::load::{LoadEntry, StudyFacts};
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{Conserved, Limits};
 
-/// Refuses conditions that the FEM bar does not support, if the suite uses one.
+/// Refuses conditions that the FEM bar does not support, if the suite uses the FEM bar.
 pub(crate) fn refuse_conditions_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -51,7 +51,7 @@ pub(crate) fn refuse_conditions_unknown_to_fem(
     Ok(())
 }
 
-/// Refuses an FEM bar, a method or the reference, of a material that it has no law for.
+/// Refuses the FEM bar, as method or reference, if it has no law for the material.
 pub(crate) fn refuse_law_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -90,8 +90,8 @@ pub(crate) fn refuse_law_unknown_to_fem(
     Ok(())
 }
 
-/// Refuses combinations with the loads of the scene that are not supported, and the FEM if it does
-/// not support a load.
+/// Refuses unsupported combinations with the loads of the scene, and the FEM if it does not support
+/// one of the loads.
 pub(crate) fn refuse_foreign(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -109,8 +109,7 @@ pub(crate) fn refuse_foreign(
     Ok(())
 }
 
-/// Refuses the reference FEM, as method or as reference, for a scene with an effect that it does
-/// not support.
+/// Refuses the FEM, as method or reference, for a scene with an effect that it does not support.
 fn refuse_fem_without(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -126,7 +125,7 @@ fn refuse_fem_without(
     }
 }
 
-/// Refuses to judge a quantity that the reference FEM does not compute.
+/// Refuses to judge a quantity that the FEM does not compute.
 pub(crate) fn refuse_quantity_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -151,8 +150,8 @@ pub(crate) fn refuse_quantity_unknown_to_fem(
     }
 }
 
-/// Refuses bounds on the drift of sums that the reference FEM does not compute; `path` is that of
-/// the expectation.
+/// Refuses bounds on the drift of sums that the FEM does not compute; `path` is the path of the
+/// expectation.
 pub(crate) fn check_drift(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,4 +1,4 @@
-//! Checks that every level fits into memory, and has nodes on fixed faces.
+//! Checks that every level fits into memory, and that fixed faces have grid nodes.
 
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
@@ -8,20 +8,19 @@ use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::scene::lattice::{any_particle, is_vacant};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Maximum number of particles, and of nodes, per level.
+/// Maximum number of particles per level, and of nodes per level.
 const MOST: f64 = 5e7;
 
-/// Maximum distance (cells) of a fixed face from the face of the grid that counts as rounding
-/// error.
+/// Distance (cells) between a fixed face and the grid face that is treated as rounding error.
 const ROUNDING: f64 = 1e-6;
 
-/// Paths of the keys that define a level: its size and its time step.
+/// Paths of the keys that determine a level's size and time step.
 pub(crate) struct LevelPaths {
     pub(crate) size: Path,
     pub(crate) dt: Path,
 }
 
-/// Refuses a level that is too large, or on which a fixed face has no nodes.
+/// Refuses a level that is too large, or that has no nodes on a fixed face.
 pub(crate) fn refuse_unfit_levels(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -55,8 +54,8 @@ fn fits(
     sets(evaluator, path, scene, level)
 }
 
-/// Refuses a fine grid that is not a valid level, or whose particles at all instants need too much
-/// memory.
+/// Refuses a fine grid that is not a valid level, or whose particles need too much memory at all
+/// instants together.
 pub(crate) fn fine_grid(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -74,7 +73,7 @@ pub(crate) fn fine_grid(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses a body with a free rim that is smaller than the volume of one of its particles.
+/// Refuses a body with a free rim if the body is smaller than one particle volume.
 fn vacant(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -92,7 +91,7 @@ fn vacant(
     Err(evaluator.diagnostic(path, &message).with_label(label))
 }
 
-/// The quantity that exceeds the limit, if one does, and its amount.
+/// Name and amount of the quantity that exceeds its limit; `None` if there is none.
 pub(crate) fn too_large(scene: &Scene, level: LevelPlan) -> Option<(&'static str, f64)> {
     let amounts = [("nodes", nodes(scene, level.h)), ("particles", particles(scene, level))];
     amounts.into_iter().find(|(_, amount)| *amount > MOST || amount.is_nan())
@@ -106,14 +105,14 @@ pub(crate) fn particles(scene: &Scene, level: LevelPlan) -> f64 {
     (0..scene.dimension()).map(|axis| along(scene, axis, level).max(1.0)).product()
 }
 
-/// Particles along an axis, before rounding.
+/// Number of particles along an axis, before rounding.
 fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension())).unwrap_or(1) as f64;
     (scene.to[axis] - scene.from[axis]) * per_axis / level.h
 }
 
-/// The fixed nodes are on the last face of the grid, which must be the face of the body; a periodic
-/// grid must end at the period of the suite.
+/// Refuses grids whose last face does not coincide with a fixed face of the body, or whose end does
+/// not coincide with the stated period. Conditions apply to the nodes on the last grid face.
 pub(crate) fn held_faces(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -142,7 +141,7 @@ pub(crate) fn held_faces(
     Ok(())
 }
 
-/// A set of particles has at least one.
+/// Refuses sets that contain no particle.
 fn sets(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -152,7 +151,7 @@ fn sets(
     let cells = level.cells;
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
     for set in &scene.sets {
-        // Centres are at from + length (i + 1/2)/count, see `Particles::fill`.
+        // Particle centres are at from + length (i + 1/2)/count, see `Particles::fill`.
         let some = |axis: usize| {
             let (from, length) = (scene.from[axis], scene.to[axis] - scene.from[axis]);
             let count = libm::round(along(scene, axis, level)).max(1.0);
@@ -177,7 +176,7 @@ fn sets(
     Ok(())
 }
 
-/// A reference stores its state at every instant.
+/// Limits the memory of the reference, which stores its state at every instant.
 fn reference(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
     let Some(fine) = &plan.reference else { return Ok(()) };
     let stored = fine.cells as f64 * plan.instants as f64;

@@ -1,4 +1,4 @@
-//! Checks that time steps are usable.
+//! Checks that time steps are valid.
 
 use super::size::LevelPaths;
 use crate::suite::evaluator::{Evaluator, shown};
@@ -7,19 +7,19 @@ use crate::suite::scene::grid_size::cell_size;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 
-/// Label of a level that is not finer than the one before.
+/// Label of a level that is not finer than the previous level.
 pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
 
-/// A stated time step (s), and the clock that it becomes.
+/// A stated time step (s), and the clock computed from it.
 #[derive(Clone, Copy)]
 struct StatedStep {
     dt: f64,
     clock: Clock,
 }
 
-/// Checks that every level, and the reference, has a valid time step, which decreases from level to
-/// level if time is refined. Instants that are shared with a computed reference must not change the
-/// step.
+/// Checks that every level and the reference have valid time steps. If time is refined, the steps
+/// must decrease from level to level. Instants shared with a computed reference must not change the
+/// step by more than the tolerance.
 pub(crate) fn refuse_unusable(
     evaluator: &Evaluator<'_>,
     plan: &ConvergencePlan,
@@ -72,7 +72,7 @@ fn usable(
     })
 }
 
-/// Two requested steps can become equal in a short run.
+/// Refuses a level whose actual step equals the previous one, which can happen in a short run.
 fn finer(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -92,7 +92,7 @@ fn finer(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses instants that cut a step by more than the tolerance.
+/// Refuses instants that change a step by more than the tolerance.
 fn as_wanted(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,4 +1,4 @@
-//! Checks that a judged sum over the body is defined for every subject and for the exact solution.
+//! Checks that every method and the exact solution define the judged sum over the body.
 
 use crate::exact::Problem;
 use crate::mpm::{MassName, VolumeName};
@@ -11,10 +11,10 @@ use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{JudgedSum, SumNeed};
 use std::sync::Arc;
 
-/// The judged sum with its exact value, if `judge` names a sum.
+/// The judged sum and its exact value, if `judge` names a sum.
 ///
 /// # Errors
-/// The reason why a subject or the exact solution does not define the sum.
+/// The reason why a method or the exact solution does not define the sum.
 pub(crate) fn judged(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -101,7 +101,7 @@ fn stored_energy(
     Ok(())
 }
 
-/// Refuses an energy from which the force of a method does not derive.
+/// Refuses to judge an energy for methods whose force is not the derivative of an energy.
 fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let is_averaged = |method: &MethodSpec| match method {
         MethodSpec::Mpm { volume: Some(volume), .. } => {
@@ -115,7 +115,7 @@ fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
     Err(evaluator.diagnostic(&path, message).with_help("take `particle` to judge an energy"))
 }
 
-/// Refuses an angular momentum on a line, and of a body that has no one place.
+/// Refuses an angular momentum in 1-D, and for a periodic body.
 fn rotation(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -183,8 +183,7 @@ fn no_reaction(evaluator: &Evaluator<'_>, path: &Path, face: &SceneFace) -> Diag
     evaluator.diagnostic(path, &message)
 }
 
-/// Refuses a consistent mass matrix, which adds the inertia of other nodes to the reaction of a
-/// wall.
+/// Refuses a consistent mass matrix, which adds the inertia of other nodes to the wall reaction.
 fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let is_consistent = |method: &MethodSpec| match method {
         MethodSpec::Mpm { mass: Some(mass), .. } => mass.as_slice().contains(&MassName::Consistent),
@@ -196,8 +195,7 @@ fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
     Err(evaluator.diagnostic(&path, message).with_help("take `lumped` to judge a reaction"))
 }
 
-/// Refuses a bound on the energy of a body whose law has no energy; `path` is the path of the
-/// bound.
+/// Refuses an energy bound for a body whose law has no energy; `path` is the path of the bound.
 pub(crate) fn refuse_law_without_energy(
     evaluator: &Evaluator<'_>,
     path: &Path,

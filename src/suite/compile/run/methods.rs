@@ -1,4 +1,4 @@
-//! The entries of `methods` become methods: the products of their lists, with names.
+//! Converts entries of `methods` to named methods, one for each combination of list values.
 
 use crate::fem::Sampling;
 use crate::mpm::{FrameName, MassName, SchemeName, VolumeName};
@@ -9,18 +9,18 @@ use crate::suite::model::method::Method;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use std::collections::BTreeMap;
 
-/// A method on its way to a name.
+/// A method whose name is not final.
 pub(crate) struct MethodDraft {
-    /// Number of its entry of `methods`.
+    /// Index of the entry in `methods`.
     entry: usize,
     pub(crate) method: Method,
-    /// Name of an external solver.
+    /// Name of the external solver, if the method is one.
     solver: Option<String>,
-    /// Which of its settings are part of the name.
+    /// For each setting, whether it is part of the name.
     said: Vec<bool>,
 }
 
-/// A method with the name that its cases begin with.
+/// A method, with the name that starts the names of its cases.
 pub(crate) struct NamedMethod {
     pub(crate) name: String,
     pub(crate) method: Method,
@@ -28,7 +28,7 @@ pub(crate) struct NamedMethod {
 }
 
 impl MethodDraft {
-    /// The name of a case of this method.
+    /// Name of the method's cases.
     fn name(&self) -> String {
         let (subject, settings) = settings(&self.method);
         let subject = self.solver.as_deref().unwrap_or(subject);
@@ -38,7 +38,7 @@ impl MethodDraft {
     }
 }
 
-/// First word of the names of a method, and its settings in the order of names.
+/// First part of the method's name, and the settings in the order of names.
 fn settings(method: &Method) -> (&'static str, Vec<String>) {
     match *method {
         Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
@@ -59,7 +59,7 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
             ("mpm", vec![basis.name().to_owned(), "quasi_static".to_owned()])
         }
         Method::Heat { basis } => ("heat", vec![basis.name().to_owned()]),
-        // It is named after its solver.
+        // An external method is named after its solver.
         Method::External { .. } => ("external", Vec::new()),
         Method::Fem { element, mass, law, start, sampling } => {
             let settings = [element.name(), mass.name(), law.name(), start.name(), sampling.name()];
@@ -68,8 +68,8 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
     }
 }
 
-/// The product of entry number `entry` of `methods`. A setting is part of the name if the entry
-/// lists several values, or if it must always be chosen.
+/// The methods of entry number `entry`, one for each combination of list values. A setting is part
+/// of the name if the entry lists several values, or if it has no default.
 pub(crate) fn methods(
     evaluator: &Evaluator<'_>,
     entry: usize,
@@ -165,7 +165,7 @@ pub(crate) fn methods(
     Ok(drafts)
 }
 
-/// Refuses keys of dynamics in an entry with `scheme: quasi_static`, and other schemes next to it.
+/// Refuses keys of dynamics in an entry with `scheme: quasi_static`, and other schemes in its list.
 fn refuse_keys_of_dynamics(
     evaluator: &Evaluator<'_>,
     entry: usize,
@@ -199,7 +199,7 @@ fn refuse_keys_of_dynamics(
     }
 }
 
-/// Number of methods that an entry unfolds into.
+/// Number of methods in an entry.
 pub(crate) fn count(spec: &MethodSpec) -> usize {
     let lengths = match spec {
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => vec![
@@ -225,7 +225,7 @@ pub(crate) fn count(spec: &MethodSpec) -> usize {
     lengths.into_iter().fold(1, usize::saturating_mul)
 }
 
-/// The methods with their names. None at all, and one twice, is refused.
+/// The methods with their final names. Refuses an empty list, and equal methods.
 pub(crate) fn named(
     evaluator: &Evaluator<'_>,
     mut drafts: Vec<MethodDraft>,
@@ -248,14 +248,14 @@ pub(crate) fn named(
     Ok(named)
 }
 
-/// Adds to names the settings by which methods of equal name differ. Unique names do not change;
-/// equal methods keep equal names.
+/// Distinguishes methods of equal name: adds the settings in which they differ. Unique names do not
+/// change; equal methods keep equal names.
 fn tell_apart(drafts: &mut [MethodDraft]) {
     while say_differences(drafts) {}
 }
 
-/// Adds one setting to equal names. Returns whether a name has changed; it may now be that of
-/// another method.
+/// Adds one more setting to equal names. Returns whether a name has changed, because the new name
+/// may equal that of another method.
 fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {
@@ -276,27 +276,27 @@ fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     longer
 }
 
-/// All pairs, the second list running fastest.
+/// All pairs; the second element varies fastest.
 fn product<A: Copy, B: Copy>(first: &[A], second: &[B]) -> Vec<(A, B)> {
     first.iter().flat_map(|a| second.iter().map(move |b| (*a, *b))).collect()
 }
 
-/// The members of an optional list.
+/// The values of an optional list.
 fn choices<T: Copy>(list: Option<&OneOrMany<T>>, default: T) -> Vec<T> {
     list.map_or(vec![default], |list| list.as_slice().to_vec())
 }
 
-/// Number of members of an optional list.
+/// Length of an optional list; 1 if absent.
 fn length<T>(list: Option<&OneOrMany<T>>) -> usize {
     list.map_or(1, |list| list.as_slice().len())
 }
 
-/// Whether an optional list has several members.
+/// Whether an optional list has several values.
 fn many<T>(list: Option<&OneOrMany<T>>) -> bool {
     length(list) > 1
 }
 
-/// The name of a solver.
+/// Checks the name of a solver.
 fn solver_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<String, Diagnostic> {
     if is_solver_name(name) {
         return Ok(name.to_owned());
@@ -306,7 +306,7 @@ fn solver_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<Str
     Err(diagnostic.with_label(&label))
 }
 
-/// The theoretical order of a solver: two by default.
+/// The theoretical order of a solver; default 2.
 fn stated_order(
     evaluator: &Evaluator<'_>,
     path: &Path,

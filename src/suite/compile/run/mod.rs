@@ -1,4 +1,4 @@
-//! The run: levels, time steps and methods, and the cases: the product of all lists of a suite.
+//! Compiles the run: levels, time steps, methods, and the cases as the product of all lists.
 
 pub(crate) mod methods;
 pub(crate) mod places;
@@ -18,13 +18,13 @@ use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::{Axis, Expectation};
 use methods::{NamedMethod, count, methods, named};
 
-/// Maximum number of cases of a suite, after lists are multiplied.
+/// Maximum number of cases in a suite.
 const MOST_CASES: usize = 1000;
 
-/// Maximum number of load steps of a run.
+/// Maximum number of load steps in a run.
 const MOST_LOAD_STEPS: f64 = 1e5;
 
-/// The ends of the runs: their part of names, and value (s, or number of load steps).
+/// The ends of the runs: part of the case name, and value (s, or number of load steps).
 pub(crate) fn ends(
     evaluator: &Evaluator<'_>,
     run: &RunSpec,
@@ -45,7 +45,7 @@ pub(crate) fn ends(
     }
 }
 
-/// The numbers of load steps of the runs.
+/// The numbers of load steps.
 fn load_steps(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
@@ -66,7 +66,7 @@ fn load_steps(
     Ok(counts)
 }
 
-/// The ends of runs in time (s).
+/// The end times of the runs (s).
 fn until(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
@@ -119,7 +119,7 @@ pub(crate) fn cases(
     Ok(drafts.into_iter().map(case).collect())
 }
 
-/// The cases of `plan` with the expectation of each.
+/// The cases of `plan`, each with its expectation.
 pub(crate) fn expected(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -136,7 +136,7 @@ pub(crate) fn expected(
     Ok(cases.iter().zip(expectations).map(with).collect())
 }
 
-/// A case before anything is expected of it.
+/// A case without expectation.
 struct Draft {
     name: String,
     method: Method,
@@ -145,7 +145,7 @@ struct Draft {
     against: Against,
 }
 
-/// The references of the study, each with its suffix for names.
+/// The references of the study, each with its suffix in case names.
 fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     let truths = [
         plan.has_formulas().then_some((Against::Exact, "-vs-exact")),
@@ -156,8 +156,8 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     truths.into_iter().flatten().chain(nothing).collect()
 }
 
-/// One method, for every end of the run and every reference. A part is included in the name only if
-/// there are alternatives.
+/// The cases of one method, for all run ends and references. A case name includes an end or a
+/// reference only if there are several.
 fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)]) -> Vec<Draft> {
     let mut drafts = Vec::new();
     for (text, until_value) in until {
@@ -177,7 +177,7 @@ fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)
     drafts
 }
 
-/// Refuses parts of a method that do not go together, or not with the scene.
+/// Refuses a method whose components are incompatible with each other or with the scene.
 fn combined(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -205,7 +205,7 @@ fn combined(
     })
 }
 
-/// Refuses a product of lists that is too long, before it is computed.
+/// Refuses too many combinations of list values before computing them.
 fn few(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -222,7 +222,7 @@ fn few(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses invalid combinations before any run.
+/// Refuses invalid combinations.
 fn possible(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -272,12 +272,12 @@ fn possible(
     }
 }
 
-/// Why a consistent mass matrix cannot be solved with the walls of the scene; `None` if it can.
+/// Why the scene's walls cannot be combined with a consistent mass matrix; `None` if they can.
 fn against_consistent_mass(plan: &ConvergencePlan) -> Option<&'static str> {
     plan.scene.faces.iter().find_map(|face| face.hold.against_consistent_mass())
 }
 
-/// Whether a period of the grid differs from that of the reference body.
+/// Whether a grid period differs from the length of the reference body.
 fn stretched(plan: &ConvergencePlan) -> bool {
     let scene = &plan.scene;
     let apart = |face: &SceneFace| {
@@ -287,8 +287,8 @@ fn stretched(plan: &ConvergencePlan) -> bool {
     scene.faces.iter().any(|face| face.hold.is_periodic() && apart(face))
 }
 
-/// The law of an FEM case that names none: the law of the material. A case without such a law has
-/// already been refused (`fem_support`).
+/// The default law of an FEM case, which is the law of the material. The check `fem_support` has
+/// already refused materials without such a law.
 fn own_law(plan: &ConvergencePlan) -> EquationName {
     law_of_bar(&plan.scene.material).unwrap_or_default()
 }

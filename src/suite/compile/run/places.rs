@@ -1,4 +1,4 @@
-//! Places that a suite states: of particles off their lattice, and the one that is observed.
+//! Positions that a suite states: offsets of particles from their lattice, and the observed point.
 
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, ObserveSpec, ScatterSpec};
@@ -7,17 +7,17 @@ use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Maximum displacement of a particle, as a share of the spacing: the middle between two particles.
+/// Maximum displacement of a particle as a share of the spacing: midway between two particles.
 const MOST: f64 = 0.5;
 
-/// Maximum random displacement if a face carries a load, as a share of the spacing: below it, the
-/// layer of particles at the face is distinct from the next one.
+/// Maximum random displacement as a share of the spacing, if a face carries a load. Below this
+/// value, the particle layer at the face is distinct from the next layer.
 const MOST_AT_LOADS: f64 = 0.25;
 
 /// The default seed.
 const SEED: u64 = 1;
 
-/// Offsets of particles from their lattice, as stated by the suite.
+/// Stated offsets of particles from their lattice.
 pub(crate) fn scatter(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -65,7 +65,7 @@ pub(crate) fn scatter(
     Ok(scatter)
 }
 
-/// The place that is watched: one in the body.
+/// The observed point, which must be in the body.
 pub(crate) fn observed(
     evaluator: &Evaluator<'_>,
     spec: &ObserveSpec,

@@ -1,5 +1,5 @@
-//! Computed references from `reference`: by finite elements, or by the same method with a much
-//! shorter spacing.
+//! Compiles `reference`: a fine FEM computation, or a run by the same method with a much smaller
+//! spacing.
 
 use super::refine::{STEP_OF_EACH_H, step_formula};
 use crate::suite::compile::check::size;
@@ -11,10 +11,10 @@ use crate::suite::scene::grid_size::cell_size;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{Axis, Clock};
 
-/// The reference FEM, if `spec` states it.
+/// The FEM reference, if `spec` states one.
 ///
 /// # Errors
-/// A diagnostic of a missing key, or of a scene that is not one-dimensional.
+/// A diagnostic about a missing key, or about a scene that is not one-dimensional.
 pub(crate) fn reference(
     evaluator: &Evaluator<'_>,
     spec: &ReferenceSpec,
@@ -45,12 +45,12 @@ pub(crate) fn reference(
     }))
 }
 
-/// Minimum ratio of the finest time step to that of the reference run by the same method. The start
-/// of this run is of second order, so that an error of second order on the finest level is known to
-/// 1/64.
+/// Minimum ratio of the finest time step to that of the same-method reference run. The start of the
+/// reference run is second-order accurate; a second-order error on the finest level is then known
+/// to 1/64.
 const SHORTER: f64 = 8.0;
 
-/// The reference run by the same method with a shorter spacing, if the suite states one.
+/// Reference run by the same method, if the suite states one.
 pub(crate) fn same_method(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -95,7 +95,7 @@ pub(crate) fn same_method(
     }
 }
 
-/// The shorter time step (s).
+/// The reduced time step (s).
 fn shorter(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -120,7 +120,7 @@ fn shorter(
     Ok(dt)
 }
 
-/// Refuses a fine grid with fewer than [`FINE_GRID`] times the cells of the finest level: its own
+/// Refuses a fine grid with fewer than [`FINE_GRID`] times the cells of the finest level. Its own
 /// error would not be negligible.
 fn finer(
     evaluator: &Evaluator<'_>,
@@ -137,7 +137,7 @@ fn finer(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// `level` with the size and the time step of its own cells.
+/// `level` with the cell size and the time step for its number of cells.
 fn with_step(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -156,8 +156,7 @@ fn with_step(
     Ok(LevelPlan { h, dt, ..level })
 }
 
-/// Refuses bodies whose particles do not form a lattice: the motion is interpolated on lattices
-/// only.
+/// Refuses bodies whose particles form no lattice, because only lattices are interpolated.
 fn one_lattice(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,5 +1,5 @@
-//! The refinement plan of a suite: the key with a list is refined. Time steps are stated, or
-//! automatic: a share of the stable time step.
+//! Compiles the refinement plan: the key with a list is refined. Time steps are stated, or
+//! automatic as a share of the stable time step.
 
 use crate::exact::formula::Formula;
 use crate::suite::compile::check::size::LevelPaths;
@@ -12,13 +12,13 @@ use crate::suite::scene::grid_size::{cell_size, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::Axis;
 
-/// One entry of a list, with its path.
+/// A list entry with its path.
 struct Located<T> {
     value: T,
     at: Path,
 }
 
-/// The levels of a suite, and the places in the file that diagnostics of each point at.
+/// The levels of a suite, and the positions in the file for diagnostics about each level.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -60,7 +60,7 @@ pub(crate) fn plan(
     Ok((plan, (0..count).filter_map(place).collect()))
 }
 
-/// Refuses an expectation of a full run if there is no full run.
+/// Refuses an expectation for a full run if there is no full run.
 fn no_idle_expectation(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -72,7 +72,7 @@ fn no_idle_expectation(
     Err(diagnostic.with_help("list its levels under `full` in `refine`"))
 }
 
-/// The entry of level `k`: its own, or the one that all levels share.
+/// The entry for level `k`: its own, or the single entry shared by all levels.
 fn of_level<T>(entries: &[Located<T>], k: usize) -> Option<&Located<T>> {
     entries.get(k).or_else(|| entries.first().filter(|_| entries.len() == 1))
 }
@@ -81,7 +81,7 @@ fn is_list(spec: Option<&OneOrMany<NumberText>>) -> bool {
     spec.is_some_and(|list| list.as_slice().len() > 1)
 }
 
-/// The refined axis. Of two lists only cells and time steps go together, level by level.
+/// The refined axis. Only cells and time steps may both be lists, with one entry per level.
 fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic> {
     let path = Path::top("refine");
     let [cells, dt, ppc] = [Some(&spec.cells), spec.dt.as_ref(), spec.ppc.as_ref()].map(is_list);
@@ -112,7 +112,7 @@ fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic
 
 pub(crate) const STEP_OF_EACH_H: &str = "or give the time step in `run`, as a formula of h";
 
-/// The entries of one key of `refine`, followed by those of `full` if the key is refined.
+/// The entries of a key of `refine`. If the key is refined, the entries of `full` follow.
 fn listed<'w>(spec: &'w ConvergenceSpec, key: Axis, refined: Axis) -> Vec<Located<&'w NumberText>> {
     let refine = &spec.refine;
     let (name, list) = match key {
@@ -131,7 +131,7 @@ fn listed<'w>(spec: &'w ConvergenceSpec, key: Axis, refined: Axis) -> Vec<Locate
     all
 }
 
-/// Counts that grow from level to level.
+/// Counts that must increase from level to level.
 fn counts(
     evaluator: &Evaluator<'_>,
     texts: &[Located<&NumberText>],
@@ -166,7 +166,7 @@ fn equally_spaced(
     Err(evaluator.diagnostic(&ppc.at, &message).with_label(&label))
 }
 
-/// The time steps: one in `run`, or a list in `refine`.
+/// The time steps: one step in `run`, or a list in `refine`.
 fn steps(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -176,7 +176,7 @@ fn steps(
     let at_run = Path::top("run").then("dt");
     let at_refine = Path::top("refine").then("dt");
     if spec.run.load_steps.is_some() {
-        // A load step takes one unit of time.
+        // A load step advances time by one unit.
         let value = evaluator.formula(&at_run, &NumberText::Number(1.0), &["h"])?;
         return Ok(vec![Located { value, at: Path::top("run").then("load_steps") }]);
     }
@@ -205,10 +205,10 @@ fn steps(
     texts.into_iter().map(bind).collect()
 }
 
-/// The share for `auto`.
+/// Share of the stable time step for `auto`.
 const AUTO: f64 = 0.5;
 
-/// The share of the stable time step that `spec` at `path` states, if the step is automatic.
+/// The share of the stable time step, if the step of `spec` at `path` is automatic.
 pub(crate) fn stable_share(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -223,8 +223,8 @@ pub(crate) fn stable_share(
     }
 }
 
-/// The step (s) as a formula of h: as stated, or, for a rule, its value before any particle is
-/// known.
+/// The step (s) as a formula of h: the stated step, or the preliminary value of an automatic step,
+/// which does not depend on particles.
 pub(crate) fn step_formula(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -244,7 +244,7 @@ pub(crate) fn step_formula(
     Err(evaluator.diagnostic(path, message).with_label("expected a number"))
 }
 
-/// Refuses methods whose steps no rule can choose.
+/// Refuses methods without automatic time steps.
 fn refuse_methods_without_rule(
     evaluator: &Evaluator<'_>,
     methods: &[MethodSpec],

@@ -1,19 +1,19 @@
-//! Several bodies in a scene.
+//! Scenes with several bodies.
 //!
-//! A scene has one `body` with its `material`, or a list of `bodies`. The grid, its walls and the
-//! loads belong to the scene: they act on every body.
+//! A scene has either one `body` with its `material`, or a list of `bodies`. The grid, the walls
+//! and the loads belong to the scene and act on every body.
 
 use crate::mpm::MaterialSpec;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec, StressSpec};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Maximum number of bodies of a scene.
+/// Maximum number of bodies in a scene.
 const MOST: usize = 100;
 
-/// The keys of one body, and their path.
+/// The keys of one body.
 pub(crate) struct Listed<'w> {
-    /// Path of the map with these keys.
+    /// Path of the map that contains these keys.
     pub(crate) at: Path,
     pub(crate) body: &'w BodySpec,
     pub(crate) material: &'w MaterialSpec<NumberText>,
@@ -22,7 +22,7 @@ pub(crate) struct Listed<'w> {
     pub(crate) initial_velocity: Option<&'w Vec<NumberText>>,
 }
 
-/// The bodies that a scene lists: one or several.
+/// The keys of each body of a scene.
 pub(crate) fn listed<'w>(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -63,7 +63,7 @@ pub(crate) fn listed<'w>(
     }])
 }
 
-/// Refuses keys of one body next to a list of bodies.
+/// Refuses keys of a single body together with a list of bodies.
 fn refuse_beside(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -94,7 +94,7 @@ fn refuse_beside(
     Ok(())
 }
 
-/// The coefficient of friction between bodies, if they have contact.
+/// Friction coefficient of the contact between bodies, if there is contact.
 pub(crate) fn contact(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,4 +1,4 @@
-//! One body with its faces, the state across its plane, revolution and rest.
+//! Compiles one body: faces, plane state, axis of revolution, and bodies at rest.
 
 use super::bodies::Listed;
 use super::outline::BodyShape;
@@ -102,7 +102,7 @@ fn dimension(
     }
 }
 
-/// The faces of a body that has a box or four sides, in their order.
+/// The faces of a box or a quadrilateral, in their order.
 fn faces(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -114,7 +114,7 @@ fn faces(
     Ok(holds.into_iter().enumerate().map(build).collect())
 }
 
-/// Boundary conditions of the faces, in their order.
+/// Boundary conditions of all faces, in their order.
 fn holds(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -135,7 +135,7 @@ fn holds(
     Ok(holds)
 }
 
-/// A face can only be periodic together with the opposite one.
+/// Refuses a periodic face whose opposite face is not periodic.
 fn both_ends(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -153,8 +153,8 @@ fn both_ends(
     Ok(())
 }
 
-/// Sets every face at rest that is not periodic, and refuses keys that fix or move the body, and
-/// other bodies. `path` is that of the map with the body.
+/// Handles a body at rest: its faces are at rest unless periodic. Refuses keys that fix or move the
+/// body, and other bodies. `path` is the path of the map that contains the body.
 fn settle(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -193,7 +193,7 @@ fn settle(
     }
 }
 
-/// The state that the scene states, plane strain unless it does.
+/// The stated plane state; default plane strain.
 fn plane(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -220,8 +220,7 @@ fn plane(
     Ok(plane)
 }
 
-/// Refuses a material whose law is not implemented for the state across the plane; `path` is that
-/// of the material.
+/// Refuses a material (at `path`) whose law is not implemented for the plane state.
 fn knows(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -237,7 +236,7 @@ fn knows(
     Err(diagnostic.with_help("take `linear_elastic`, `neo_hookean` or `hencky`"))
 }
 
-/// Refuses a body that cannot be revolved about the axis, where the first coordinate is zero.
+/// Refuses a body that cannot be revolved about the axis where the first coordinate is zero.
 fn revolves(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), Diagnostic> {
     if scene.plane != PlaneState::Axisymmetric {
         return Ok(());

@@ -13,10 +13,10 @@ fn path(own: &Listed<'_>) -> Path {
     own.at.then("material").then(own.material.name()).then("density")
 }
 
-/// The density if it is a number; `None` for a formula of the coordinates.
+/// The density, if it is a number; `None` for a formula of the coordinates.
 ///
 /// # Errors
-/// A diagnostic of a density that is not a number above zero.
+/// A diagnostic about a density that is not positive.
 pub(crate) fn uniform(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -29,17 +29,17 @@ pub(crate) fn uniform(
     }
 }
 
-/// Whether a number could not be evaluated because its formula has a coordinate.
+/// Whether a number could not be computed because its formula contains a coordinate.
 pub(crate) fn names_coordinate(diagnostic: &Diagnostic) -> bool {
     let names = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
     COORDINATES.iter().any(names)
 }
 
-/// The density of a body that varies over it; the shape of `scene` is that of the body.
+/// The varying density of a body whose shape is that of `scene`.
 ///
 /// # Errors
-/// A diagnostic of the formula, of a place inside the body where it is not positive, or of a part
-/// of the scene that does not support a varying density.
+/// A diagnostic about the formula, a position in the body with a density that is not positive, or a
+/// part of the scene that does not support a varying density.
 pub(crate) fn varying(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -77,7 +77,7 @@ fn not_positive(
     evaluator.unusable(path, text, &message, label)
 }
 
-/// Why the parts of a scene do not support a density that varies over the body, if so.
+/// Why a part of the scene does not support a varying density; `None` if all parts do.
 fn unsupported(scene: &Scene) -> Option<&'static str> {
     if scene.mapped.is_some() || scene.outline.as_ref().is_some_and(|o| o.ball().is_none()) {
         return Some("masses are integrated in a box or a round body only");
@@ -91,7 +91,7 @@ fn unsupported(scene: &Scene) -> Option<&'static str> {
     None
 }
 
-/// Refuses loads that need a uniform density.
+/// Refuses loads that require a uniform density.
 ///
 /// # Errors
 /// A diagnostic at the density.

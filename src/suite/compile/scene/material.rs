@@ -1,4 +1,4 @@
-//! The material of a body, and the state in which the body starts.
+//! Compiles the material of a body and its initial state.
 
 use super::bodies::Listed;
 use super::density::names_coordinate;
@@ -33,7 +33,7 @@ pub(crate) fn material(
     Ok(material)
 }
 
-/// A diagnostic of a parameter that varies in space, with advice on what to state instead.
+/// A diagnostic about a parameter that varies in space, with advice on the alternative.
 fn uniform(diagnostic: Diagnostic) -> Diagnostic {
     if !names_coordinate(&diagnostic) {
         return diagnostic;
@@ -99,14 +99,14 @@ fn poissons_ratio(
     Err(evaluator.unusable(path, text, &message, "expected a number above -1 and below 0.5"))
 }
 
-/// Components of a stress, each with its row and column.
+/// Stress components, each with its row and column.
 const COMPONENTS: [(&str, usize, usize); 6] =
     [("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("yz", 1, 2), ("xz", 0, 2)];
 
-/// The initial displacement (m); empty: not stated.
+/// The initial displacement (m); empty if not stated.
 ///
 /// # Errors
-/// A diagnostic of a `material` that cannot start deformed, or of a formula.
+/// A diagnostic about a formula, or about a `material` that cannot start deformed.
 pub(crate) fn displacement(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -120,10 +120,10 @@ pub(crate) fn displacement(
     evaluator.vector(&path, texts, dimension, &coordinates_and_time(dimension))
 }
 
-/// The initial velocity (m/s); empty: not stated.
+/// The initial velocity (m/s); empty if not stated.
 ///
 /// # Errors
-/// A diagnostic of a formula.
+/// A diagnostic about a formula.
 pub(crate) fn velocity(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -135,11 +135,11 @@ pub(crate) fn velocity(
         .map_or(Ok(Vec::new()), |texts| evaluator.vector(&path, texts, dimension, &variables))
 }
 
-/// The stress of the reference configuration.
+/// The initial stress of the reference configuration.
 ///
 /// # Errors
-/// A diagnostic of a `material` without initial stress, of a component on a missing axis, or of a
-/// formula.
+/// A diagnostic about a `material` without initial stress, about a component on a missing axis, or
+/// about a formula.
 pub(crate) fn stress(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -168,15 +168,15 @@ pub(crate) fn stress(
     Ok(InitialStress::new(components))
 }
 
-/// The components that a scene can state.
+/// The stress components that a scene of this dimension can state.
 fn known(dimension: usize) -> String {
     let inside = COMPONENTS.iter().filter(|(_, i, j)| *i.max(j) < dimension);
     let names: Vec<String> = inside.map(|(name, ..)| format!("`{name}`")).collect();
     format!("components: {}", names.join(", "))
 }
 
-/// Refuses features that the law of `material` does not support; `lacks` follows its name in the
-/// message.
+/// Refuses features that the law of `material` does not support. In the message, `lacks` follows
+/// the name of the law.
 fn admit(
     evaluator: &Evaluator<'_>,
     path: &Path,

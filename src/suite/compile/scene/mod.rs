@@ -1,4 +1,4 @@
-//! The scene as a whole: its bodies, and how they lie to each other and on the grid.
+//! Compiles the scene: its bodies, and their positions relative to each other and the grid.
 
 pub(crate) mod bodies;
 mod body;
@@ -15,7 +15,7 @@ use crate::suite::scene::boundary::FreeFace;
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
-/// Checks the scene of a suite.
+/// Compiles the scene of a suite.
 pub(crate) fn scene(evaluator: &Evaluator<'_>, spec: &SceneSpec) -> Result<Scene, Diagnostic> {
     let path = Path::top("scene");
     let listed = bodies::listed(evaluator, &path, spec)?;
@@ -32,9 +32,9 @@ pub(crate) fn scene(evaluator: &Evaluator<'_>, spec: &SceneSpec) -> Result<Scene
     Ok(scene)
 }
 
-/// The grid must contain the body, and a fixed face must be on the face of the grid, because the
-/// condition applies to its nodes, and a periodic axis ends there. If the body may start deformed,
-/// the period is that of its motion, which is checked against that of the grid.
+/// Checks that the grid contains the body. A fixed face must lie on the grid face, because its
+/// condition applies to grid nodes. A periodic axis must end at the grid face. If the body may
+/// start deformed, the grid period is checked later against the period of the motion.
 fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), Diagnostic> {
     let Some((from, to)) = &scene.grid else { return Ok(()) };
     let deforms = scene.material.properties().depends_on_deformation_alone().is_ok();
@@ -67,7 +67,7 @@ fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), 
     Ok(())
 }
 
-/// The scene of all `bodies`: the first one's, if they are not a list.
+/// The scene of all `bodies`. A single body is the scene itself.
 fn together(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -102,7 +102,7 @@ fn together(
     Ok(scene)
 }
 
-/// Walls act on faces of a body that are on the faces of the box around all bodies.
+/// Frees the faces of a body that are not on the bounding box of all bodies, where the walls are.
 fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
     for face in &mut body.faces {
         let axis = face.axis;
@@ -120,7 +120,7 @@ fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
     }
 }
 
-/// No two bodies have a place in common.
+/// Refuses bodies that overlap.
 fn apart(evaluator: &Evaluator<'_>, path: &Path, bodies: &[Scene]) -> Result<(), Diagnostic> {
     for (i, body) in bodies.iter().enumerate() {
         if let Some(k) = bodies[..i].iter().position(|other| overlap(body, other)) {
@@ -132,7 +132,7 @@ fn apart(evaluator: &Evaluator<'_>, path: &Path, bodies: &[Scene]) -> Result<(),
     Ok(())
 }
 
-/// Whether two bodies overlap; a ring counts as a disk.
+/// Whether two bodies overlap; a ring is treated as a disk.
 fn overlap(one: &Scene, other: &Scene) -> bool {
     let boxes = (0..one.from.len())
         .all(|axis| one.from[axis] < other.to[axis] && other.from[axis] < one.to[axis]);
@@ -155,7 +155,7 @@ fn overlap(one: &Scene, other: &Scene) -> bool {
         }
 }
 
-/// Distance (m) of a place from a body.
+/// Distance of a position from a body (m).
 fn distance(body: &Scene, place: &[f64]) -> f64 {
     if let Some(outline) = &body.outline {
         return outline.distance(place);
@@ -164,7 +164,7 @@ fn distance(body: &Scene, place: &[f64]) -> f64 {
     ends.fold(0.0, |all, ((from, to), x)| libm::hypot(all, x.clamp(*from, *to) - x))
 }
 
-/// A body in the plane with straight sides.
+/// The polygon of a plane body with straight sides; `None` for other bodies.
 fn polygon(body: &Scene) -> Option<Polygon> {
     let ([left, bottom], [right, top]) = (&body.from[..], &body.to[..]) else { return None };
     let corners = match &body.outline {

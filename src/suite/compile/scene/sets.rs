@@ -1,4 +1,4 @@
-//! Sets of particles, and loads on them.
+//! Compiles particle sets.
 
 use super::outline;
 use crate::exact::{Outline, Region};
@@ -8,10 +8,10 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::{Scene, face::FACES};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Share of a box that counts as rounding error.
+/// Share of a box that is treated as rounding error.
 const SLIVER: f64 = 1e-12;
 
-/// The sets of particles, without loads.
+/// The particle sets, without loads.
 pub(crate) fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -35,7 +35,7 @@ pub(crate) fn declared(
     spec.sets.as_slice().iter().map(declare).collect()
 }
 
-/// A set with the name of a face would be ambiguous.
+/// Refuses a set with the name of a face, which would be ambiguous.
 fn refuse_face_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<(), Diagnostic> {
     if !FACES.contains(&name) {
         return Ok(());
@@ -44,7 +44,7 @@ fn refuse_face_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Resul
     Err(evaluator.diagnostic_at_key(path, &message).with_help("give the set another name"))
 }
 
-/// A set must contain a part of the body.
+/// Refuses a set that contains no part of the body.
 fn refuse_outside(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -66,7 +66,7 @@ fn refuse_outside(
     Ok(())
 }
 
-/// Refuses a set without a part of a body that is not a box.
+/// Refuses a set that contains no part of the body, for bodies that are not boxes.
 fn refuse_beside(
     evaluator: &Evaluator<'_>,
     path: &Path,

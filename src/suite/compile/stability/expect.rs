@@ -1,4 +1,4 @@
-//! Expectations of the rows of a stability study.
+//! Compiles the expectations for the rows of a stability study.
 
 use crate::suite::evaluator::{Evaluator, suggestion};
 use crate::suite::grammar::{FigureSpec, StabilityExpectSpec};
@@ -6,7 +6,7 @@ use crate::suite::model::stability::SetupTemplate;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{FigureBounds, RunFigure, StabilityExpectation};
 
-/// The figures that an entry of `expect` speaks of.
+/// The figures that an entry of `expect` bounds.
 pub(crate) fn named(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -24,7 +24,7 @@ pub(crate) fn named(
     spec.figures.as_slice().iter().map(find).collect()
 }
 
-/// Expectation of every row by entry number `i` of `expect`; `rows` are the values of each row.
+/// Expectations from entry `i` of `expect`, one for each of the `rows` of parameter values.
 pub(crate) fn rows(
     evaluator: &Evaluator<'_>,
     template: &SetupTemplate,
@@ -44,7 +44,7 @@ pub(crate) fn rows(
             return Err(diagnostic.with_label("expected one for all, or one for each"));
         }
     }
-    // The values of the suite itself come first, which marks parameters as used.
+    // The suite's own values are evaluated first, which marks parameters as used.
     row(evaluator, &path, spec, &figures, 0)?;
     rows.iter()
         .enumerate()
@@ -76,7 +76,7 @@ fn row(
     })
 }
 
-/// Refuses to expect a limit that is not sought, or the result of a run that does not exist.
+/// Refuses to expect a limit that is not sought, or a result without a run.
 fn refuse_idle(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -130,7 +130,7 @@ fn wanted(
     Ok(FigureBounds { is, above, below })
 }
 
-/// Expectation of an entry, in one line.
+/// One-line summary of an entry.
 pub(crate) fn summary(spec: &StabilityExpectSpec, predicted: bool) -> String {
     let mut parts = Vec::new();
     if let Some(verdicts) = &spec.verdict {

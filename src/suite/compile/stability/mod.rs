@@ -1,7 +1,7 @@
-//! The stability study: a parameter is swept, and every run ends in a verdict.
+//! Compiles a stability study: a parameter is swept, and every run gets a verdict.
 //!
 //! ```text
-//! setup    values of the parameters -> the set-up of a run, its scales and bounds
+//! setup    parameter values -> the set-up of a run, its scales and bounds
 //! expect   the expectations
 //! ```
 
@@ -20,10 +20,10 @@ use crate::suite::model::stability::{SetupTemplate, StabilityCase, StabilityPlan
 use crate::suite::yaml::{Diagnostic, Path, Source};
 use setup::setup;
 
-/// Maximum number of rows, and of cases, of a study.
+/// Maximum number of rows, and of cases, in a study.
 const MOST: usize = 500;
 
-/// Checks a stability study.
+/// Compiles a stability study.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     source: &Source,
@@ -31,7 +31,7 @@ pub(crate) fn plan(
 ) -> Result<StabilityPlan, Diagnostic> {
     few(evaluator, spec)?;
     let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
-    // The values of the suite itself come first, which marks parameters as used.
+    // The suite's own values are evaluated first, which marks parameters as used.
     let base = setup(evaluator, spec)?;
     let (swept, values) = sweep(evaluator, spec)?;
     let sought = sought(evaluator, spec, &swept)?;
@@ -60,7 +60,7 @@ pub(crate) fn plan(
     Ok(StabilityPlan { template, swept, values, sought, frozen, figures, cases })
 }
 
-/// The parameter that is swept, and its values.
+/// Name and values of the swept parameter.
 fn sweep(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -86,7 +86,7 @@ fn sweep(
     Ok((name.clone(), values))
 }
 
-/// Refuses to sweep or seek a name that the suite does not declare.
+/// Refuses to sweep or seek an undeclared parameter.
 fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -103,7 +103,7 @@ fn declared(
     Err(diagnostic.with_help(&suggestion("parameters", name, &known)))
 }
 
-/// The parameter whose limit is sought, and the range.
+/// The parameter whose limit is sought, and its range.
 fn sought(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -125,7 +125,7 @@ fn sought(
     Err(evaluator.diagnostic(&path.then("to"), &message).with_label("expected a larger number"))
 }
 
-/// Refuses products of lists that are too long, before anything is computed for them.
+/// Refuses too many combinations of list values before computing them.
 fn few(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<(), Diagnostic> {
     let mut all = 0_usize;
     for (i, spec) in spec.methods.iter().enumerate() {

@@ -1,6 +1,6 @@
-//! Set-up of a run, from values of the parameters.
+//! Computes the set-up of a run from parameter values.
 //!
-//! Any parameter can be swept: the whole specification is evaluated again for every value.
+//! Any parameter can be swept, so the whole specification is evaluated again for every value.
 
 use crate::suite::compile::check::size;
 use crate::suite::compile::run::refine::{stable_share, step_formula};
@@ -14,10 +14,10 @@ use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use crate::verify::{RunFigure, Scales};
 
-/// Amplitude of the initial perturbations of a run with frozen configuration.
+/// Initial perturbation amplitude for a run with frozen particles.
 const PERTURBATION: f64 = 1e-9;
 
-/// ParameterValues of parameters, by name.
+/// Parameter names and their values.
 pub(crate) type ParameterValues<'a> = [(&'a str, f64)];
 
 /// Set-up of one run.
@@ -26,22 +26,22 @@ pub(crate) struct RunSetup {
     pub(crate) scene: Scene,
     pub(crate) lattice: LatticeEdits,
     pub(crate) level: LevelPlan,
-    /// Lengths of the steps (s), used cyclically.
+    /// Step lengths (s), used cyclically.
     pub(crate) dt: Vec<f64>,
-    /// Share of the stable time step for an automatic `dt`, which is computed when there are
-    /// particles.
+    /// Share of the stable time step for an automatic `dt`, which is computed once the particles
+    /// exist.
     pub(crate) rule: Option<f64>,
     pub(crate) steps: u64,
-    /// Steps of a full run.
+    /// Number of steps of a full run.
     pub(crate) full_steps: u64,
     pub(crate) frozen: bool,
-    /// Size of the random perturbation at the start.
+    /// Amplitude of the random perturbation at the start.
     pub(crate) perturb: f64,
     pub(crate) scales: Scales,
 }
 
 impl SetupTemplate {
-    /// The names of the suite with `values` instead of the declared values.
+    /// The evaluator of the suite with `values` instead of the declared values.
     pub(crate) fn evaluator(
         &self,
         values: &ParameterValues<'_>,
@@ -53,13 +53,13 @@ impl SetupTemplate {
         Ok(Evaluator::new(&self.source, &parameters, &self.spec.functions)?.0)
     }
 
-    /// The run with these values.
+    /// The set-up of a run for these values.
     pub(crate) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, Diagnostic> {
         setup(&self.evaluator(values)?, &self.spec)
     }
 }
 
-/// The set-up that `spec` describes.
+/// The set-up in `spec`.
 pub(crate) fn setup(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -126,7 +126,7 @@ pub(crate) fn setup(
     Ok(setup)
 }
 
-/// Number of consecutive steps of each length; one if all steps have equal length.
+/// Number of consecutive steps of each length; 1 if all steps have equal length.
 fn turns(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<usize, Diagnostic> {
     const MOST: u64 = 1000;
     let Some(text) = &spec.run.every else { return Ok(1) };
@@ -183,7 +183,7 @@ fn perturbation(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<f64, 
         .map_or(Ok(default), |text| evaluator.positive(&path, text, "the size of the perturbation"))
 }
 
-/// A frozen body is at rest: no load acts on it.
+/// Refuses a frozen body that is not stress-free and at rest, or on which a load acts.
 fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let loaded = scene.loads.iter().any(|load| load.disturbs_rest());
     let driven = scene.faces.iter().any(|face| face.hold.is_driven());
@@ -204,11 +204,11 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     Err(diagnostic.with_help("remove what the scene states of it; `perturb` starts the run"))
 }
 
-/// Maximum energy of a stable run, over the initial energy: above the value that the exchange
-/// between velocities and stresses reaches from a random start just below the limit of a leapfrog.
+/// Maximum energy of a stable run, relative to the initial energy. It allows for the exchange
+/// between velocities and stresses after a random start just below the limit of a leapfrog scheme.
 const STABLE_BELOW: f64 = 1e3;
 
-/// Energy beyond which a run is unstable.
+/// Energy above which a run is unstable, relative to the initial energy.
 const UNSTABLE_ABOVE: f64 = 1e8;
 
 /// Scales and bounds of the runs of `scene`.
@@ -239,7 +239,7 @@ fn scales(
     Ok(Scales { speed, modulus, stable_below, unstable_above, centred, null_space })
 }
 
-/// Whether a requested figure needs the null space of the grid, which is known of one body only.
+/// Whether a requested figure needs the grid's null space, implemented for one body only.
 fn of_null_space(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

@@ -1,5 +1,5 @@
-//! Heat problems of a stated temperature, in moving bodies or bodies at rest, and the methods that
-//! support heat.
+//! Compiles heat problems with a stated temperature, for moving bodies and bodies at rest, and
+//! checks that the methods support heat.
 
 use super::tolerance::{if_rounded, tolerance};
 use crate::exact::Motion;
@@ -48,7 +48,7 @@ pub(crate) fn conduction(
     Ok(Some(found))
 }
 
-/// Bodies at rest have methods of their own.
+/// Refuses the method `heat` for moving bodies, and other methods for bodies at rest.
 fn refuse_methods_of_other_bodies(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -66,7 +66,7 @@ fn refuse_methods_of_other_bodies(
     Err(evaluator.diagnostic(&Path::top("methods").then(i), &message).with_help(help))
 }
 
-/// Refuses judged, observed, expected or stated quantities of a motion.
+/// Refuses keys that judge, observe, expect or state quantities of a motion.
 fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     if spec.judge.of.is_of_motion() {
         let message = "nothing moves, and what is judged belongs to a motion";
@@ -100,8 +100,8 @@ fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagn
     }
 }
 
-/// The heat problem of `scene` with the temperature at `path`, not yet checked; `None` without
-/// both.
+/// The heat problem of `scene` with the temperature at `path`, not yet checked. `None` if the suite
+/// has neither heat nor temperature.
 pub(crate) fn problem(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -136,7 +136,7 @@ pub(crate) fn problem(
     Ok(Some(Conduction {
         from: scene.from.clone(),
         to: scene.to.clone(),
-        // A varying density is refused, see `compile::scene::density`.
+        // A varying density is refused in `compile::scene::density`.
         density: scene.density.largest(),
         conductivity: heat.conductivity,
         capacity: heat.capacity,
@@ -195,15 +195,15 @@ fn refuse_methods_without_heat(
 pub(crate) struct ConductionInputs {
     /// Deformation of the body.
     pub(crate) motion: Option<Motion>,
-    /// Whether the source follows from the temperature.
+    /// Whether the source is computed from the temperature.
     pub(crate) manufactured: bool,
     /// End of the run (s).
     pub(crate) until: f64,
-    /// Largest relative residual.
+    /// Maximum relative residual.
     pub(crate) tolerance: f64,
 }
 
-/// Holds the temperature that is stated at `path` against its problem.
+/// Refuses a temperature at `path` that does not solve its heat problem.
 pub(crate) fn refuse_wrong_temperature(
     evaluator: &Evaluator<'_>,
     path: &Path,

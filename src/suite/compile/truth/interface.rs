@@ -1,8 +1,8 @@
-//! The exact solution of several bodies: that of each, and the conditions on common faces.
+//! Checks exact solutions of several bodies: each solution, and conditions on common faces.
 //!
-//! Boxes meet face to face: the high face of one and the low face of the next along an axis, of the
-//! same extent, touching or with a gap between them. No condition is known for other faces and for
-//! rims.
+//! Boxes meet face to face along an axis: the high face of one box and the low face of the next
+//! have the same extent. They touch or have a gap between them. Conditions for other faces and for
+//! rims are not implemented.
 
 use crate::exact::{Interface, Problem, Survey, Violation, meets};
 use crate::suite::evaluator::Evaluator;
@@ -11,14 +11,14 @@ use crate::suite::model::Scene;
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
-/// Help for two bodies that move as if they could part.
+/// Help for two bodies whose exact motions separate or slide.
 const CONTACT: &str = "bodies without `contact` share one velocity field and stick together: if \
                        they may part or slide, add `contact: {friction: 0}` to `scene`";
 
-/// Refuses exact solutions for a single body.
+/// Refuses manufactured solutions, equilibria and FEM references, which support one body only.
 ///
 /// # Errors
-/// A diagnostic of the first such solution.
+/// A diagnostic about the first such key.
 pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let of_one = [
         ("manufactured", spec.manufactured.is_some()),
@@ -31,11 +31,11 @@ pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Resul
     Err(diagnostic.with_help("state a solution under `exact`, or bound what the run keeps"))
 }
 
-/// Checks the `problems` of all bodies of a scene with `check`, and the faces between them.
+/// Checks the `problems` of all bodies with `check`, and the conditions on the faces between them.
 ///
 /// # Errors
-/// A diagnostic of `check`, or of a violation by `diagnostic`; and one about bodies for which no
-/// condition is known.
+/// A diagnostic from `check`, a diagnostic about a violation (from `diagnostic`), or a diagnostic
+/// about bodies whose interface condition is not implemented.
 pub(crate) fn refuse_violated_conditions(
     evaluator: &Evaluator<'_>,
     scene: &Scene,
@@ -79,7 +79,7 @@ pub(crate) fn refuse_violated_conditions(
     Ok(())
 }
 
-/// Bodies that touch each other along an axis: both indices, and the axis.
+/// Neighbouring bodies along an axis: both indices, and the axis.
 fn pairs(problems: &[Problem]) -> Vec<(usize, usize, usize)> {
     let mut pairs = Vec::new();
     let d = problems.first().map_or(0, Problem::dimension);
@@ -99,7 +99,7 @@ fn pairs(problems: &[Problem]) -> Vec<(usize, usize, usize)> {
     pairs
 }
 
-/// Bodies that touch otherwise than with whole faces.
+/// Refuses bodies that touch other than with whole faces.
 fn refuse_other_touch(
     evaluator: &Evaluator<'_>,
     at: &Path,

@@ -1,6 +1,6 @@
-//! The exact solution or equilibrium of a suite, and the check that it solves its problem.
+//! Compiles the exact solution or equilibrium of a suite, and checks that it solves its problem.
 //!
-//! A body is compared with its equilibrium at the end of the run.
+//! An equilibrium is compared with the state at the end of the run.
 
 pub(crate) mod conduction;
 mod interface;
@@ -17,15 +17,14 @@ use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use conduction::ConductionInputs;
 use tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
 
-/// Maximum number of operations of a formula of a solution. Before any run it is evaluated about
-/// 30000 times with all its derivatives.
+/// Maximum number of operations in a formula of a solution. Before any run, the formula is
+/// evaluated about 30000 times with all its derivatives.
 const MOST_OPERATIONS: u64 = 5000;
 
-/// The problem of the formulas of a suite, if it has formulas. The check of the solution follows
-/// later.
+/// The problem of the stated formulas, if any. The solution is checked later.
 ///
 /// # Errors
-/// A diagnostic of contradicting keys, or of a formula.
+/// A diagnostic about contradicting keys, or about a formula.
 pub(crate) fn exact(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -60,11 +59,11 @@ pub(crate) fn exact(
     Ok(Some(Problem { bodies, ..problem }))
 }
 
-/// Refuses a solution that violates its problem: its equation, or a condition on a face or at the
-/// start.
+/// Refuses a solution that violates its problem: the equation, a condition on a face or the initial
+/// conditions.
 ///
 /// # Errors
-/// A diagnostic at the formula, with the violated condition, the place and the difference.
+/// A diagnostic at the formula, with the violated condition, the position and the difference.
 pub(crate) fn refuse_violated(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -91,7 +90,7 @@ pub(crate) fn refuse_violated(
     )
 }
 
-/// The scene's problem with the formulas at `path`, not yet checked.
+/// The problem of the scene with the formulas at `path`, not yet checked.
 fn solution(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -114,7 +113,7 @@ fn solution(
     Ok(Problem { heat, tolerance, linearised, ..problem(scene, equation, motion, until) })
 }
 
-/// The equation that a formula is checked against, which must be that of the scene's material.
+/// The equation for checking a formula, which must be that of the scene's material.
 fn equation(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -141,7 +140,7 @@ fn equation(
     Err(evaluator.diagnostic(path, &message).with_help(help))
 }
 
-/// The problem whose body force follows from the motion that the suite states.
+/// The problem whose body force is computed from the stated motion.
 fn manufactured(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -186,7 +185,7 @@ fn manufactured(
     Ok(Some(Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) }))
 }
 
-/// The scene as a continuum problem, with the motion to be checked.
+/// The scene as a continuum problem, with the motion to check.
 fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Problem {
     Problem {
         from: scene.from.clone(),
@@ -245,7 +244,7 @@ fn motion(
     Ok(Motion::new(components))
 }
 
-/// A face with its condition. For a free face with a load it is the condition of the load.
+/// A face with its condition. The load on a free face determines the condition.
 fn face(scene: &Scene, number: usize) -> Face {
     let SceneFace { name, axis, high, hold } = &scene.faces[number];
     let loaded =
@@ -254,8 +253,8 @@ fn face(scene: &Scene, number: usize) -> Face {
     Face { name, axis: *axis, high: *high, period: scene.period(*axis), condition }
 }
 
-/// Refuses a solution in a quadrilateral: solutions are checked in boxes and bodies with a free rim
-/// only.
+/// Refuses a solution for a quadrilateral. The check of solutions is implemented only for boxes and
+/// bodies with a free rim.
 ///
 /// # Errors
 /// A diagnostic at the stated solution.
@@ -278,19 +277,19 @@ fn refuse_truth_of_mapped(
     }
 }
 
-/// The equation of motion of a body of this material, found by the name of the material. Some laws
-/// restrict the motion: J2 needs loading that never reverses, a fluid must be at rest.
+/// The equation of motion for a material, found by the name of the material. Some laws restrict the
+/// motion: J2 needs monotonic loading, and a fluid must be at rest.
 pub(crate) fn equation_of(material: &MaterialPlan) -> Option<Equation> {
     Equation::of_material(material.name(), |key| material.parameter(key))
 }
 
-/// The equation for manufactured forces, or the reason why there is none.
+/// The equation for manufactured forces, or the reason why the law has none.
 fn manufactured_law(material: &MaterialPlan) -> Result<Equation, &'static str> {
     material.properties().depends_on_deformation_alone()?;
     equation_of(material).ok_or("the law has no equation")
 }
 
-/// Name of the law of an FEM bar of this material, if the FEM has it.
+/// Name of the FEM bar's law for a material, if there is one.
 pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
     let name = equation_of(material)?.name();
     BarLaw::find(name).and(EquationName::find(name))
@@ -313,7 +312,7 @@ fn refuse_equilibrium_with(
         let message = format!("`{other}` is a motion, and the suite states an equilibrium besides");
         return Err(evaluator.diagnostic_at_key(&Path::top(other), &message));
     }
-    // Bound without t, so that a formula with t is an error.
+    // Binding the formula without t makes a formula with t an error.
     let d = scene.dimension();
     if let Some(texts) = &state.displacement {
         evaluator.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;
@@ -342,8 +341,8 @@ fn refuse_equilibrium_with(
     }
 }
 
-/// Refuses driven walls and sets: their final positions do not follow from their velocity at the
-/// end.
+/// Refuses walls and sets with prescribed velocity. Their final positions do not follow from their
+/// velocity at the end.
 fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let scene_path = Path::top("scene");
     if let Some(face) = scene.faces.iter().find(|face| face.hold.is_driven()) {
@@ -360,7 +359,7 @@ fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnos
     Ok(())
 }
 
-/// Placeholder for a suite without exact solution: only conserved sums are judged.
+/// Placeholder for a suite without exact solution, in which only conserved sums are judged.
 pub(crate) struct Unknown;
 
 impl Truth for Unknown {
@@ -373,18 +372,18 @@ impl Truth for Unknown {
     }
 }
 
-/// Whether a suite has no exact solution and no reference.
+/// Whether a suite has neither exact solution nor reference.
 pub(crate) fn is_truthless(plan: &ConvergencePlan) -> bool {
     !plan.has_formulas() && plan.reference.is_none() && !is_truth(plan.same_method)
 }
 
-/// Whether the same method can be the only reference of a suite. With shorter steps it only
-/// measures the error of the time step, and needs an exact solution in addition.
+/// Whether a same-method reference is sufficient as the only truth of a suite. With shorter steps,
+/// it measures only the error of the time step, and an exact solution is needed in addition.
 pub(crate) fn is_truth(same_method: Option<SameMethod>) -> bool {
     matches!(same_method, Some(SameMethod::FineGrid(_)))
 }
 
-/// Refuses a suite without exact solution or reference that uses a key which needs one.
+/// Refuses a key that needs a truth, in a suite without exact solution or reference.
 pub(crate) fn refuse_need_of_truth(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

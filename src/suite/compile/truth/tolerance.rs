@@ -1,17 +1,17 @@
-//! Tolerances of stated solutions, and of linearised ones.
+//! Tolerances of exact and linearised solutions.
 
 use crate::exact::{Linearised, Problem, Violation};
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::LinearisedSpec;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Largest relative residual of a closed form: rounding error of second derivatives.
+/// Default tolerance of a closed form (relative residual): rounding of second derivatives.
 pub(crate) const TOLERANCE: f64 = 1e-8;
 
-/// Largest one that a suite may state.
+/// Maximum tolerance that a suite may state.
 const MOST: f64 = 1e-2;
 
-/// The tolerance at `path`, or the default.
+/// The stated tolerance at `path`, or the default.
 pub(crate) fn tolerance(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -27,7 +27,7 @@ pub(crate) fn tolerance(
     Err(evaluator.diagnostic(&path, &message).with_label("expected at most 1e-2"))
 }
 
-/// The residual that a linearised solution at `path` may leave in its law.
+/// The stated residual of the linearised solution at `path`.
 pub(crate) fn linearised(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -40,8 +40,8 @@ pub(crate) fn linearised(
     Ok(Some(Linearised { tolerance, because }))
 }
 
-/// The diagnostic of a violation in `problem`, including the residual of the law if a tolerance is
-/// stated for it, or could be.
+/// The diagnostic about a violation in `problem`. Includes the residual of the law if the suite
+/// states a tolerance for it, or could state one.
 pub(crate) fn violated(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -69,10 +69,10 @@ pub(crate) fn violated(
     }
 }
 
-/// Largest relative residual that may be a matter of rounding or of a series that was cut off.
+/// Maximum relative residual that rounding or a truncated series can explain.
 const ROUNDING: f64 = 1e-5;
 
-/// Advice on how to accept a small violation, for a solution with a `tolerance`.
+/// Advice on accepting a small violation of a solution with this `tolerance`.
 pub(crate) fn if_rounded(violation: &Violation, tolerance: f64) -> String {
     match violation.accepted_by(tolerance) {
         Some(accepted) if accepted <= ROUNDING => format!(
@@ -84,7 +84,7 @@ pub(crate) fn if_rounded(violation: &Violation, tolerance: f64) -> String {
     }
 }
 
-/// The diagnostic of a violation of a solution with a `tolerance`.
+/// The diagnostic about a violation of a solution with this `tolerance`.
 pub(crate) fn no_solution(
     evaluator: &Evaluator<'_>,
     path: &Path,

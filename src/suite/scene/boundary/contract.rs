@@ -1,4 +1,4 @@
-//! Conditions on the faces of a body: the keys in a suite, and the checked condition.
+//! Boundary conditions on the faces of a body: their keys, and the compiled condition.
 
 use crate::dimension::in_every_dimension;
 use crate::exact::Condition;
@@ -9,12 +9,12 @@ use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Keys of a condition on a face, in suites.
+/// Keys of a boundary condition in a suite.
 pub(crate) trait BoundaryKeys {
-    /// The condition, checked, with every number computed.
+    /// Checks the keys and returns the condition with all numbers computed.
     ///
     /// # Errors
-    /// The first error in its keys.
+    /// The first error in the keys.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic>;
 
     /// Whether the face coincides with the opposite one.
@@ -34,11 +34,10 @@ impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
     }
 }
 
-/// Context of the compilation of a condition on a face: its path in the file, and the dimension of
-/// the scene.
+/// Context for compiling a boundary condition: its path in the file, and the scene's dimension.
 pub(crate) struct FaceEntry<'a> {
     pub(crate) evaluator: &'a Evaluator<'a>,
-    /// Path of its value.
+    /// Path of the condition's value.
     pub(crate) path: Path,
     /// Number of space dimensions.
     pub(crate) dimension: usize,
@@ -50,64 +49,64 @@ impl FaceEntry<'_> {
         self.evaluator.formula(path, text, &coordinates_and_time(self.dimension))
     }
 
-    /// One formula of the coordinates and t for each component, at its place.
+    /// One formula of the coordinates and t for each component.
     pub(crate) fn vector(&self, texts: &[NumberText]) -> Result<Vec<Formula>, Diagnostic> {
         let variables = coordinates_and_time(self.dimension);
         self.evaluator.vector(&self.path, texts, self.dimension, &variables)
     }
 }
 
-/// A face of a grid in D dimensions, for which a condition is built.
+/// A face of a D-dimensional grid for which a condition is built.
 pub(crate) struct FaceSite<'a, const D: usize> {
     pub(crate) grid: &'a Grid<D>,
     pub(crate) basis: BasisName,
-    /// Axis of the normal, and the end of that axis.
+    /// Axis of the normal, and which end of that axis.
     pub(crate) at: (usize, Side),
 }
 
-/// A condition of a scene as one of the solver.
+/// Converts a condition of a scene to a condition of the solver.
 pub(crate) trait BuildBoundary<const D: usize> {
-    /// The condition on the nodes of the face at `site`; `None` if they are free.
+    /// The condition on the nodes of the face at `site`; `None` if the nodes are free.
     fn build(&self, _site: &FaceSite<'_, D>) -> Option<Box<dyn Boundary<D>>> {
         None
     }
 }
 
 in_every_dimension! {
-    /// A condition of a scene as one of the solver in any dimension.
+    /// [`BuildBoundary`] for any dimension.
     BuildBoundaries: BuildBoundary
 }
 
-/// Condition on the motion of one face of the body, with every number computed.
+/// Compiled boundary condition on the motion of one face of the body.
 pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
     /// Name in suites.
     fn name(&self) -> &'static str;
 
-    /// Numbers for solvers of other programs; empty for a condition that its name describes.
+    /// Numbers for external solvers; empty if the name describes the condition completely.
     fn numbers(&self) -> LoadNumbers {
         LoadNumbers::default()
     }
 
-    /// Its verb, which follows "the left face" in messages.
+    /// Verb phrase after "the left face" in messages.
     fn verb(&self) -> &'static str;
 
-    /// Value of its row in reports; empty: no row.
+    /// Text for the report row of the face; empty for no row.
     fn row(&self) -> String {
         self.name().to_owned()
     }
 
-    /// If faces share a node, the stronger condition applies: a wall that drives a body does not
-    /// override one that fixes it.
+    /// Priority where faces share a node: the condition with the larger number applies. A face with
+    /// a prescribed velocity does not override a fixed face.
     fn strength(&self) -> u8 {
         0
     }
 
-    /// Whether the face is free and may have a traction.
+    /// Whether the face is free and may carry a traction.
     fn is_free(&self) -> bool {
         false
     }
 
-    /// Whether the face coincides with the opposite one.
+    /// Whether the face coincides with the opposite face.
     fn is_periodic(&self) -> bool {
         false
     }
@@ -122,27 +121,27 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         false
     }
 
-    /// Whether the face cannot move away from the end of the grid.
+    /// Whether the face always stays at the end of the grid.
     fn stays(&self) -> bool {
         false
     }
 
-    /// Whether the motion along the face is prescribed as well as that along its normal.
+    /// Whether the tangential motion is prescribed in addition to the normal motion.
     fn holds_all_components(&self) -> bool {
         false
     }
 
-    /// Whether the reference FEM does not support it.
+    /// Whether the FEM of this crate lacks the condition.
     fn is_lacked_by_fem(&self) -> bool {
         false
     }
 
-    /// Why it cannot be used with several bodies; `None` if it can.
+    /// Why the condition cannot be combined with several bodies; `None` if it can.
     fn against_several_bodies(&self) -> Option<&'static str> {
         None
     }
 
-    /// Why a consistent mass matrix cannot be solved with it; `None` if it can.
+    /// Why the condition cannot be combined with a consistent mass matrix; `None` if it can.
     fn against_consistent_mass(&self) -> Option<&'static str> {
         None
     }

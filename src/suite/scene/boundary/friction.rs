@@ -1,4 +1,4 @@
-//! A wall that presses, does not pull, and resists sliding.
+//! A frictional wall: it resists compression and sliding, but not separation.
 
 use super::contract::{BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry, FaceSite};
 use crate::exact::{Condition, FacePoint, Violation};
@@ -26,7 +26,7 @@ impl BoundaryKeys for FrictionSpec {
     }
 }
 
-/// The coefficient mu.
+/// The friction coefficient mu.
 #[derive(Debug)]
 struct FrictionFace(f64);
 

@@ -1,7 +1,7 @@
-//! Family of the boundary conditions on the faces of a body. A member is one file and one line
-//! below (and a `mod` line), and its condition on nodes is a file in the family of the solver. Two
-//! conditions are not stated in suites: a face without condition is a [`FreeFace`], or a
-//! [`FaceAtRest`] of a body that does not move.
+//! Family of boundary conditions on the faces of a body. A new member needs one file, its `mod`
+//! line and one line below; its condition on grid nodes is a file in the solver's family. Suites
+//! cannot state two of the conditions: a face without condition is a [`FreeFace`], or a
+//! [`FaceAtRest`] if the body does not move.
 
 mod contract;
 mod fixed;
@@ -23,8 +23,8 @@ pub(crate) use unstated::{FaceAtRest, FreeFace};
 /// `/// A wall that presses and does not pull, with a coefficient of friction.`
 /// `Friction = "friction" of friction::FrictionSpec;`
 ///
-/// give a condition its name in suites: the first form for a condition without value, the second
-/// for one with a value. Both types implement the contract of the keys.
+/// define the names of conditions in suites: the first form is for a condition without value, the
+/// second for a condition with a value. Both types implement the trait of the keys.
 macro_rules! conditions {
     ($(#[$family:meta])* $spec:ident: $contract:ident;
      $($(#[$meta:meta])* $member:ident = $text:literal
@@ -38,7 +38,7 @@ macro_rules! conditions {
         }
 
         impl $spec {
-            /// The name, and the keys under it.
+            /// The name of the condition, and its keys.
             pub(crate) fn named(&self) -> (&'static str, &dyn $contract) {
                 match self {
                     $(

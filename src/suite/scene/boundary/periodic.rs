@@ -1,9 +1,9 @@
-//! A face that coincides with the opposite face. The grid is periodic along this axis.
+//! A face that coincides with the opposite face; the grid is periodic along this axis.
 
 use super::contract::{BoundaryCondition, BuildBoundary};
 use crate::exact::{Condition, FacePoint, Violation};
 
-/// The state of the opposite face, one period away.
+/// The face has the state of the opposite face, one period away.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PeriodicFace;
 

@@ -1,10 +1,10 @@
-//! A face that does not move along its normal, and slides freely along itself.
+//! A face without normal motion and with frictionless sliding.
 
 use super::contract::{BoundaryCondition, BuildBoundary, FaceSite};
 use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Roller};
 
-/// u . n = 0, and no traction along the face.
+/// u . n = 0, without tangential traction.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RollerFace;
 

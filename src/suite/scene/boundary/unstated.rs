@@ -1,5 +1,5 @@
-//! Faces that a suite does not name: free, or at rest if the whole body is at rest. No solver
-//! prescribes their motion.
+//! Conditions of faces that a suite does not name: free, or at rest if the whole body is at rest.
+//! No solver prescribes the motion of these faces.
 
 use super::contract::{BoundaryCondition, BuildBoundary};
 use super::fixed::FixedFace;

@@ -1,4 +1,4 @@
-//! Artificial viscosity: a pressure against compression, for shocks.
+//! Artificial viscosity: a pressure that resists compression, for shocks.
 
 use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
@@ -55,7 +55,7 @@ impl LoadKeys for ViscositySpec {
     }
 }
 
-/// Coefficients of the linear and of the quadratic term, and the wave speed at rest (m/s).
+/// Coefficients of the linear and the quadratic term, and the wave speed at rest (m/s).
 #[derive(Debug)]
 struct ViscosityLoad {
     linear: f64,
@@ -63,7 +63,7 @@ struct ViscosityLoad {
     speed: f64,
 }
 
-/// An error of the method, not a part of the problem.
+/// No term of the equation of motion: artificial viscosity belongs to the method.
 impl Term for ViscosityLoad {}
 
 impl SceneLoad for ViscosityLoad {

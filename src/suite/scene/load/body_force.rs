@@ -1,4 +1,4 @@
-//! A stated force per unit mass that depends on place, time and displacement.
+//! A stated force per unit mass, which may depend on position, time and displacement.
 
 use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
@@ -9,7 +9,7 @@ use crate::suite::scene::numbers::{LoadNumbers, of_displacement, of_place_and_ti
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Maximum number of operations, with sums unrolled, of a formula that is split for its places.
+/// Maximum number of operations (sums unrolled) of a formula that is precomputed per position.
 const MOST_OPERATIONS: u64 = 5000;
 
 /// Force per unit mass (m/s2), formulas of the coordinates, t and the displacement.
@@ -29,13 +29,13 @@ impl LoadKeys for BodyForceSpec {
     }
 }
 
-/// Force per unit mass (m/s2), one formula of the coordinates, t and, if one of them names it, the
-/// displacement for each component.
+/// Force per unit mass (m/s2), one formula for each component. Variables are the coordinates and t,
+/// and the displacement if one of the formulas uses it.
 #[derive(Debug)]
 struct BodyForceLoad(Vec<Formula>);
 
 impl BodyForceLoad {
-    /// The force as a function of the displacement of each particle, in D dimensions.
+    /// The force in D dimensions as a function of the particle displacements.
     fn of_displacement<const D: usize>(&self, particles: &Particles<D>) -> BodyForce<D> {
         let formulas = self.0.clone();
         let force = BodyForce::new(Box::new(move |t, particles: &Particles<D>, b| {
@@ -49,8 +49,8 @@ impl BodyForceLoad {
         force.with_stiffness(self.stiffness(particles))
     }
 
-    /// A bound on the largest eigenvalue (1/s2) of the symmetric part of -db/du among `particles`
-    /// at the start, by Gershgorin's circles.
+    /// Upper bound on the largest eigenvalue (1/s2) of the symmetric part of -db/du, over all
+    /// `particles` at the start. Computed from Gershgorin circles.
     fn stiffness<const D: usize>(&self, particles: &Particles<D>) -> f64 {
         let of = |label: &Vector<D>, x: &Vector<D>| {
             let u = space(&(x - label));
@@ -69,7 +69,7 @@ impl BodyForceLoad {
     }
 }
 
-/// A vector with zeros beyond its dimension.
+/// The vector, padded with zeros to three components.
 fn space<const D: usize>(vector: &Vector<D>) -> [f64; 3] {
     std::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0))
 }
@@ -100,7 +100,7 @@ impl SceneLoad for BodyForceLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for BodyForceLoad {
-    /// The formula of a force may be too long to be split.
+    /// Formulas above the maximum number of operations are evaluated without precomputation.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         if self.depends_on_displacement() {
             return Ok(Box::new(self.of_displacement(site.particles)));

@@ -1,4 +1,4 @@
-//! Contract of the family of loads, whose members are next to this file.
+//! Traits of loads. The implementations are in the other files of this folder.
 
 use crate::dimension::in_every_dimension;
 use crate::exact::heat::Conduction;
@@ -13,7 +13,7 @@ use crate::suite::scene::numbers::LoadNumbers;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// Declares the names of the loads and effects, from the lines of [`each_effect`](crate::members).
+/// Declares the effect names, from the lines of [`each_effect`](crate::members).
 macro_rules! names {
     ($(
         $(#[$meta:meta])*
@@ -22,7 +22,7 @@ macro_rules! names {
         $(, needs [$($need:ident),+])?;
     )+) => {
         named! {
-            /// Names of the loads and effects in suites. Those on the same part of a scene are
+            /// Names of loads and effects in suites. Effects on the same part of a scene are
             /// applied in this order.
             pub enum EffectName {
                 $($(#[$meta])* $member = $text,)+
@@ -30,7 +30,7 @@ macro_rules! names {
         }
 
         impl EffectName {
-            /// The effects that this one requires.
+            /// The effects that this effect requires.
             pub fn needs(self) -> &'static [Self] {
                 match self {
                     $(Self::$member => &[$($(Self::$need),+)?],)+
@@ -43,10 +43,10 @@ macro_rules! names {
 each_effect!(names);
 
 impl EffectName {
-    /// Refuses a list of effects if one needs another that is missing.
+    /// Refuses a list in which an effect lacks another effect that it requires.
     ///
     /// # Errors
-    /// The effect that is at fault, and one line that names both.
+    /// The effect whose requirement is missing, and a message that names both.
     pub fn combine(listed: &[Self]) -> Result<(), (Self, String)> {
         for &effect in listed {
             if let Some(needed) = effect.needs().iter().find(|needed| !listed.contains(needed)) {
@@ -58,21 +58,21 @@ impl EffectName {
     }
 }
 
-/// Part of the scene that a load acts on. Solvers apply loads in this order.
+/// Part of the scene on which a load acts. Solvers apply loads in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum LoadTarget {
     /// The whole body.
     Body,
-    /// A face, by its number.
+    /// A face, given by its number.
     Face(usize),
-    /// A rim of a round body, by its number in [`Outline::rims`](crate::exact::Outline::rims).
+    /// A rim of a round body, given by its index in [`Outline::rims`](crate::exact::Outline::rims).
     Rim(usize),
-    /// A set of particles, by its number.
+    /// A particle set, given by its index.
     Set(usize),
 }
 
 impl LoadTarget {
-    /// The number of the face, if the load acts on a face.
+    /// Number of the face; `None` if the load does not act on a face.
     pub(crate) fn face(self) -> Option<usize> {
         match self {
             Self::Face(number) => Some(number),
@@ -81,22 +81,22 @@ impl LoadTarget {
     }
 }
 
-/// A body in D dimensions, for which effects are built.
+/// A D-dimensional body for which effects are built.
 pub(crate) struct BodySite<'a, const D: usize> {
     pub(crate) grid: &'a Grid<D>,
     pub(crate) basis: BasisName,
-    /// The heat problem that the temperature solves.
+    /// The heat problem that the exact temperature solves.
     pub(crate) heat: Option<&'a Conduction>,
     pub(crate) particles: &'a mut Particles<D>,
 }
 
-/// Reason why a load has no effect on a body.
+/// Reason why the effect of a load cannot be built.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum BuildError {
-    /// The set with this name is empty.
+    /// The named set is empty.
     #[error("the set `{0}` holds no particle")]
     EmptySet(String),
-    /// No solver has this number of dimensions.
+    /// The solver does not support this number of dimensions.
     #[error("there is no MPM in {0} dimensions")]
     Dimension(usize),
 }
@@ -107,28 +107,28 @@ impl From<BuildError> for SubjectError {
     }
 }
 
-/// A load as an effect of the solver.
+/// Converts a load to an effect of the solver.
 pub(crate) trait BuildEffect<const D: usize> {
     /// The effect on the body at `site`.
     ///
     /// # Errors
-    /// The reason why there is none.
+    /// The reason why the effect cannot be built.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError>;
 }
 
 in_every_dimension! {
-    /// A load as an effect of the solver in any dimension.
+    /// [`BuildEffect`] for any dimension.
     BuildEffects: BuildEffect
 }
 
-/// A load or effect that a scene lists, with every number computed.
+/// A load or effect of a scene, with all numbers computed.
 pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
-    /// Part of the scene on which it acts.
+    /// Part of the scene on which the load acts.
     fn target(&self) -> LoadTarget {
         LoadTarget::Body
     }
 
-    /// Numbers for external solvers; empty for a load that cannot be passed to them.
+    /// Numbers for external solvers; empty if the load cannot be passed to them.
     fn numbers(&self) -> LoadNumbers {
         LoadNumbers::default()
     }
@@ -136,35 +136,35 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
     /// Rows of name and value for reports.
     fn rows(&self) -> Vec<(String, String)>;
 
-    /// The boundary condition of the exact solution on the face of the load.
+    /// The boundary condition of the exact solution that the load imposes on its face.
     fn condition(self: Arc<Self>) -> Option<Arc<dyn Condition>> {
         None
     }
 
-    /// Tension (Pa) that the load puts on the end `x` (m) of a bar, a function of t; `outwards` is
-    /// the sign of the end's outward normal.
+    /// Tension (Pa) as a function of t that the load applies to the end of a bar at `x` (m).
+    /// `outwards` is the sign of the outward normal.
     fn tension(&self, _x: f64, _outwards: f64) -> Option<TimeFunction> {
         None
     }
 
-    /// Force per reference area (Pa) on the undeformed face at the coordinates and the time that
-    /// `values` are; empty of a load on no face.
+    /// Force per reference area (Pa) on the undeformed face, for `values` of the coordinates and t.
+    /// Empty if the load does not act on a face.
     fn traction(&self, _values: &[f64]) -> Vec<f64> {
         Vec::new()
     }
 
-    /// The conduction; `None` for other loads.
+    /// The heat conduction; `None` for other loads.
     fn heat(&self) -> Option<&SceneHeat> {
         None
     }
 
-    /// Whether it sets a body in motion that rests without stress, or damps its motion.
+    /// Whether the load moves a stress-free body at rest, or damps its motion.
     fn disturbs_rest(&self) -> bool {
         true
     }
 }
 
-/// A load that a scene lists, and its name.
+/// A load of a scene, with its name.
 #[derive(Debug, Clone)]
 pub(crate) struct ListedLoad {
     pub(crate) effect: EffectName,
@@ -179,10 +179,10 @@ impl Deref for ListedLoad {
     }
 }
 
-/// The effect of `load` in D dimensions.
+/// Builds the effect of `load` in D dimensions.
 ///
 /// # Errors
-/// The reason why there is none.
+/// The reason why the effect cannot be built.
 pub(crate) fn build<const D: usize>(
     load: &ListedLoad,
     site: &mut BodySite<'_, D>,

@@ -1,4 +1,4 @@
-//! Damping in proportion to mass: velocities decay at a rate.
+//! Mass-proportional damping: velocities decay at a given rate.
 
 use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, StudyFacts};
@@ -10,7 +10,7 @@ use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Times of a run at which the sign of the rate is checked.
+/// Number of times during a run at which the sign of the rate is checked.
 const TIMES: u32 = 1000;
 
 /// Rate (1/s) at which velocities decay, a formula of t.
@@ -29,7 +29,7 @@ impl LoadKeys for DampingSpec {
         Ok(Arc::new(DampingLoad(entry.evaluator.formula(&entry.path, &self.0, &["t"])?)))
     }
 
-    /// The rate is never negative.
+    /// Refuses a rate that becomes negative.
     fn check(&self, entry: &LoadEntry<'_>, study: &StudyFacts) -> Result<(), Diagnostic> {
         let LoadEntry { evaluator, path, .. } = entry;
         let rate = evaluator.formula(path, &self.0, &["t"])?;
@@ -51,7 +51,7 @@ impl LoadKeys for DampingSpec {
     }
 }
 
-/// The rate alpha(t) (1/s).
+/// The damping rate alpha(t) (1/s).
 #[derive(Debug)]
 struct DampingLoad(Formula);
 

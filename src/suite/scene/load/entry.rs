@@ -1,4 +1,4 @@
-//! The keys of a load, and the part of a suite that they are compiled with.
+//! The keys of a load, and the context in which they are compiled.
 
 use super::contract::{BuildError, EffectName, LoadTarget, SceneLoad};
 use crate::exact::formula::{Expr, Formula};
@@ -11,9 +11,9 @@ use crate::suite::scene::face::face;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Facts of a convergence study that a load is checked against.
+/// Facts about a convergence study against which a load is checked.
 pub(crate) struct StudyFacts {
-    /// Whether a force is manufactured.
+    /// Whether the body force is manufactured.
     pub(crate) manufactured: bool,
     /// End of the longest run (s).
     pub(crate) until: f64,
@@ -21,63 +21,62 @@ pub(crate) struct StudyFacts {
 
 /// Keys of a load: one entry of `loads`.
 pub(crate) trait LoadKeys {
-    /// Example of the keys of a load with strength `s` (zero: no effect) and the vector value
-    /// `vector`, on the face `right` or the set `some`. The laws of the family test it.
+    /// Example YAML for a load of strength `s` (zero: no effect) with vector value `vector`, on the
+    /// face `right` or the set `some`. Used by tests of the load family.
     fn example(vector: &str) -> String
     where
         Self: Sized;
 
-    /// The load, checked, with every number computed.
+    /// Checks the keys and returns the load with all numbers computed.
     ///
     /// # Errors
-    /// The first error in its keys.
+    /// The first error in the keys.
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic>;
 
-    /// Refuses a convergence study that the load does not go with.
+    /// Refuses a convergence study that does not support the load.
     ///
     /// # Errors
-    /// The first such part of the study.
+    /// A diagnostic about the unsupported part of the study.
     fn check(&self, _: &LoadEntry<'_>, _: &StudyFacts) -> Result<(), Diagnostic> {
         Ok(())
     }
 
-    /// The name of the part that the reference FEM does not support.
+    /// Name of the feature that the FEM of this crate lacks, if it lacks the load.
     fn lacked_by_fem(&self) -> Option<&'static str> {
         None
     }
 
-    /// Why the load is invalid in a body with this state across its plane; `None` if it is valid.
+    /// Why the load is invalid for this plane state; `None` if it is valid.
     fn against_plane(&self, _: PlaneState) -> Option<&'static str> {
         None
     }
 
-    /// The name of the face that the load acts on.
+    /// Name of the face on which the load acts.
     fn face(&self) -> Option<&str> {
         None
     }
 
-    /// Whether a rim of a disk or an annulus can take the place of the face.
+    /// Whether the load may act on a rim of a disk or an annulus instead of a face.
     fn acts_on_rims(&self) -> bool {
         false
     }
 
-    /// Whether the load needs a scene with a single body.
+    /// Whether the load requires a scene with a single body.
     fn is_of_one_body(&self) -> bool {
         self.face().is_some()
     }
 
-    /// Whether the load is valid in a body that does not move.
+    /// Whether the load is valid for a body that does not move.
     fn acts_at_rest(&self) -> bool {
         false
     }
 }
 
-/// Context of the compilation of a load: its path in the file, and the scene with the previous
-/// loads.
+/// Context for compiling a load: its path in the file, and the scene with the previous loads.
 pub(crate) struct LoadEntry<'a> {
     pub(crate) evaluator: &'a Evaluator<'a>,
     pub(crate) effect: EffectName,
-    /// Path of its value.
+    /// Path of the load's value.
     pub(crate) path: Path,
     pub(crate) scene: &'a Scene,
 }
@@ -88,7 +87,7 @@ impl LoadEntry<'_> {
         self.scene.dimension()
     }
 
-    /// Refuses a second load of the same kind, which messages call `title`.
+    /// Refuses a second load of the same kind; `title` is the name in messages.
     pub(crate) fn refuse_second(&self, title: &str) -> Result<(), Diagnostic> {
         if self.scene.lists(self.effect) {
             return Err(self.evaluator.diagnostic(&self.path, &format!("{title} appears twice")));
@@ -115,8 +114,8 @@ impl LoadEntry<'_> {
         self.evaluator.vector(path, texts, d, &coordinates_and_time(d))
     }
 
-    /// One formula of the coordinates, t and, if one of them names it, the displacement for each
-    /// component.
+    /// One formula for each component. Variables are the coordinates and t, and the displacement if
+    /// one of the formulas uses it.
     pub(crate) fn of_displacement(
         &self,
         path: &Path,
@@ -137,7 +136,7 @@ impl LoadEntry<'_> {
         self.evaluator.formula(path, text, &coordinates_and_time(self.dimension()))
     }
 
-    /// The free face named `name`, for a load.
+    /// The face called `name`, which must be free.
     pub(crate) fn free_face(&self, name: &str) -> Result<LoadedFace, Diagnostic> {
         let Self { evaluator, scene, .. } = self;
         let path = self.path.then("on");
@@ -153,7 +152,7 @@ impl LoadEntry<'_> {
         Err(evaluator.diagnostic(&path, &format!("the face `{name}` {has}")))
     }
 
-    /// The rim called `name` of a body without faces, which is free and takes the load.
+    /// The rim called `name` of a body without faces, which must be free.
     pub(crate) fn free_rim(&self, name: &str) -> Result<Circle, Diagnostic> {
         let Self { evaluator, scene, .. } = self;
         let path = self.path.then("on");
@@ -172,7 +171,7 @@ impl LoadEntry<'_> {
         }
     }
 
-    /// The set named `name`, which has no load yet.
+    /// The set called `name`, which must not carry another load.
     pub(crate) fn free_set(&self, name: &str) -> Result<LoadedSet, Diagnostic> {
         let path = self.path.then("on");
         let number = set_number(self.evaluator, &path, name, &self.scene.sets)?;
@@ -186,16 +185,16 @@ impl LoadEntry<'_> {
     }
 }
 
-/// A face that carries a load.
+/// A face on which a load acts.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LoadedFace {
-    /// Low and high, axis by axis.
+    /// Index in axis order, the low face of each axis before the high face.
     pub(crate) number: usize,
     pub(crate) name: &'static str,
 }
 
 impl LoadedFace {
-    /// The load that it carries, as a row for reports.
+    /// Report row for the load on this face.
     pub(crate) fn row(self, load: &str, placement: Placement) -> (String, String) {
         let place = match placement {
             Placement::Particles => "",
@@ -204,32 +203,32 @@ impl LoadedFace {
         (self.name.to_owned(), format!("{load}{place}"))
     }
 
-    /// The axis of its normal, and the end of that axis.
+    /// Axis of the normal, and which end of that axis.
     pub(crate) fn place(self) -> (usize, Side) {
         (self.number / 2, if self.number % 2 == 1 { Side::High } else { Side::Low })
     }
 }
 
-/// A set of particles that carries a load.
+/// A particle set on which a load acts.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadedSet {
-    /// In the order of the suite.
+    /// Index in the order of the suite.
     pub(crate) number: usize,
     pub(crate) region: Region,
 }
 
 impl LoadedSet {
-    /// The set and its load, as a row for reports.
+    /// Report row for the load on this set.
     pub(crate) fn row(&self, load: &str) -> (String, String) {
         let Region { name, from, to } = &self.region;
         let corner = |c: &[f64]| c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
         (format!("set {name}"), format!("({}) to ({}) m, {load}", corner(from), corner(to)))
     }
 
-    /// The particles of the set.
+    /// Indices of the particles in the set.
     ///
     /// # Errors
-    /// [`BuildError::EmptySet`] if there are no particles in the set.
+    /// [`BuildError::EmptySet`] if the set contains no particles.
     pub(crate) fn members<const D: usize>(
         &self,
         particles: &Particles<D>,
@@ -243,7 +242,7 @@ impl LoadedSet {
     }
 }
 
-/// Tractions and pressures are forces per area, which a set does not have.
+/// Refuses tractions and pressures on a set: they are forces per area, and a set has no area.
 fn refuse_surface_load(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -259,7 +258,7 @@ fn refuse_surface_load(
     Err(evaluator.diagnostic(path, &message).with_help(&help))
 }
 
-/// Number of the set that a suite calls `name`.
+/// Index of the set called `name`.
 fn set_number(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,4 +1,4 @@
-//! Conduction of heat.
+//! Heat conduction.
 
 use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
@@ -20,7 +20,7 @@ use crate::suite::scene::face::face;
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use std::sync::Arc;
 
-/// Name of the temperature in a source.
+/// Name of the temperature in the formula of a source.
 const TEMPERATURE: &str = "T";
 
 /// Conduction of heat, and the conditions on the faces.
@@ -83,7 +83,7 @@ impl LoadKeys for HeatSpec {
     }
 }
 
-/// The source. A suite may declare a name `T`, unless the source uses `T`.
+/// The heat source. A suite may declare a name `T`, unless the source uses `T`.
 fn source(entry: &LoadEntry<'_>, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
     let evaluator = entry.evaluator;
     let mut variables = coordinates_and_time(entry.dimension());
@@ -96,7 +96,7 @@ fn source(entry: &LoadEntry<'_>, path: &Path, text: &NumberText) -> Result<Formu
     evaluator.formula(path, text, &variables)
 }
 
-/// No force.
+/// Heat conduction adds no force.
 impl Term for SceneHeat {}
 
 impl SceneLoad for SceneHeat {
@@ -122,7 +122,7 @@ impl SceneLoad for SceneHeat {
 }
 
 impl<const D: usize> BuildEffect<D> for SceneHeat {
-    /// Also sets the temperature of the particles.
+    /// Also initialises the particle temperatures.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let start = initial::<D>(site.heat, self.initial.as_ref());
         let heat = Heat::new(self.conductivity, self.capacity, site.particles, |x0| {
@@ -140,7 +140,7 @@ impl<const D: usize> BuildEffect<D> for SceneHeat {
     }
 }
 
-/// The initial temperature: that of the scene, or else of the exact solution.
+/// The initial temperature: stated in the scene, otherwise from the exact solution.
 fn initial<const D: usize>(
     problem: Option<&Conduction>,
     stated: Option<&Formula>,
@@ -154,7 +154,7 @@ fn initial<const D: usize>(
     }
 }
 
-/// The source as stated in the scene.
+/// The heat source that the scene states.
 fn stated<const D: usize>(formula: &Formula) -> HeatSource<D> {
     let formula = formula.clone();
     Box::new(move |t, particles, into| {
@@ -165,13 +165,13 @@ fn stated<const D: usize>(formula: &Formula) -> HeatSource<D> {
     })
 }
 
-/// The source that follows from the temperature.
+/// The heat source computed from the stated temperature.
 fn manufactured<const D: usize>(made: &Conduction, particles: &Particles<D>) -> HeatSource<D> {
     let mut forcing = HeatForcing::new(made, particles.x0.iter().map(Vector::as_slice));
     Box::new(move |t, _, into| forcing.at(t, into))
 }
 
-/// Every face of the body; a face that the keys do not name is insulated.
+/// All faces of the body; faces that the keys do not name are insulated.
 fn faces(
     entry: &LoadEntry<'_>,
     spec: &Ordered<ThermalSpec>,
@@ -197,8 +197,8 @@ fn faces(
     Ok(faces)
 }
 
-/// Temperatures and heat fluxes are prescribed at the nodes on the face of the grid: the body must
-/// end there, and not move away.
+/// Refuses faces on which a temperature or heat flux cannot be prescribed. The condition applies to
+/// the nodes on the grid face, so the body must end there and stay there.
 fn on_grid(
     entry: &LoadEntry<'_>,
     path: &Path,
@@ -218,7 +218,7 @@ fn on_grid(
     Err(diagnostic.with_help("hold it (`fixed` or `roller`), or leave it insulated"))
 }
 
-/// The conditions for the solver.
+/// The thermal conditions for the solver.
 fn build_faces<const D: usize>(
     faces: &[ThermalFace],
     site: &BodySite<'_, D>,

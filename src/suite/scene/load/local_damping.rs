@@ -1,4 +1,4 @@
-//! Local damping: a share of the force out of balance, against the motion.
+//! Local damping: opposes the motion with a share of the unbalanced force.
 
 use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, StudyFacts};
@@ -31,7 +31,7 @@ impl LoadKeys for LocalDampingSpec {
         Ok(Arc::new(LocalDampingLoad(share)))
     }
 
-    /// It would oppose a manufactured force too.
+    /// Refuses a manufactured force, which local damping would oppose as well.
     fn check(&self, entry: &LoadEntry<'_>, study: &StudyFacts) -> Result<(), Diagnostic> {
         if !study.manufactured {
             return Ok(());
@@ -46,7 +46,7 @@ impl LoadKeys for LocalDampingSpec {
     }
 }
 
-/// The share zeta.
+/// The damping share zeta.
 #[derive(Debug)]
 struct LocalDampingLoad(f64);
 

@@ -1,5 +1,6 @@
-//! Family of the loads and effects of a scene. A member is one file and one line of `members`. An
-//! effect that no other one covers also has a file in the family of the solver.
+//! Family of loads and effects of a scene. A new member needs one file and one line of `members`.
+//! If the solver has no corresponding effect yet, the member also needs a file in the solver's
+//! family.
 
 mod contract;
 mod entry;
@@ -13,8 +14,8 @@ use crate::suite::evaluator::Evaluator;
 use crate::suite::scene::Scene;
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Declares the family of loads, from the lines of [`each_effect`](crate::members). The type of the
-/// keys implements [`LoadKeys`].
+/// Declares the load family from the lines of [`each_effect`](crate::members). The type of the keys
+/// implements [`LoadKeys`].
 macro_rules! loads {
     ($(
         $(#[$meta:meta])*
@@ -32,8 +33,8 @@ macro_rules! loads {
         }
 
         impl EffectName {
-            /// An entry of `loads` with this effect, of strength `s`, on a body in `dimension`
-            /// dimensions: on its face `right` or its set `some`, if not on the whole body.
+            /// Example entry of `loads` with this effect and strength `s`, in `dimension`
+            /// dimensions. The load acts on the whole body, the face `right` or the set `some`.
             pub fn example(self, dimension: usize) -> String {
                 let vector = vec!["s*(1 + t)"; dimension].join(", ");
                 let vector = format!("[{vector}]");
@@ -52,7 +53,7 @@ macro_rules! loads {
                 }
             }
 
-            /// The keys under its name.
+            /// The keys of the entry.
             pub(crate) fn keys(&self) -> &dyn LoadKeys {
                 match self {
                     $(Self::$member(keys) => keys,)+
@@ -65,13 +66,13 @@ macro_rules! loads {
 each_effect!(loads);
 
 impl LoadSpec {
-    /// Path of the value of the entry with this `number` in the list of loads.
+    /// Path of the value of the entry with this `number` in `loads`.
     pub(crate) fn path(&self, number: usize) -> Path {
         Path::top("scene").then("loads").then(number).then(self.effect().name())
     }
 }
 
-/// Refuses effects without those that they require.
+/// Refuses effects whose required effects are missing.
 fn refuse_incomplete(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<(), Diagnostic> {
     let listed: Vec<EffectName> = loads.iter().map(LoadSpec::effect).collect();
     EffectName::combine(&listed).map_err(|(effect, message)| {
@@ -80,7 +81,7 @@ fn refuse_incomplete(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<()
     })
 }
 
-/// Adds the loads to a scene without loads, in the order in which solvers apply them.
+/// Adds the loads to a scene that has none, in the order in which solvers apply them.
 pub(crate) fn add(
     evaluator: &Evaluator<'_>,
     spec: &[LoadSpec],

@@ -1,4 +1,4 @@
-//! A pressure on a face of a box or a rim of a round body, which follows it.
+//! A pressure on a face of a box or a rim of a round body. The pressure follows the surface.
 
 use super::contract::{BodySite, BuildEffect, BuildError, LoadTarget, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, LoadedFace};
@@ -27,7 +27,7 @@ pub(crate) struct PressureSpec {
     at: Option<Placement>,
 }
 
-/// Part of the surface under pressure.
+/// Part of the surface on which the pressure acts.
 #[derive(Debug)]
 enum PressedPart {
     Face(LoadedFace, Placement),
@@ -63,7 +63,7 @@ impl LoadKeys for PressureSpec {
     }
 }
 
-/// A pressure (Pa, per present area), a formula of the coordinates and t.
+/// A pressure (Pa, per current area), a formula of the coordinates and t.
 #[derive(Debug)]
 struct PressureLoad {
     site: PressedPart,
@@ -79,7 +79,7 @@ impl Term for PressureLoad {
     }
 }
 
-/// `P n = -p J F^-T n`: it is normal to the moving face.
+/// `P n = -p J F^-T n`: normal to the deformed surface.
 impl Condition for PressureLoad {
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
         let (p, area) = (point.value(&self.value), point.present_area());
@@ -120,7 +120,7 @@ impl SceneLoad for PressureLoad {
         (0..values.len() - 1).map(component).collect()
     }
 
-    /// In uniaxial strain the area of a face is constant, so a pressure is a traction.
+    /// In uniaxial strain the area of a face is constant, so the pressure equals a traction.
     fn tension(&self, x: f64, _: f64) -> Option<TimeFunction> {
         let value = self.value.clone();
         Some(Box::new(move |t| -value.eval(&[x, t])))

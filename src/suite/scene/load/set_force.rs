@@ -34,7 +34,7 @@ impl LoadKeys for SetForceSpec {
         Ok(Arc::new(SetForceLoad {
             value: entry.of_time(&entry.path.then("value"), &self.value)?,
             volume,
-            // A varying density is refused, see `compile::scene::density`.
+            // A varying density is refused in `compile::scene::density`.
             density: scene.density.largest(),
             set,
         }))
@@ -46,18 +46,18 @@ impl LoadKeys for SetForceSpec {
     }
 }
 
-/// A total force (N, per m^(3-D) of thickness), one formula of t for each component.
+/// Total force on the set (N, per m^(3-D) of thickness), one formula of t for each component.
 #[derive(Debug)]
 struct SetForceLoad {
     set: LoadedSet,
     value: Vec<Formula>,
-    /// Volume of the set in the body (m^D).
+    /// Volume of the set within the body (m^D).
     volume: f64,
     /// Density of the body (kg/m3).
     density: f64,
 }
 
-/// A force f on a part of volume V is a body force `f/(rho0 V)` inside and zero outside.
+/// A force f on a set of volume V is a body force `f/(rho0 V)` inside the set and zero outside.
 impl Term for SetForceLoad {
     fn stated(&self, i: usize, label: &[f64], t: f64, _: &[f64; 3]) -> f64 {
         if !self.set.region.holds(label) {

@@ -33,7 +33,7 @@ impl LoadKeys for SetVelocitySpec {
     }
 }
 
-/// A velocity (m/s), one formula of the coordinates and t for each component.
+/// Velocity of the set (m/s), one formula of the coordinates and t for each component.
 #[derive(Debug)]
 struct SetVelocityLoad {
     set: LoadedSet,

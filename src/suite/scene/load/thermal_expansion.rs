@@ -45,11 +45,11 @@ impl LoadKeys for ExpansionSpec {
     }
 }
 
-/// Young's modulus (Pa) and Poisson's ratio of a law in rate form; `None` for a law of the total
-/// deformation.
+/// Young's modulus (Pa) and Poisson's ratio if the law is in rate form; `None` if the law depends
+/// on the total deformation.
 ///
 /// # Errors
-/// A diagnostic of a material without thermal stress in the dimension of the scene.
+/// A diagnostic if the material supports no thermal stress in the dimension of the scene.
 fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
     let LoadEntry { evaluator, path, scene, .. } = entry;
     let (name, d) = (scene.material.name(), scene.dimension());
@@ -75,7 +75,7 @@ fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
     Ok(None)
 }
 
-/// The expansion, and Young's modulus (Pa) and Poisson's ratio of a law in rate form.
+/// The expansion; and for a law in rate form, Young's modulus (Pa) and Poisson's ratio.
 #[derive(Debug)]
 struct ExpansionLoad(Expansion, Option<(f64, f64)>);
 

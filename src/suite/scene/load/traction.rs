@@ -44,7 +44,7 @@ impl LoadKeys for TractionSpec {
     }
 }
 
-/// A traction (Pa, per reference area), one formula of the coordinates and t for each component.
+/// Traction (Pa, per reference area), one formula of the coordinates and t for each component.
 #[derive(Debug)]
 struct TractionLoad {
     face: LoadedFace,

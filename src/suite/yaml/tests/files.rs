@@ -55,7 +55,7 @@ fn a_folder() {
     assert_eq!(diagnostic.help(), Some("name a file in it"));
 }
 
-/// Nobody will ever write to it, and opening it would wait for that.
+/// Opening a named pipe without a writer would block.
 #[cfg(unix)]
 #[test]
 fn a_named_pipe() {

@@ -1,4 +1,4 @@
-//! Correct input is read as intended, and located again.
+//! Tests that valid input is parsed as intended and located correctly.
 
 use super::sample::{Basis, Load, Material, Method, SAMPLE, Scheme, Suite};
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered, Source, Step, read};

@@ -1,4 +1,4 @@
-//! Malicious files, and files that are harmful by accident.
+//! Tests of malicious and accidentally harmful files.
 
 use super::sample::{SAMPLE, Suite};
 use crate::suite::yaml::{Diagnostic, Source, read};
@@ -55,7 +55,7 @@ fn is_refused_at_once(#[case] yaml: String, #[case] message: &str) {
         assert!(!shown.contains(['\u{1b}', '\r']));
         start.elapsed()
     };
-    // One that is slow is slow each time; a busy machine is not.
+    // A slow refusal is slow in every run; delays by other processes are not.
     let is_quick = (0..20).any(|_| refuse() < Duration::from_millis(100));
     assert!(is_quick, "took a tenth of a second, twenty times");
 }

@@ -1,4 +1,4 @@
-//! One mistake at a time in the sample: its place, message and advice.
+//! Tests of single mistakes in the sample: position, message and advice.
 
 use super::sample::{SAMPLE, Suite};
 use crate::suite::yaml::{Diagnostic, OneOrMany, Ordered, Source, read, refuse};
@@ -134,7 +134,7 @@ impl<'de> Deserialize<'de> for Even {
 fn refusals_of_other_types_arrive_whole() {
     let diagnostic = wrong::<Ordered<Even>>("{a: 2, b c: 3}");
     assert_eq!(diagnostic.label(), Some("an even number"));
-    // An error raised after a value was read is located at the map or list around it.
+    // An error that is raised after parsing a value is located at the enclosing map or list.
     assert_eq!((diagnostic.message(), diagnostic.help()), ("odd: no", Some("add one")));
     assert_eq!(wrong::<Ordered<Even>>("a: 7").message(), "seven: a lucky one");
 }

@@ -1,4 +1,4 @@
-//! Tests of reading a typical suite, and of mistakes in it.
+//! Tests of the YAML reader with a typical suite, and with mistakes in it.
 
 pub(crate) mod files;
 pub(crate) mod good;

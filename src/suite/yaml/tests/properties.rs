@@ -1,11 +1,11 @@
-//! For any text: no panic, and printable diagnostics.
+//! Property tests: no text causes a panic, and diagnostics are printable.
 
 use super::sample::{SAMPLE, Suite};
 use crate::suite::yaml::{Source, Step, read};
 use proptest::prelude::*;
 use serde_yaml::Value;
 
-/// Reads a text as every type, and prints the results.
+/// Parses a text as several types, and prints the results.
 fn survives(text: &str) {
     let outcome = Source::from_text("any.yaml", text).and_then(|source| {
         source.value_at(&["suite".into()]);
@@ -20,7 +20,7 @@ fn survives(text: &str) {
     }
 }
 
-/// Text made of characters with a meaning in YAML.
+/// Text of characters that have a meaning in YAML.
 fn yaml_like() -> impl Strategy<Value = String> {
     let token = prop_oneof![
         8 => prop::sample::select(vec![
@@ -33,7 +33,7 @@ fn yaml_like() -> impl Strategy<Value = String> {
     prop::collection::vec(token, 0..40).prop_map(|tokens| tokens.concat())
 }
 
-/// The sample with a few stretches replaced.
+/// The sample with a few ranges replaced.
 fn mutated() -> impl Strategy<Value = String> {
     let change = (any::<prop::sample::Index>(), 0usize..6, yaml_like());
     prop::collection::vec(change, 1..4).prop_map(|changes| {
@@ -47,7 +47,7 @@ fn mutated() -> impl Strategy<Value = String> {
     })
 }
 
-/// The paths of all scalars that are not empty.
+/// The paths of all non-empty scalars.
 fn paths(value: &Value, path: &mut Vec<Step>, all: &mut Vec<Vec<Step>>) {
     match value {
         Value::Mapping(map) => {
@@ -70,7 +70,7 @@ fn paths(value: &Value, path: &mut Vec<Step>, all: &mut Vec<Vec<Step>>) {
     }
 }
 
-/// YAML that the reader refuses.
+/// Whether the message is about valid YAML that suites may not use.
 fn refused_on_purpose(message: &str) -> bool {
     ["not supported", "second document", "not allowed", "tab used"]
         .iter()
@@ -95,14 +95,14 @@ proptest! {
         survives(&text);
     }
 
-    /// The scan agrees with the parser: it refuses only what it is meant to refuse, and finds every
+    /// The scan agrees with the parser: it refuses only unsupported features, and finds every
     /// scalar that the parser finds.
     #[test]
     fn the_scan_agrees_with_the_parser(text in prop_oneof![yaml_like(), mutated()]) {
         if let Ok(value) = serde_yaml::from_str::<Value>(&text) {
             match Source::from_text("any.yaml", text.as_str()) {
                 Err(diagnostic) => prop_assert!(refused_on_purpose(diagnostic.message()), "{diagnostic}"),
-                // A key that is itself a list or a map hides the keys after it; `read` refuses it.
+                // A list or map as a key hides the keys after it; `read` refuses such a key.
                 Ok(source) if read::<Value>(&source).is_err() => {}
                 Ok(source) => {
                     let mut all = Vec::new();
@@ -116,7 +116,7 @@ proptest! {
         }
     }
 
-    /// If a text is verbatim in the file, its parts are located, in any quotation style.
+    /// Parts of a verbatim text are located correctly, in any quotation style.
     #[test]
     fn a_part_of_a_formula_is_where_it_says(
         style in prop::sample::select(vec!["", "'", "\""]),

@@ -1,4 +1,4 @@
-//! A realistic suite, and types to read it into.
+//! A realistic suite, and its types.
 
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
 use serde::Deserialize;

@@ -1,4 +1,4 @@
-//! Examination of the protocol: equal requests have equal answers, for any grouping of the steps
+//! Examination of the protocol: equal requests give equal answers, no matter how steps are grouped
 //! into messages.
 
 use super::force::ramp;
@@ -10,7 +10,7 @@ use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene, Kind};
 
-/// Steps of each run.
+/// Number of steps per run.
 const STEPS: u64 = 6;
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -54,7 +54,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(format!("{n} points in {d}-D, law {law}, {STEPS} steps"), findings))
 }
 
-/// Largest difference of a column at the end, relative to its largest value.
+/// Largest difference of a column at the end, relative to the largest value of the column.
 fn difference(field: Field, a: &Course, b: &Course) -> f64 {
     let (last, other) = (a.last(), b.last());
     let pairs = field(&a.states[last]).iter().zip(field(&b.states[other]));
@@ -88,9 +88,9 @@ fn repeated(first: &Course, second: &Course, patient: &Patient<'_>) -> Option<So
     })
 }
 
-/// Compares six steps in one message with six messages, under all loads that the solver supports:
-/// stresses, and a body force that depends on time, or gravity. An operation that is done once per
-/// message instead of once per step is only visible under acceleration.
+/// Compares six steps in one message with six messages of one step, under all loads that the solver
+/// supports: stresses, and a time-dependent body force or gravity. Only acceleration reveals an
+/// operation that is done once per message instead of once per step.
 fn grouped_under_acceleration(
     patient: &Patient<'_>,
     kind: Kind,
@@ -100,7 +100,7 @@ fn grouped_under_acceleration(
         let mut stretch = AffineField { centre: scene.centre(), ..AffineField::default() };
         for i in 0..kind.0 {
             stretch.gradient[i][i] = 0.1;
-            // Fast enough that particles change their cells.
+            // Fast enough for particles to change cells.
             stretch.value[i] = 1.0;
         }
         scene.velocity = stretch;
@@ -123,7 +123,7 @@ fn grouped_under_acceleration(
         Err(Hindrance::Broke(_)) => return Ok(None),
         Err(lacks) => return Err(lacks),
     };
-    // A body that fails is a case for the examinations of forces.
+    // Examinations of forces report a body that fails.
     if stepwise.failure.is_some() {
         return Ok(None);
     }
@@ -150,7 +150,7 @@ fn grouped(
         a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / scale
     });
     let columns = others.into_iter().fold(0.0, f64::max);
-    // Stresses are differences of displacements.
+    // Stresses depend on differences of displacements, which amplify rounding errors.
     if off.max(speed) <= patient.rounding() && columns <= 1e3 * patient.rounding() {
         return None;
     }
@@ -180,8 +180,8 @@ fn halved_step(whole: &Course, half: &Course) -> Option<SolverFinding> {
         size(minus(mean(course.last()), mean(1)))
     };
     let ratio = distance(half) / distance(whole);
-    // The ratio is 1/2 at constant speed and 1/4 at constant acceleration. `translation` examines
-    // bodies that do not move.
+    // The ratio is 1/2 at constant speed and 1/4 at constant acceleration. The examination
+    // `translation` reports bodies that do not move.
     if distance(whole) == 0.0 || ratio <= 0.75 {
         return None;
     }

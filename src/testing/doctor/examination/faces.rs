@@ -1,4 +1,4 @@
-//! A rigid body at constant speed whose particles lie on faces of cells, again and again.
+//! Examination of a rigid body at constant speed whose particles repeatedly lie on cell faces.
 
 use super::stress::largest_entry;
 use super::translation::VELOCITY;
@@ -15,15 +15,15 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Distance (cells) by which particles reach beyond a face, so that a node there has only this
-/// share of a mass.
+/// Distance (cells) by which particles reach beyond a face. A node beyond the face has only this
+/// share of a regular nodal mass.
 const SLIVER: f64 = 1.0 / (1_u64 << 44) as f64;
 
-/// Largest strain of a rigid body, from rounding.
+/// Maximum strain of a rigid body due to rounding errors.
 const RIGID: f64 = 1e-6;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    // Every eighth step all particles lie on faces again: no number here has more than a few bits.
+    // All numbers have only a few bits, so all particles lie on faces again every eighth step.
     let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
         let from = [0.75 + 0.25 * H, 0.25 + 0.25 * H, 0.5 + 0.25 * H];
         let mut scene = BoxScene::of_cells(kind, from, 4.0, 6.0);
@@ -62,12 +62,12 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(stiff.measured, finding.into_iter().collect()))
 }
 
-/// The finding on a rigid motion of a soft body that has a strain, by its columns.
+/// Finding on a soft body in rigid motion whose columns show a strain.
 fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
     let course = patient.run(scene)?;
     let (lambda, mu) = scene.lame();
     let mut most = 0.0_f64;
-    // Changes since the first step: other examinations check the meaning of the columns.
+    // Only changes since the first step count: other examinations check the meaning of the columns.
     let after_start = course.states.get(1..).and_then(<[_]>::split_first);
     let Some((first, later)) = after_start else { return Ok(None) };
     for state in later {
@@ -75,7 +75,7 @@ fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFind
             largest_entry(&now.iter().zip(then).map(|(now, then)| now - then).collect::<Vec<_>>())
         };
         most = most.max(change(&state.deformation_gradient, &first.deformation_gradient));
-        // The stress of a fluid has no scale here.
+        // The stress of a fluid has no suitable scale.
         if ELASTIC.contains(&scene.law) {
             most = most.max(change(&state.stress, &first.stress) / (lambda + 2.0 * mu));
         }

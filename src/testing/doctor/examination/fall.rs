@@ -1,4 +1,4 @@
-//! A body in free fall.
+//! Examination of a body in free fall.
 
 use crate::subject::Precision;
 use crate::testing::doctor::course::{
@@ -16,7 +16,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Gravity (m/s2): different from that of the earth, which may be a default of the solver.
+/// Gravity (m/s2). It differs from that of the earth, which may be a default of the solver.
 const GRAVITY: f64 = 3.7;
 
 /// Maximum relative difference between a figure and the pattern that explains it.
@@ -44,7 +44,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         shown_vector(times(0.5 * end * end, g), d)
     );
     let mut findings: Vec<SolverFinding> = of_speed(patient, &course, g).into_iter().collect();
-    // Positions follow from velocities: a defect of these explains them, a remark does not.
+    // A defect of velocities explains wrong positions; a remark does not.
     if findings.iter().all(|finding| finding.weight == FindingWeight::Remark) {
         findings.extend(of_distance(patient, &course, g));
     }
@@ -56,7 +56,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, findings))
 }
 
-/// Velocities that are not g t.
+/// Finding on velocities other than g t.
 fn of_speed(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
     let (last, d) = (course.last(), course.problem.dimension);
     let end = course.times[last];
@@ -156,7 +156,7 @@ pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, Strin
     ("gravity-scaled", cause.to_owned())
 }
 
-/// Finding on positions other than g t^2/2, if velocities have no defect.
+/// Finding on positions other than g t^2/2, if the velocities have no defect.
 fn of_distance(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
     let (last, dt, axis) = (course.last(), course.problem.dt, course.problem.dimension - 1);
     let end = course.times[last];

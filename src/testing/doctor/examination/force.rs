@@ -1,4 +1,4 @@
-//! Examination of a body force that the solver requests at places and times.
+//! Examination of a body force that the solver requests for positions and times.
 
 use super::fall::factor_cause;
 use super::translation::VELOCITY;
@@ -19,20 +19,20 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Force per mass at the start (m/s2), and its rate (m/s3).
+/// Force per unit mass at the start (m/s2), and its rate (m/s3).
 const FORCE: f64 = 0.8;
 const RATE: f64 = 6.0;
 
 /// Maximum relative difference between a figure and the pattern that explains it.
 const NEAR: f64 = 0.1;
 
-/// Questions: times (s) and reference positions (m).
+/// Recorded requests: times (s) and reference positions (m).
 type Questions = Arc<Mutex<Vec<(f64, [f64; 3])>>>;
 
-/// A force along the first axis, as a function of the place on it (m) and time (s).
+/// A force along the first axis, as a function of the position along that axis (m) and of time (s).
 type ForceAlong = fn(f64, f64) -> f64;
 
-/// A force that records the requests.
+/// A body force that records the requests for it.
 #[derive(Clone)]
 struct AskedForce {
     asked: Questions,
@@ -60,14 +60,14 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     )?;
     let asked = Questions::default();
     let mut course = run(patient, &moving, &asked, true, |_, t| FORCE + RATE * t);
-    // Requests for places outside the body are refused: a second run records them.
+    // Requests for positions outside the body are refused; a second run records them.
     if matches!(course, Err(Hindrance::Broke(_))) {
         let again = run(patient, &moving, &asked, false, |_, t| FORCE + RATE * t);
         if again.is_ok() {
             course = again;
         }
     }
-    // Requests at wrong places or times explain a run that fails.
+    // Requests for wrong positions or times explain a run that fails.
     let requests = other_times(&asked, &moving).or_else(|| places(&asked, &moving));
     let course = match (course, requests) {
         (Err(Hindrance::Broke(_)), Some(finding)) => {
@@ -101,15 +101,15 @@ fn integral(t: f64) -> f64 {
     FORCE * t + 0.5 * RATE * t * t
 }
 
-/// Sets the body force of `problem` to one along the first axis that grows with time.
+/// Sets the body force of `problem` to a force along the first axis that grows with time.
 pub(super) fn ramp(problem: &mut LevelProblem) {
     let force = AskedForce { asked: Questions::default(), force: |_, t| FORCE + RATE * t };
     problem.body_force = Some(BodyForceField(Arc::new(force)));
     problem.constant_body_force = None;
 }
 
-/// A run of `scene`, optionally with a check that requests are inside the body, with the force
-/// `force(x, t)` along the first axis.
+/// Runs `scene` with the force `force(x, t)` along the first axis. Optionally checks that requested
+/// positions are inside the body.
 fn run(
     patient: &Patient<'_>,
     scene: &BoxScene,
@@ -130,7 +130,7 @@ fn run(
     }
 }
 
-/// Requests for times outside of the run.
+/// Finding on requests for times outside the run.
 fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
     let end = scene.steps as f64 * scene.dt;
@@ -153,7 +153,7 @@ fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     })
 }
 
-/// Finding on requests at the current positions of particles instead of their reference positions.
+/// Finding on requests for current positions of particles instead of reference positions.
 fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
     if asked.is_empty() {
@@ -184,7 +184,7 @@ fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     })
 }
 
-/// Finding on forces of wrong size, or of wrong times.
+/// Finding on forces with a wrong factor or from wrong times.
 fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     let (last, dt) = (course.last(), course.problem.dt);
     let end = course.times[last];
@@ -192,7 +192,7 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     let wanted = integral(end);
     let steps = (gained(last) - wanted) / (0.5 * RATE * end * dt);
     let is = |wanted: f64| (steps - wanted).abs() <= NEAR;
-    // Velocities of a leapfrog are half a step behind.
+    // Leapfrog velocities are half a step behind.
     let behind = (gained(last) - integral(end - 0.5 * dt)).abs() <= 0.5 * NEAR * RATE * end * dt;
     if is(-1.0) || is(0.0) || behind {
         return None;
@@ -209,8 +209,7 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
         shown(at[at.len() - 1]),
         at.len()
     );
-    // With the velocities of a leapfrog the shift is not visible in the momentum, but in the
-    // requests.
+    // With leapfrog velocities, the shift is visible in the requests but not in the momentum.
     let is_late = at.len() as u64 == last as u64 && (at[0] / dt - 1.0).abs() <= NEAR;
     if is(1.0) || is_late {
         return Some(SolverFinding::remark(
@@ -242,7 +241,7 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     ))
 }
 
-/// Finding with a force that grows along X, so that each point has a different force after one
+/// Finding on a force that grows along X, which gives each point a different velocity after one
 /// step.
 fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     let (mut x, mut v, mut across) = (Vec::new(), Vec::new(), 0.0_f64);
@@ -253,7 +252,7 @@ fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     }
     let (_, found, _) = line(&x, &v);
     let share = found / slope;
-    // Weights smooth a linear field at the rim, and APIC and PIC no more than that.
+    // Near the rim, weights smooth a linear field; APIC and PIC do not smooth more than that.
     let most = v.iter().map(|v| v.abs()).fold(0.0, f64::max);
     if (0.4..=1.3).contains(&share) && across <= 0.1 * most {
         return None;

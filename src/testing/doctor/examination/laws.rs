@@ -1,10 +1,10 @@
-//! Stresses at finite strain and rotation: the columns `stress` and `deformation_gradient` of each
-//! law.
+//! Examination of stresses at finite strain and rotation: the columns `stress` and
+//! `deformation_gradient` for each law.
 //!
-//! A body with negligible stiffness moves with `v = L (X - C)`, with stretch, shear and rotation of
-//! the order of one. In its middle, F is compared with the gradient of the displacements, and the
-//! stress with that of the law for this F: the initial stress of a body with the initial
-//! displacement `(F - I) (X - C)`.
+//! A body with negligible stiffness moves with `v = L (X - C)`: stretch, shear and rotation become
+//! of order one. In the middle of the body, F is compared with the displacement gradient. The
+//! stress is compared with the initial stress of a body with the initial displacement
+//! `(F - I) (X - C)`, which is the law's stress for this F.
 
 use super::stress::{impulses, inside};
 use crate::mpm::det_of_rows;
@@ -22,16 +22,16 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Displacement gradient at the end.
+/// Displacement gradient at the end of the run.
 const GRADIENT: [[f64; 3]; 3] = [[0.25, 0.45, 0.1], [-0.15, -0.1, 0.2], [0.05, -0.1, 0.15]];
 
-/// Rate (1/s) of the stretch in the examination of volumes.
+/// Stretch rate (1/s) in the examination of volumes.
 const STRETCHED: f64 = 0.5;
 
-/// Displacement gradient at the start of a body that starts deformed.
+/// Initial displacement gradient of a body that starts deformed.
 const START: [[f64; 3]; 3] = [[0.1, -0.3, 0.0], [0.2, 0.0, -0.1], [0.0, 0.1, 0.1]];
 
-/// Largest error of a component, relative to the largest one: steps of a rate are finite.
+/// Maximum error of a component, relative to the largest one; rate forms have a step error.
 const NEAR: f64 = 0.04;
 
 const STEPS: u64 = 25;
@@ -41,14 +41,14 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         needs.column = Some("stress");
     })?;
     let is_able = |kind: Kind| patient.able(&[kind.0], &[kind.1], &scene).is_ok();
-    // Every law in one dimension of space, and one law in every dimension.
+    // Every law in one number of dimensions, and one law in every number of dimensions.
     let laws = FINITE.into_iter().map(|law| (first.dimension, law));
     let dimensions = [1, 2, 3].into_iter().map(|d| (d, first.law));
     let mut kinds: Vec<Kind> = laws.chain(dimensions).filter(|kind| is_able(*kind)).collect();
     kinds.sort_unstable();
     kinds.dedup();
     let mut scenes: Vec<BoxScene> = kinds.iter().map(|kind| scene(*kind)).collect();
-    // From an undeformed start on, F and the velocity gradient commute.
+    // If a body starts undeformed, F and the velocity gradient commute.
     let elastic = FINITE.map(|law| (first.dimension, law));
     let mut elastic = elastic.into_iter().filter(|(d, law)| *d > 1 && *law != "linear_elastic");
     scenes.extend(elastic.find_map(|kind| patient.able(&[kind.0], &[kind.1], &deformed).ok()));
@@ -69,7 +69,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             .into_iter()
             .filter_map(|(off, column)| off.map(|off| format!("{column} off by {}", shown(off))));
         measured.push(format!("{name}: {}", texts.collect::<Vec<_>>().join(", ")));
-        // A start that is not accepted is a case for `start`.
+        // The examination `start` reports initial deformations that are ignored.
         if !scene.displacement.is_zero() && !starts_deformed(course, scene) {
             continue;
         }
@@ -100,7 +100,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured.join("; "), findings))
 }
 
-/// Whether displacement and F after the first step are close to those of the start.
+/// Whether displacement and F after the first step are close to their initial values.
 fn starts_deformed(course: &Course, scene: &BoxScene) -> bool {
     let d = scene.dimension;
     let start = &course.problem.particles.deformation_gradient[..d * d];
@@ -111,20 +111,20 @@ fn starts_deformed(course: &Course, scene: &BoxScene) -> bool {
         && off <= 0.3 * course.farthest(displacement, 0, [0.0; 3])
 }
 
-/// The momentum flux in a body that is stretched to 1.5 of its length, over that of the law: forces
-/// must use the current volumes of particles.
+/// The momentum flux in a body stretched to 1.5 times its length, relative to the flux according to
+/// the law. Forces must use the current particle volumes.
 fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFinding>), Hindrance> {
     let cells = if kind.0 == 3 { 8.0 } else { 12.0 };
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
     scene.velocity = field(&scene, &|i, j| if (i, j) == (0, 0) { STRETCHED } else { 0.0 });
-    // Waves travel a cell in the time of the stretch.
+    // Waves travel one cell during the stretch.
     scene.young = scene.density * H * H;
     let scene = BoxScene { steps: STEPS, dt: 1.0 / STEPS as f64, ..scene };
     let courses = patient.run_all(&[scene.clone(), scene.soft()])?;
     let impulse = |course: &Course| impulses(course, &scene, 0, 0)[course.last()];
     let d = scene.dimension;
-    // The first Piola stress along the stretch by Simpson's rule: J = F_00, so that P_00 equals
-    // sigma_00.
+    // The first Piola-Kirchhoff stress along the stretch, integrated by Simpson's rule. Because J =
+    // F_00, P_00 equals sigma_00.
     let mut expected = 0.0;
     for (share, weight) in [(0.0, 1.0), (0.25, 4.0), (0.5, 2.0), (0.75, 4.0), (1.0, 1.0)] {
         let mut f = vec![0.0; d * d];
@@ -154,14 +154,14 @@ fn scene(kind: Kind) -> BoxScene {
     BoxScene { young: SOFT.sqrt() * scene.young, ..scene }
 }
 
-/// The body of `scene` that starts in another deformation.
+/// The body of `scene` with the initial displacement gradient `START`.
 fn deformed(kind: Kind) -> BoxScene {
     let scene = scene(kind);
     let displacement = field(&scene, &|i, j| START[i][j]);
     BoxScene { displacement, ..scene }
 }
 
-/// The field with this gradient about the centre of the body.
+/// The field with this gradient relative to the centre of the body.
 fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineField {
     let d = scene.dimension;
     let gradient = std::array::from_fn(|i| {
@@ -170,7 +170,7 @@ fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineFiel
     AffineField { gradient, centre: scene.centre(), ..AffineField::default() }
 }
 
-/// F in the middle at the end, row after row, by a least-squares fit of displacements there.
+/// F in the middle of the body at the end, row by row, from a least-squares fit of displacements.
 fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
     let (d, centre) = (scene.dimension, scene.centre());
     let is_near =
@@ -183,7 +183,7 @@ fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
     let mut f = vec![0.0; d * d];
     for i in 0..d {
         for j in 0..d {
-            // Points are symmetric about the centre, so that axes do not mix.
+            // The points are symmetric about the centre, so the axes are independent.
             let slope: f64 = points.iter().map(|(x, u)| x[j] * u[i]).sum();
             let squares: f64 = points.iter().map(|(x, _)| x[j] * x[j]).sum();
             f[i * d + j] = f64::from(u8::from(i == j)) + slope / squares;
@@ -192,7 +192,7 @@ fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
     f
 }
 
-/// Stress (Pa) and F, row after row, of a body with the deformation gradient `f`.
+/// Stress (Pa) and F, row by row, of a body with the deformation gradient `f`.
 fn law_at(scene: &BoxScene, f: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Hindrance> {
     let d = scene.dimension;
     let displacement = field(scene, &|i, j| f[i * d + j] - f64::from(u8::from(i == j)));
@@ -202,7 +202,7 @@ fn law_at(scene: &BoxScene, f: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Hindrance
     Ok((particles.stress[..d * d].to_vec(), particles.deformation_gradient[..d * d].to_vec()))
 }
 
-/// Largest difference of a component, relative to the largest component of `expected`.
+/// Maximum error of a component, relative to the largest component of `expected`.
 fn error(tensor: &[f64], expected: &[f64]) -> f64 {
     let scale = expected.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
     let differences = tensor.iter().zip(expected).map(|(a, b)| (a - b).abs());
@@ -263,7 +263,7 @@ fn of_stress(
              or leave it out of its `laws`",
         ));
     }
-    // The stress of F^T in place of F: isotropic laws have it from F^T F in place of F F^T.
+    // The stress for F^T: isotropic laws give it if F^T F replaces F F^T.
     let (of_transpose, _) = law_at(scene, &transposed(f, d))?;
     let factor = mean[0] / stress[0];
     let scaled: Vec<f64> = stress.iter().map(|s| factor * s).collect();
@@ -292,9 +292,9 @@ fn of_stress(
     ))
 }
 
-/// Stress (Pa), row after row, for a displacement gradient that grows in proportion to time up to
-/// the deformation gradient `f`, with the Jaumann rate of linear elasticity: sigma' = C : D + W
-/// sigma - sigma W, with the spin W; `None` if the body becomes inverted.
+/// Stress (Pa), row by row, for a displacement gradient that grows linearly in time up to the
+/// deformation gradient `f`. Uses the Jaumann rate of linear elasticity: sigma' = C : D + W sigma -
+/// sigma W, with the spin W. `None` if the body becomes inverted.
 fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Option<Vec<f64>> {
     const PARTS: u64 = 400;
     let d = scene.dimension;

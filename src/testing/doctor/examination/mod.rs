@@ -1,4 +1,4 @@
-//! The examinations, one file each.
+//! The examinations, one per file.
 
 mod conversation;
 mod faces;
@@ -17,7 +17,7 @@ mod walls;
 
 use super::patient::Examination;
 
-/// Every examination, the plainest first. The first one is the conversation itself.
+/// All examinations, starting with the simplest. The first one examines the protocol itself.
 pub(super) const ALL: &[Examination] = &[
     conversation::EXAMINATION,
     rest::EXAMINATION,

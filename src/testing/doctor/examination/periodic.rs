@@ -1,4 +1,4 @@
-//! A rigid body that fills a periodic axis and moves along it.
+//! Examination of a rigid body that fills a periodic axis and moves along it.
 
 use super::translation::VELOCITY;
 use crate::testing::doctor::course::{AffineField, displacement, shown, velocity};
@@ -30,7 +30,7 @@ pub(super) const ENDS: Examination = Examination {
     examine: examine_ends,
 };
 
-/// Cells along the periodic axis of a body that moves, and of one whose ends push each other.
+/// Length (cells) along the periodic axis: of a moving body, and of one whose ends push each other.
 const CELLS: f64 = 4.0;
 const LONG: f64 = 12.0;
 
@@ -76,8 +76,8 @@ fn examine_ends(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(all)
 }
 
-/// Share of the momentum that the upper half of a body loses across the ends of a periodic axis:
-/// the body is stretched at a constant rate, so that its ends move towards each other.
+/// Share of its momentum that the upper half of a body loses across the ends of a periodic axis.
+/// The body is stretched at a constant rate, so its ends move towards each other.
 fn lost_at_ends(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<f64, Hindrance> {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);
     scene.body.1[axis] = scene.body.0[axis] + LONG * H;

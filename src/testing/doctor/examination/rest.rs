@@ -16,8 +16,8 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Maximum deviation of points from their mean, as a share of the mean, that counts as motion as
-/// one.
+/// Maximum deviation of points from their mean motion, relative to the mean, for which all points
+/// count as moving together.
 const AS_ONE: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -38,7 +38,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let mut findings = Vec::new();
     if !(way <= tolerance && speed <= tolerance) {
         let claims_double = patient.solver.precision() == Precision::Double;
-        // Far less than a step of any real acceleration.
+        // Far less than one step of any real acceleration.
         let is_noise = claims_double && way.max(speed) <= 1e-5;
         findings.push(if is_noise { single(way, speed) } else { cause(&course) });
     } else if let Some(failure) = &course.failure {
@@ -104,7 +104,7 @@ fn cause(course: &Course) -> SolverFinding {
     )
 }
 
-/// Points that do not move as one.
+/// Finding on points that move differently.
 fn apart(course: &Course) -> SolverFinding {
     let (last, d) = (course.last(), course.problem.dimension);
     let centre = {

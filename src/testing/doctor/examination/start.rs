@@ -1,8 +1,8 @@
-//! A body that starts deformed and under stress, and is let go.
+//! Examination of a body that starts deformed and stressed, and is released.
 //!
-//! The displacement of the body is a simple shear, so that F and the stress are uniform. The
-//! momentum of one half grows by the first Piola stress of the start, `dP_j/dt = -P_ji A` through
-//! the reference plane with normal i, until waves arrive from the free faces.
+//! The displacement of the body is a simple shear, so F and the stress are uniform. The momentum of
+//! one half grows due to the initial first Piola-Kirchhoff stress: `dP_j/dt = -P_ji A` through the
+//! reference plane with normal i, until waves arrive from the free faces.
 
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside};
 use crate::mpm::det_of_rows;
@@ -21,15 +21,15 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Shear at the start: one, so that a square lattice of particles is mapped to a square lattice.
-/// Other deformations give a lattice that is unevenly distributed over cells, which costs a tenth
-/// of the force with linear functions.
+/// Initial shear. A shear of one maps a square lattice of particles to a square lattice. Other
+/// deformations give a lattice that is unevenly distributed over cells, which reduces the force by
+/// a tenth with linear functions.
 const SHEAR: f64 = 1.0;
 
-/// Stretch at the start, in one dimension.
+/// Initial stretch in one dimension.
 const STRETCH: f64 = 0.05;
 
-/// Relative error of the force: waves are near, and the state has changed a little.
+/// Maximum relative error of the force. Waves are near, and the state has changed slightly.
 const NEAR: f64 = 0.12;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -37,8 +37,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let laws = FINITE.into_iter();
     let laws = laws.filter_map(|law| patient.able(&[first.dimension], &[law], &scene).ok());
     let mut scenes: Vec<BoxScene> = laws.collect();
-    // A shear preserves volumes. Masses and volumes are visible in a stretch, with a law of F if
-    // there is one.
+    // A shear preserves volumes. A stretch reveals errors of masses and volumes; it uses a law that
+    // depends on F if possible.
     if first.dimension > 1 {
         let law = scenes.last().map_or(first.law, |scene| scene.law);
         scenes.push(stretched((first.dimension, law)));
@@ -68,7 +68,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 
 fn scene(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
-    // The sheared lattice has a distance from cell faces.
+    // The sheared lattice keeps a distance from cell faces.
     let mut scene = BoxScene::of_cells(kind, [0.75 + 0.125 * H, 0.25, 0.5], cells, 7.0);
     let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
     if kind.0 == 1 {
@@ -81,7 +81,7 @@ fn scene(kind: Kind) -> BoxScene {
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// A body that starts at 1.5 times its length: three particles per cell and axis become two.
+/// A body that starts at 1.5 times its length. Three particles per cell and axis become two.
 fn stretched(kind: Kind) -> BoxScene {
     let mut scene = scene(kind);
     scene.ppc = 3;
@@ -90,13 +90,13 @@ fn stretched(kind: Kind) -> BoxScene {
     scene
 }
 
-/// The force through the plane across the first axis.
+/// The force through the plane normal to the first axis.
 struct Forces {
-    /// Part along the expected force, over its size.
+    /// Component along the expected force, relative to the expected force.
     ratio: f64,
-    /// Size of the difference from the expected force, over its size.
+    /// Difference from the expected force, relative to the expected force.
     error: f64,
-    /// Steps after which the force begins to act.
+    /// Number of steps before the force begins to act.
     late: f64,
 }
 
@@ -105,8 +105,7 @@ impl Forces {
         let d = scene.dimension;
         let particles = &course.problem.particles;
         let (sigma, f) = (&particles.stress[..d * d], &particles.deformation_gradient[..d * d]);
-        // P = J sigma F^-T: its first column is sigma times the first column of the cofactors of
-        // F.
+        // P = J sigma F^-T: its first column is sigma times the first column of F's cofactors.
         let cofactor: Vec<f64> = (0..d)
             .map(|k| {
                 let mut replaced = f.to_vec();
@@ -137,7 +136,7 @@ impl Forces {
         }
     }
 
-    /// The delay in tenths of a step.
+    /// The delay, formatted in tenths of a step.
     fn shown_delay(&self) -> String {
         shown(libm::round(10.0 * self.late) / 10.0 + 0.0)
     }
@@ -145,7 +144,7 @@ impl Forces {
 
 fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFinding> {
     let d = scene.dimension;
-    // The motion of the first step is far smaller than the displacement of the start.
+    // The motion in the first step is much smaller than the initial displacement.
     let reach = course.farthest(displacement, 0, [0.0; 3]);
     let before: Vec<[f64; 3]> = course.points(displacement, 0).map(|(_, u)| u).collect();
     let pairs = course.points(displacement, 1).zip(before);
@@ -214,7 +213,7 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
              `reference_volume`",
         ));
     }
-    // A start half a step off is a matter of the scheme.
+    // A delay of half a step depends on the scheme and is not a defect.
     (!(-0.75..=0.75).contains(&forces.late)).then(|| {
         SolverFinding::defect(
             "initial-stress-dropped",

@@ -1,14 +1,15 @@
-//! Examination of the transfer of velocities between particles and grid, without stress: a body
-//! that rotates or stretches.
+//! Examination of the velocity transfer between particles and grid, using a stress-free body that
+//! rotates or stretches.
 //!
-//! Weights that sum to one transfer a uniform velocity exactly, so that `translation` does not test
-//! the transfer of a velocity gradient. With the velocity `v = L (X - C)` of a rotation or a
-//! stretch about the centre C, the moment `M = sum m (X - C) x v`, or `sum m (X - C) . v`, shows
-//! it. A transfer that averages (PIC) loses `beta d D sum m L` of it in each step, where D is the
-//! second moment of the weights along an axis, 1/4 h2 for quadratic and 1/3 h2 for cubic B-splines,
-//! and beta the share of PIC. An affine transfer loses `1 - a` times as much if its matrix C is
-//! wrong by the factor a, twice as much of a rotation if C is transposed, and nothing if C is right
-//! (Jiang et al. 2015, eq. 8 to 11).
+//! Weights that sum to one transfer a uniform velocity exactly, so the examination `translation`
+//! does not test the transfer of a velocity gradient. Here the velocity is `v = L (X - C)`, a
+//! rotation or a stretch about the centre C. Its transfer is measured by the moment
+//! `M = sum m (X - C) x v`, or `sum m (X - C) . v`. A transfer that averages (PIC) loses
+//! `beta d D sum m L` of M in each step. D is the second moment of the weights along an axis, 1/4
+//! h2 for quadratic and 1/3 h2 for cubic B-splines, and beta is the share of PIC. An affine
+//! transfer loses `1 - a` times as much if its matrix C is wrong by the factor a. It loses twice as
+//! much of a rotation if C is transposed, and nothing if C is correct (Jiang et al. 2015, eq. 8 to
+//! 11).
 
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
@@ -31,34 +32,34 @@ pub(super) const INITIAL_VELOCITY: Examination = Examination {
     examine: examine_initial_velocity,
 };
 
-/// Rate of rotation or stretch (1/s): no point moves by more than 1e-4 of a cell.
+/// Rate of rotation or stretch (1/s). No point moves by more than 1e-4 cells.
 const RATE: f64 = 1e-4;
 
-/// Bases whose averaging is known.
+/// Bases whose averaging loss is known.
 const BASES: [&str; 3] = ["linear", "quadratic_bspline", "cubic_bspline"];
 
-/// Maximum relative difference between a loss and that of a basis.
+/// Maximum relative difference between a loss and the loss of a basis.
 const NEAR: f64 = 0.03;
 
-/// Loss (over h2 and the inertia) below which a transfer counts as conserving the moment.
+/// Loss (relative to h2 and the inertia) below which a transfer counts as conserving the moment.
 const KEPT: f64 = 0.004;
 
-/// Steps of each run.
+/// Number of steps per run.
 const STEPS: u64 = 5;
 
-/// A motion whose moment is examined.
+/// A motion whose moment is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum SlowMotion {
     Rotation,
     Stretch,
 }
 
-/// Losses of the moment, in units of `d h2 M/I`: in the first step, and on average in later steps.
+/// Losses of the moment, in units of `d h2 M/I`: in the first step, and per step on average later.
 #[derive(Debug, Clone, Copy)]
 struct Losses {
     first: f64,
     later: f64,
-    /// That unit, as a share of the moment.
+    /// The unit of the losses, as a share of the moment.
     unit: f64,
 }
 
@@ -75,7 +76,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let losses: Vec<Losses> = courses.iter().zip(&scenes).map(|(c, s)| losses_of(c, s)).collect();
     let (stretch, small) = (losses[0], losses[losses.len() - 1]);
     let rotation = if kind.0 > 1 { losses[1] } else { stretch };
-    // The whole moment is lost in the first step, and nothing later.
+    // The first step loses the whole moment, and later steps lose nothing.
     if losses.iter().all(|l| l.first * l.unit > 0.5 && !(l.later.abs() > KEPT)) {
         let seen = "after one step the velocities of a stretched body belong to other places";
         let finding = SolverFinding::defect(
@@ -100,8 +101,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, finding.into_iter().collect()))
 }
 
-/// Examines the initial velocity of a stretched body: whether it is used, its layout, and whether
-/// it grows.
+/// Examines the initial velocity of a stretched body: whether the solver uses it, its layout, and
+/// whether it grows.
 fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY, &|kind| scene(kind, SlowMotion::Stretch))?;
     let course = patient.run(&scene)?;
@@ -156,7 +157,7 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
     Ok(Examined::new(measured, Vec::new()))
 }
 
-/// A soft body with the motion about its centre.
+/// A soft body that moves about its centre.
 fn scene(kind: Kind, motion: SlowMotion) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.271, 0.391, 0.141], 4.0, 3.0);
     let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
@@ -182,7 +183,7 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
         let all = course.points(velocity, k).zip(&course.states[0].weight);
         all.map(|((label, v), weight)| weight * dot(field.at(label), v) / RATE).sum()
     };
-    // Axes along which the motion has a gradient.
+    // Number of axes along which the motion has a gradient.
     let axes = field.gradient.iter().flatten().filter(|slope| **slope != 0.0).count() as f64;
     let unit = axes * volume * scene.h * scene.h / inertia;
     let last = course.last();
@@ -190,8 +191,8 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
     Losses { first: share(0, 1), later: share(1, last) / (last - 1) as f64, unit }
 }
 
-/// The finding on losses of a stretch, of a rotation, and of the stretch of a body an eighth of the
-/// size, compared with the losses of averaging with each basis.
+/// Finding on the losses of a stretch, of a rotation, and of a stretched body an eighth of the
+/// size, compared with the averaging losses of each basis.
 fn cause(
     stretch: Losses,
     rotation: Losses,
@@ -217,8 +218,9 @@ fn cause(
     let defect = |name, cause| Some(SolverFinding::defect(name, seen.clone(), cause, look_at));
     let is_alike = |a: f64, b: f64| (a - b).abs() <= KEPT + NEAR * a.abs().max(b.abs());
     if stretch.later.abs() <= KEPT && rotation.later > KEPT {
-        // A transposed matrix loses twice as much as averaging: from the second step on if it
-        // starts at zero, and also in the first step if it starts with the velocity gradient.
+        // A transposed matrix loses twice as much as averaging. It does so from the second step on
+        // if the matrix starts at zero, and also in the first step if it starts with the velocity
+        // gradient.
         let averaged = averaging.iter().map(|l| l.first).fold(0.0, f64::max);
         let is_twice = rotation.later > 1.2 * rotation.first || rotation.first > 1.15 * averaged;
         return if is_twice {
@@ -240,19 +242,19 @@ fn cause(
              wrong by a power of h",
         );
     }
-    // A share of averaging affects all motions and steps equally. An affine matrix starts at zero:
-    // its first step averages completely, depending on the basis, and only later steps show the
-    // matrix.
+    // Partial averaging affects all motions and steps equally. An affine matrix that starts at zero
+    // averages completely in its first step, by an amount that depends on the basis; only later
+    // steps show the effect of the matrix.
     let most = averaging.iter().map(|l| l.later).fold(0.0, f64::max);
     let is_share = losses.iter().all(|loss| (-KEPT..=1.1 * most + KEPT).contains(loss));
     let of_basis = averaging.iter().find(|l| is_alike(l.first, stretch.first));
     let is_averaging = match of_basis {
         Some(of_basis) => is_alike(of_basis.later, stretch.later),
-        // The shares of averaging in the first step and in later ones differ by the decay of its
-        // error.
+        // The ratio between the losses of the first and of later steps allows for the decay of the
+        // averaging error.
         None => stretch.later > 0.65 * stretch.first,
     };
-    // Shares: FLIP may replace a part of the averaging of any basis.
+    // FLIP may replace a part of the averaging of any basis.
     let is_blend = averaging.iter().any(|l| {
         let share = stretch.first / l.first;
         let decay = 1.0 - share * (1.0 - l.later / l.first);
@@ -276,7 +278,7 @@ fn cause(
     ))
 }
 
-/// The remark on a first step that averages, in a scheme whose later steps do not.
+/// Remark on averaging in the first step only.
 fn first_step(stretch: Losses, rotation: Losses) -> Option<SolverFinding> {
     let first = stretch.first.max(rotation.first);
     (first > 10.0 * KEPT).then(|| {

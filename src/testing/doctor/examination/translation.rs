@@ -1,4 +1,4 @@
-//! A rigid body at constant speed through several cells, off every lattice.
+//! Examination of a rigid body at constant speed that crosses several cells, away from any lattice.
 
 use crate::testing::doctor::course::AffineField;
 use crate::testing::doctor::motion::uniform;
@@ -12,13 +12,13 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Velocity (m/s). It leads out of the unit cube, beyond 1 and below 0.
+/// Velocity (m/s). The body leaves the unit cube, beyond 1 and below 0.
 pub(super) const VELOCITY: [f64; 3] = [0.25, -0.15625, 0.125];
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
-        // Particles pass faces of cells at a distance, also if they are half a step ahead: nodes
-        // of almost no mass are for `faces`.
+        // Particles keep a distance from cell faces, even if they are half a step ahead. Nodes with
+        // almost no mass are examined in `faces`.
         let from = [0.375 + 0.1125 * H, 0.125 + 0.101_562_5 * H, 0.5 + 0.106_25 * H];
         let mut scene = BoxScene::of_cells(kind, from, 4.0, 7.0);
         let mut velocity = VELOCITY;

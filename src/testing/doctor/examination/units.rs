@@ -1,4 +1,4 @@
-//! Examination of the change of units: one problem in other units of length, time and mass.
+//! Examination of one problem in different units of length, time and mass.
 
 use super::stress::spreading;
 use crate::subject::Precision;
@@ -15,7 +15,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Powers of two, so that even rounding does not change.
+/// A power of two. Scaling by it does not even change rounding errors.
 const THOUSANDTH: f64 = 1.0 / 1024.0;
 const TINY: f64 = THOUSANDTH * THOUSANDTH * THOUSANDTH * THOUSANDTH;
 
@@ -59,7 +59,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, finding.into_iter().collect()))
 }
 
-/// Largest difference of displacements at the end, in units of the largest.
+/// Largest difference of displacements at the end, relative to the largest displacement.
 fn difference(plain: &Course, scaled: &Course, length: f64) -> f64 {
     let last = plain.last();
     let (a, b) = (&plain.states[last].displacement, &scaled.states[last].displacement);

@@ -1,4 +1,4 @@
-//! Causes if the parts of a body without stress move differently.
+//! Causes of errors if the parts of a stress-free body move differently.
 
 use super::seen::UniformMotion;
 use crate::testing::doctor::course::{
@@ -8,15 +8,15 @@ use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::patient::Hindrance;
 use std::f64::consts::SQRT_2;
 
-/// Distance from the rim (cells) within which the support of a function reaches nodes beyond it.
+/// Distance from the rim (cells) within which the support of basis functions reaches nodes outside.
 const RIM: f64 = 1.6;
 
-/// Causes that are visible for any size of the error: limits and cells.
+/// Causes that are visible for any size of the error: position limits and cell changes.
 pub(super) fn plain(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     limit(motion).or_else(|| light_nodes(motion)).or_else(|| crossing(motion))
 }
 
-/// The cause of a deviation beyond rounding.
+/// The cause of a deviation that is larger than rounding.
 pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
     let soft = motion.scene.soft();
     let course = motion.patient.run(&soft)?;
@@ -42,9 +42,9 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
     Ok(slowed.unwrap_or_else(|| weights(motion, low, high, (way, speed))))
 }
 
-/// Non-uniform drag: points slow down by different amounts, at a rate per time that does not depend
-/// on the step. A defect of weights would cost a share of the speed per step instead. `motion` has
-/// no stiffness, so that points exert no forces on each other.
+/// Finding on non-uniform drag: points slow down by different amounts, at a rate that does not
+/// depend on the step length. Wrong weights would cost a share of the speed per step instead. The
+/// body in `motion` has no stiffness, so points exert no forces on each other.
 fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
@@ -53,8 +53,9 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
         return Ok(None);
     }
     let again = UniformMotion { course, scene: &halved, ..*motion };
-    // At the end of the first step, before losses saturate. With twice the number of steps a drag
-    // loses the same, and weights lose twice as much: the limit is in the middle.
+    // Evaluated at the end of the first step, before losses saturate. With twice as many steps,
+    // drag loses the same amount and wrong weights lose twice as much; the limit is halfway between
+    // these.
     let (once, twice) = (lost(motion, 1), lost(&again, 2));
     let is_noise = !(once.1 * scene.steps as f64 > motion.patient.rounding());
     if is_noise || !((twice.1 / once.1).max(once.1 / twice.1) <= SQRT_2) {
@@ -76,14 +77,14 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
     )))
 }
 
-/// Smallest and largest share of the speed that a point has lost in state `k`.
+/// Smallest and largest share of the speed that points have lost in state `k`.
 fn lost(motion: &UniformMotion<'_>, k: usize) -> (f64, f64) {
     let v = motion.velocity;
     let losses = motion.course.points(velocity, k).map(|(_, seen)| 1.0 - dot(seen, v) / dot(v, v));
     losses.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)))
 }
 
-/// Smallest and largest displacement of a point in the first step, over that due to the velocity.
+/// Smallest and largest displacement of points in the first step, relative to v dt.
 fn first_share(motion: &UniformMotion<'_>) -> (f64, f64) {
     let v = motion.velocity;
     let scale = dot(v, v) * motion.course.times[1];
@@ -91,7 +92,8 @@ fn first_share(motion: &UniformMotion<'_>) -> (f64, f64) {
     shares.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)))
 }
 
-/// `soft` are the errors of way and speed without stiffness.
+/// Finding on weights that do not sum to one. `soft` contains the relative errors of displacement
+/// and velocity in a run without stiffness.
 fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) -> SolverFinding {
     let (way, speed) = motion.off();
     SolverFinding::defect(
@@ -112,13 +114,13 @@ fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) ->
     )
 }
 
-/// Finding on an end of the body that stops.
+/// Finding on one end of the body that stops.
 fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
     let (last, d) = (course.last(), course.problem.dimension);
     let step = course.times[1];
     (0..d).filter(|i| v[*i] != 0.0 && last > 5).find_map(|i| {
-        // Largest place along the motion, counted along it.
+        // Largest position along the direction of motion.
         let end = |k: usize| {
             let places = course.points(displacement, k).map(|(label, u)| label[i] + u[i]);
             places.map(|x| x * v[i].signum()).fold(f64::NEG_INFINITY, f64::max)
@@ -140,7 +142,7 @@ fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     })
 }
 
-/// Finding on an error that starts with the first change of a cell.
+/// Finding on an error that begins when a particle first changes its cell.
 fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let course = &motion.course;
     let (h, origin) = (motion.scene.h, &course.problem.grid.origin);
@@ -155,7 +157,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let first = (1..=course.last()).find(crosses)?;
     let error = |k| motion.way_off(k) / (size(motion.velocity) * course.times[course.last()]);
     let (before, at) = (first.checked_sub(1).map(error)?, error(course.last()));
-    // Two correct steps show that the steps themselves are not the cause.
+    // Two correct steps show that the error is not caused by every step.
     if first < 3 || !(before <= 1e-4 * at && at > 10.0 * motion.patient.rounding()) {
         return None;
     }
@@ -176,7 +178,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     ))
 }
 
-/// Finding on an error that begins at the rim only.
+/// Finding on an error that begins only at the rim.
 fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
     let whole = size(v) * course.times[course.last()];

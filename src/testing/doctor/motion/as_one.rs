@@ -1,4 +1,4 @@
-//! Causes if a body keeps its shape, but moves incorrectly.
+//! Causes of errors if a body keeps its shape but moves incorrectly.
 
 use super::seen::UniformMotion;
 use crate::testing::doctor::course::{
@@ -10,7 +10,7 @@ use crate::testing::doctor::patient::Hindrance;
 /// Maximum relative difference between a figure and the pattern that explains it.
 const NEAR: f64 = 0.02;
 
-/// The cause, if the motion follows one of the patterns.
+/// The cause, if the motion matches a known pattern.
 pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let course = &motion.course;
     let last = course.last();
@@ -70,8 +70,8 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     if !(log_off <= 0.1 * logs[logs.len() - 1].abs() || off <= 0.1 * error) {
         return Ok(None);
     }
-    // Repeats the run with half the step: a loss per time keeps its rate, a loss per step doubles
-    // it.
+    // Repeats the run with half the step length: a loss per unit time keeps its rate, and a loss
+    // per step doubles its rate.
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
     let course = motion.patient.run(&halved)?;
@@ -105,7 +105,7 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     }))
 }
 
-/// Remaining share of the speed along the motion at each time.
+/// Remaining share of the speed in the direction of motion at each time.
 fn shares(motion: &UniformMotion<'_>) -> Vec<f64> {
     shares_of(motion)
 }
@@ -116,14 +116,14 @@ fn shares_of(motion: &UniformMotion<'_>) -> Vec<f64> {
     (1..=motion.course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect()
 }
 
-/// Displacements that do not follow velocities, which are right.
+/// Finding on displacements that do not follow from correct velocities.
 fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v, dt) = (&motion.course, motion.velocity, motion.scene.dt);
     let t = &course.times[1..];
     let mean = |k| course.mean(displacement, k);
     let ways: Vec<f64> = (1..=course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect();
     let (ahead, slope, off) = line(t, &ways);
-    // A constant part that is far below a step is rounding: single precision is named elsewhere.
+    // A constant part far below one step is rounding; another finding covers single precision.
     let is_systematic = (slope - 1.0).abs() > 1e-6 || ahead.abs() > 1e-4 * dt;
     if off > NEAR * dt || !is_systematic {
         return None;
@@ -173,7 +173,7 @@ fn units(factor: f64) -> &'static str {
     }
 }
 
-/// No pattern fits.
+/// Finding on a motion that matches no known pattern.
 pub(super) fn unknown(motion: &UniformMotion<'_>) -> SolverFinding {
     let (course, d) = (&motion.course, motion.course.problem.dimension);
     let last = course.last();

@@ -1,8 +1,8 @@
-//! A body that should move on at constant speed, and why it does not.
+//! Examines a body that should move at constant speed, and determines the cause of deviations.
 //!
 //! ```text
 //! as_one   the body keeps its shape: drag, units, times
-//! apart    it does not: weights, gradients, cells, limits
+//! apart    the body changes its shape: weights, gradients, cells, limits
 //! seen     errors of the motion
 //! ```
 
@@ -17,7 +17,7 @@ use super::scene::BoxScene;
 use crate::subject::Precision;
 use seen::UniformMotion;
 
-/// Largest error of a motion whose cause may be rounding to 24 bits.
+/// Maximum error of a motion that rounding to 24 bits can explain.
 const SINGLE: f64 = 1e-4;
 
 /// Examines whether `scene`, whose initial velocity is uniform, continues with this velocity.
@@ -54,7 +54,7 @@ fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
     if as_one { Ok(as_one::unknown(motion)) } else { apart::cause(motion) }
 }
 
-/// The finding on noise above the level of double precision.
+/// Finding on noise above the level of double precision.
 pub(super) fn single(way: f64, speed: f64) -> SolverFinding {
     SolverFinding::defect(
         "single-precision",

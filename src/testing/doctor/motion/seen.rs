@@ -4,21 +4,21 @@ use crate::testing::doctor::course::{Course, displacement, minus, size, times, v
 use crate::testing::doctor::patient::Patient;
 use crate::testing::doctor::scene::BoxScene;
 
-/// Maximum deviation of points from their mean error, as a share of the error, that counts as a
-/// common error.
+/// Maximum deviation of points from their mean error, relative to the mean error, for which the
+/// points count as having a common error.
 const AS_ONE: f64 = 0.05;
 
-/// A motion that should be uniform, with its observations.
+/// A recorded motion that should be uniform.
 pub(super) struct UniformMotion<'a> {
     pub(super) patient: &'a Patient<'a>,
     pub(super) scene: &'a BoxScene,
     pub(super) course: Course,
-    /// Its velocity (m/s).
+    /// Expected velocity (m/s).
     pub(super) velocity: [f64; 3],
 }
 
 impl UniformMotion<'_> {
-    /// Largest errors of displacements, over the way, and of velocities, over the speed.
+    /// Largest errors of displacements, relative to the distance, and velocities, to the speed.
     pub(super) fn off(&self) -> (f64, f64) {
         let most = |all: &dyn Fn(usize) -> f64| {
             (0..=self.course.last()).map(all).fold(0.0, f64::max) / size(self.velocity)
@@ -37,7 +37,7 @@ impl UniformMotion<'_> {
         self.course.farthest(velocity, k, self.velocity)
     }
 
-    /// Whether all points err by about the same.
+    /// Whether all points have about the same error.
     pub(super) fn errs_as_one(&self) -> bool {
         let course = &self.course;
         (1..=course.last()).all(|k| {
@@ -47,7 +47,7 @@ impl UniformMotion<'_> {
                 size(minus(u, times(course.times[k], self.velocity))),
                 size(minus(v, self.velocity)),
             ];
-            // Rounding sets points apart too.
+            // Rounding errors also differ between points.
             let small = [
                 1e-6 * size(self.velocity) * course.times[course.last()],
                 1e-6 * size(self.velocity),

@@ -1,4 +1,4 @@
-//! Shapes of bodies: boxes, and bodies with another outline.
+//! Compiles the shape of a body: a box or another outline.
 
 mod polygon;
 pub(crate) mod quadrilateral;
@@ -14,18 +14,18 @@ use std::sync::Arc;
 
 /// Shape of a body.
 pub(crate) enum BodyShape<'a> {
-    /// A box, by its keys.
+    /// A box, given by its keys.
     Box(&'a BoxSpec),
     /// A body with a free rim.
     Free(Arc<dyn Outline>),
-    /// A panel, which is a mapped box.
+    /// A quadrilateral, which is a mapped box.
     Mapped(Arc<dyn Outline>, Quadrilateral),
 }
 
-/// The shape that `spec` describes.
+/// Compiles the shape in `spec`.
 ///
 /// # Errors
-/// A diagnostic of a body that is invalid in `dimension` dimensions.
+/// A diagnostic about a body that is invalid in `dimension` dimensions.
 pub(crate) fn shape<'a>(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -67,10 +67,10 @@ pub(crate) fn shape<'a>(
     }
 }
 
-/// Rims are free: a scene has no conditions on them, and only some loads act on round rims.
+/// Refuses conditions on rims, and loads on rims other than the few that round rims support.
 ///
 /// # Errors
-/// A diagnostic of the first condition or load on a rim.
+/// A diagnostic about the first condition or load on a rim.
 pub(crate) fn rims_are_free(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -99,10 +99,10 @@ pub(crate) fn rims_are_free(
     }
 }
 
-/// A stated grid must contain the whole body.
+/// Refuses a grid that does not contain the whole body.
 ///
 /// # Errors
-/// A diagnostic of the end of the grid that is inside the body.
+/// A diagnostic about the end of the grid that is inside the body.
 pub(crate) fn fits(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -131,7 +131,7 @@ pub(crate) fn fits(
 /// Lowest and highest corner of a box.
 ///
 /// # Errors
-/// A diagnostic of a box that is empty, too small or too large.
+/// A diagnostic about a box that is empty, too small or too large.
 pub(crate) fn corners(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -147,7 +147,7 @@ pub(crate) fn corners(
             let diagnostic = evaluator.diagnostic(&path.then("to").then(axis), &message);
             return Err(diagnostic.with_label("expected a number above that of `from`"));
         }
-        // Squares of lengths appear in second derivatives, cubes in volumes.
+        // Second derivatives contain squares of lengths; volumes contain cubes.
         let length = to[axis] - from[axis];
         if !(SHORTEST..=LONGEST).contains(&length) {
             let message = format!("the box is {} m long", shown(length));

@@ -1,4 +1,4 @@
-//! Panels with four straight sides.
+//! Compiles quadrilaterals.
 
 use super::polygon::corners;
 use crate::exact::{Outline, Polygon};
@@ -9,10 +9,10 @@ use crate::suite::scene::face::FACES;
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
-/// The panel that `spec` at `path` describes, and its outline.
+/// The quadrilateral in `spec` at `path`, and its outline.
 ///
 /// # Errors
-/// A diagnostic of corners that do not form a convex panel in the plane.
+/// A diagnostic about corners that do not form a convex quadrilateral.
 pub(super) fn quadrilateral(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -36,10 +36,10 @@ pub(super) fn quadrilateral(
     Ok((Arc::new(outline.map_err(|(_, side)| to_the_right(side))?), panel))
 }
 
-/// A face can have a condition or load only if a whole side is on it.
+/// Refuses conditions and loads on faces of the bounding box that contain no whole side.
 ///
 /// # Errors
-/// A diagnostic of the first condition or load on another face.
+/// A diagnostic about the first condition or load on such a face.
 pub(crate) fn faces_are_sides(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -48,7 +48,7 @@ pub(crate) fn faces_are_sides(
 ) -> Result<(), Diagnostic> {
     let is_side = |name: &str| {
         let number = FACES.iter().position(|face| *face == name);
-        // Other numbers are not faces, which a later check reports.
+        // A later check reports numbers that are not faces.
         number.is_none_or(|i| i >= 4 || panel.has_side_at(i / 2, i % 2 == 1))
     };
     let no_side = |at: &Path, face: &str, is_key: bool| {

@@ -1,4 +1,4 @@
-//! Round bodies.
+//! Compiles round bodies.
 
 use crate::exact::{Outline, Round};
 use crate::suite::evaluator::{Evaluator, shown};
@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// The annulus at `path`.
 ///
 /// # Errors
-/// A diagnostic of invalid rims.
+/// A diagnostic about invalid rims.
 pub(super) fn annulus(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -30,7 +30,7 @@ pub(super) fn annulus(
 /// The disk or ball at `path`.
 ///
 /// # Errors
-/// A diagnostic of an invalid centre or radius.
+/// A diagnostic about an invalid centre or radius.
 pub(super) fn filled(
     evaluator: &Evaluator<'_>,
     path: &Path,

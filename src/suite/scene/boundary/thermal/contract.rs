@@ -1,5 +1,5 @@
-//! Conduction of heat in a scene, and thermal conditions on faces: the keys in a suite, and the
-//! checked condition.
+//! Heat conduction in a scene, and thermal conditions on faces: their keys, and the compiled
+//! condition.
 
 use crate::dimension::in_every_dimension;
 use crate::exact::formula::Formula;
@@ -9,37 +9,37 @@ use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
-/// Keys of a thermal condition on a face, in suites.
+/// Keys of a thermal condition in a suite.
 pub(crate) trait ThermalKeys {
-    /// The condition, checked, with every number computed.
+    /// Checks the keys and returns the condition with all numbers computed.
     ///
     /// # Errors
-    /// The first error in its keys.
+    /// The first error in the keys.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic>;
 
-    /// Whether heat can enter.
+    /// Whether heat can enter through the face.
     fn lets_heat_in(&self) -> bool {
         true
     }
 }
 
-/// Conduction of heat, with every number computed.
+/// Heat conduction with all numbers computed.
 #[derive(Debug, Clone)]
 pub struct SceneHeat {
-    /// k (W/(m K), per m^(3-D)).
+    /// Conductivity k (W/(m K), per m^(3-D)).
     pub conductivity: f64,
-    /// c (J/(kg K)).
+    /// Heat capacity c (J/(kg K)).
     pub capacity: f64,
-    /// Heat that arises (W/kg), a formula of the coordinates, t and T.
+    /// Heat source (W/kg), a formula of the coordinates, t and T.
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates and t; default: that of the exact
+    /// Initial temperature (K), a formula of the coordinates and t. Default: that of the exact
     /// solution.
     pub initial: Option<Formula>,
-    /// Every face of the body.
+    /// All faces of the body.
     pub(crate) faces: Vec<ThermalFace>,
 }
 
-/// One face of a body in which heat flows.
+/// One face of a heat-conducting body.
 #[derive(Debug, Clone)]
 pub(crate) struct ThermalFace {
     pub(crate) name: &'static str,
@@ -49,14 +49,14 @@ pub(crate) struct ThermalFace {
 }
 
 impl ThermalFace {
-    /// The face of the exact heat problem.
+    /// The corresponding face of the exact heat problem.
     pub(crate) fn exact(&self) -> HeatFace {
         let Self { name, axis, high, condition } = self;
         HeatFace { name, axis: *axis, high: *high, condition: condition.clone() }
     }
 }
 
-/// A thermal condition of a scene as one of the solver.
+/// Converts a thermal condition of a scene to a condition of the solver.
 pub(crate) trait BuildThermal<const D: usize> {
     /// The condition; `None` if no heat enters.
     fn build(&self) -> Option<Thermal<D>> {
@@ -65,18 +65,18 @@ pub(crate) trait BuildThermal<const D: usize> {
 }
 
 in_every_dimension! {
-    /// A thermal condition of a scene as one of the solver in any dimension.
+    /// [`BuildThermal`] for any dimension.
     BuildThermals: BuildThermal
 }
 
-/// Thermal condition on one face of the body, with computed numbers: the contract of the family,
-/// whose members are in `suite/scene/boundary/thermal`.
+/// Trait of thermal conditions on one face of the body, with all numbers computed. The
+/// implementations are in `suite/scene/boundary/thermal`.
 pub(crate) trait HeatCondition: BuildThermals + ThermalCondition + 'static {
-    /// Value of its row in reports; `None` for a periodic face.
+    /// Text for the report row of the face; `None` for a periodic face.
     fn row(&self) -> Option<String>;
 }
 
-/// `condition` for the solver in D dimensions.
+/// Builds `condition` for the solver in D dimensions.
 pub(crate) fn build<const D: usize>(condition: &Arc<dyn HeatCondition>) -> Option<Thermal<D>> {
     let condition: Arc<dyn BuildThermals> = condition.clone();
     condition.in_dimension::<D>()?.build()

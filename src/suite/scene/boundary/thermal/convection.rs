@@ -1,4 +1,4 @@
-//! A face through which heat is exchanged with surroundings: Newton's law of cooling.
+//! A face that exchanges heat with its surroundings by Newton's law of cooling.
 
 use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
 use crate::exact::Violation;
@@ -33,9 +33,9 @@ impl ThermalKeys for ConvectionSpec {
 /// `-Q . n = coefficient (ambient - T)`, per reference area.
 #[derive(Debug)]
 struct Convection {
-    /// W/(K m^(D-1)).
+    /// Heat transfer coefficient (W/(K m^(D-1))).
     coefficient: f64,
-    /// K.
+    /// Ambient temperature (K).
     ambient: Formula,
 }
 

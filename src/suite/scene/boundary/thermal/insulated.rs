@@ -1,5 +1,4 @@
-//! Faces that no heat enters from outside: insulated, or continued on the opposite face of a
-//! periodic body.
+//! Faces without heat supply from outside: insulated faces, and periodic faces.
 
 use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
 use crate::exact::Violation;
@@ -36,7 +35,7 @@ impl HeatCondition for Insulated {
 
 impl<const D: usize> BuildThermal<D> for Insulated {}
 
-/// The temperature, and the flow of heat, of the opposite face.
+/// The face has the temperature and heat flux of the opposite face.
 #[derive(Debug)]
 pub(crate) struct PeriodicTemperature;
 

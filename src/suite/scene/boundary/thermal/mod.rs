@@ -1,5 +1,5 @@
-//! Family of the thermal conditions on the faces of a body that conducts heat. A member is one file
-//! and one line below (and a `mod` line).
+//! Family of thermal conditions on the faces of a heat-conducting body. A new member needs one
+//! file, its `mod` line and one line below.
 
 mod contract;
 mod convection;

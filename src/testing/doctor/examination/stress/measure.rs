@@ -1,45 +1,45 @@
-//! Stresses by the momentum that flows through the middle of a body.
+//! Measures stresses from the momentum flux through the middle of a body.
 //!
-//! The columns `stress` and `deformation_gradient` of a solver that reports them.
+//! Also checks the columns `stress` and `deformation_gradient` of a solver that reports them.
 
 use crate::testing::doctor::course::{AffineField, Course, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::{BoxScene, H, Kind};
 
-/// Rates of stretch along the first axis and of shear (1/s): strains stay below 1e-3. The body is
-/// compressed, because artificial viscosities act in compression only.
+/// Rates of stretch along the first axis and of shear (1/s). Strains stay below 1e-3. The body is
+/// compressed, because artificial viscosity acts in compression only.
 pub(super) const STRETCH: f64 = -5e-3;
 pub(super) const SHEAR: f64 = 4e-3;
 
-/// Half the width (cells) of the tube whose momentum is counted.
+/// Half the width of the tube whose momentum is measured (cells).
 const TUBE: f64 = 2.0;
 
-/// Distance (cells) that waves travel during the run: they reach neither the side of the tube nor
+/// Distance that waves travel during the run (cells). They reach neither the side of the tube nor
 /// its middle.
 pub(in crate::testing::doctor) const TRAVEL: f64 = 1.5;
 
-/// Steps of the run: few, since averaging (PIC) spreads momentum in each.
+/// Number of steps. It is small, because averaging (PIC) spreads momentum in each step.
 pub(in crate::testing::doctor) const STEPS: u64 = 6;
 
-/// Moduli (Pa) from the growth of stresses: sigma_xx and sigma_yy over the stretch, sigma_xy (force
-/// along y) and sigma_yx over the shear. In 1-D there is only the first.
+/// Moduli (Pa) from the growth of stresses: sigma_xx and sigma_yy relative to the stretch, sigma_xy
+/// (force along y) and sigma_yx relative to the shear. In 1-D, only the first one.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct MeasuredModuli {
     pub(super) along: f64,
     pub(super) across: f64,
     pub(super) shear: [f64; 2],
-    /// Kinematic viscosity (m2/s) of a stress in proportion to the rate of strain.
+    /// Kinematic viscosity (m2/s) of a stress that is proportional to the strain rate.
     pub(super) viscosity: f64,
-    /// Momentum moved without stress, as a share of that moved by stress, at most one.
+    /// Momentum transferred without stress, as a share of that transferred by stress; at most 1.
     pub(super) averaged_share: f64,
-    /// Momentum moved by that viscosity, as a share of that moved by stress, at most one.
+    /// Momentum transferred by the viscosity, as a share of that transferred by stress; at most 1.
     pub(super) viscous_share: f64,
 }
 
-/// The scene, which `units` runs as well.
+/// The scene, which the examination `units` also uses.
 pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
-    // With a cell of 0.15 m and these numbers of particles, no two defects have the same factor.
+    // With a cell of 0.15 m and these particle numbers, no two defects cause the same factor.
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], cells, 3.0);
     scene.ppc = if kind.0 == 3 { 2 } else { 3 };
     let mut scene = scene.scaled(1.2, 1.0, libm::pow(1.2, kind.0 as f64));
@@ -53,8 +53,8 @@ pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// Moduli by the momentum of the two halves of tubes along the axes. A run without stiffness
-/// (`soft`) is subtracted, so that momentum that is moved by averaging does not count as stress.
+/// Moduli from the momentum of the two halves of tubes along the axes. The momentum in a run
+/// without stiffness (`soft`) is subtracted, so that averaging does not count as stress.
 pub(super) fn moduli_by_momentum(
     course: &Course,
     soft: Option<&Course>,
@@ -90,8 +90,9 @@ pub(super) fn moduli_by_momentum(
     measured
 }
 
-/// The constant part (Pa) and the rate (Pa/s) of a stress, by its impulses (Pa s) at times (s):
-/// the least squares of `constant t + rate t^2/2` from the end of the first step on.
+/// The constant part (Pa) and the rate (Pa/s) of a stress, from its impulses (Pa s) at several
+/// times (s): least-squares fit of `constant t + rate t^2/2`, starting at the end of the first
+/// step.
 pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) -> [f64; 2] {
     let (mut rows, mut ends) = ([[0.0; 2]; 2], [0.0; 2]);
     for k in 2..impulse.len() {
@@ -108,9 +109,9 @@ pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) 
     [constant, (ends[1] * rows[0][0] - ends[0] * rows[1][0]) / det]
 }
 
-/// Impulse (Pa s) of the stress with normal i and force j at each time: the momentum that has moved
-/// from the upper half of a tube along axis i to the lower one, over the area of the tube. It is
-/// computed from velocities at reference positions only.
+/// Impulse (Pa s) at each time of the stress with normal i and force direction j. This is the
+/// momentum transferred from the upper to the lower half of a tube along axis i, divided by the
+/// area of the tube. It is computed only from velocities at reference positions.
 pub(in crate::testing::doctor) fn impulses(
     course: &Course,
     scene: &BoxScene,
@@ -124,7 +125,7 @@ pub(in crate::testing::doctor) fn impulses(
         (0..d).all(|a| a == i || (label[a] - middle[a]).abs() <= TUBE * scene.h * (1.0 + 1e-9))
     };
     let labels = course.points(velocity, 0).map(|(label, _)| label);
-    // Points may be on the side of the tube, as nodes are: the area is that of the points inside.
+    // Points may lie on the side of the tube, as nodes do. The area is that of the points inside.
     let volume: f64 = labels.zip(weight).filter(|(x, _)| in_tube(*x)).map(|(_, w)| w).sum();
     let area = volume / (scene.body.1[i] - scene.body.0[i]);
     let impulse = |k: usize| {
@@ -132,7 +133,7 @@ pub(in crate::testing::doctor) fn impulses(
         for (p, (label, v)) in course.points(velocity, k).enumerate() {
             if in_tube(label) {
                 let above = label[i] - middle[i];
-                // Points on the plane belong to both halves.
+                // Points on the middle plane belong to both halves.
                 let side = if above.abs() <= 1e-9 * H { 0.0 } else { 0.5 * above.signum() };
                 gained += side * scene.density * weight[p] * (v[j] - start[p][j]);
             }
@@ -142,11 +143,11 @@ pub(in crate::testing::doctor) fn impulses(
     (0..=course.last()).map(impulse).collect()
 }
 
-/// Maximum relative difference of a column: it may be one step old, and waves are near.
+/// Maximum relative error of a column. The column may be one step old, and waves are near.
 pub(super) const NEAR: f64 = 0.2;
 
-/// Ratio of the growth of the column `stress` along the stretch to its expected value; `None`
-/// without this column.
+/// Growth of the column `stress` along the stretch, relative to its expected growth; `None` without
+/// this column.
 pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
     let (lambda, mu) = scene.lame();
@@ -155,7 +156,7 @@ pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     Some((along(last)? - along(1)?) / ((lambda + 2.0 * mu) * STRETCH * time))
 }
 
-/// Ratio of F_00 - 1 of the column `deformation_gradient` to that of the motion; `None` without
+/// F_00 - 1 in the column `deformation_gradient`, relative to that of the motion; `None` without
 /// this column.
 pub(super) fn strain_factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
@@ -163,7 +164,7 @@ pub(super) fn strain_factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     Some((f[0] - 1.0) / (STRETCH * course.times[last]))
 }
 
-/// Columns that do not agree with the motion.
+/// Findings on columns that disagree with the motion.
 pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> {
     let (d, last) = (scene.dimension, course.last());
     let (samples, t) = (&course.states[last], course.times[last]);
@@ -191,7 +192,7 @@ pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> 
     found
 }
 
-/// Mean of a tensor within one cell of the middle; `None` without this column.
+/// Mean of a tensor column less than one cell from the middle; `None` without this column.
 pub(in crate::testing::doctor) fn inside(
     course: &Course,
     scene: &BoxScene,
@@ -203,8 +204,8 @@ pub(in crate::testing::doctor) fn inside(
     })
 }
 
-/// Mean of a tensor (`d * d` numbers per point) over points whose label `is_near`; `None` without
-/// this column, NaN without such points.
+/// Mean of a tensor column (`d * d` numbers per point) over the points for whose label `is_near`
+/// returns true. `None` without this column, NaN without such points.
 pub(in crate::testing::doctor) fn mean_tensor(
     course: &Course,
     column: &[f64],
@@ -223,7 +224,7 @@ pub(in crate::testing::doctor) fn mean_tensor(
     Some(sum.into_iter().map(|sum| sum / count).collect())
 }
 
-/// Largest entry of tensors by magnitude; infinite if one is not a number.
+/// Entry of several tensors with the largest magnitude; infinite if an entry is NaN.
 pub(in crate::testing::doctor) fn largest_entry(tensors: &[f64]) -> f64 {
     tensors.iter().fold(0.0, |most, x| if x.is_nan() { f64::INFINITY } else { x.abs().max(most) })
 }

@@ -1,15 +1,14 @@
-//! A body that stretches and shears: the stress in it, by the momentum that flows through its
-//! middle.
+//! Examination of a body that stretches and shears: the stress is measured from the momentum flux
+//! through the middle.
 //!
 //! With an initial velocity `v = L (X - C)` the strain is uniform, L t, until waves arrive from the
-//! free faces, and no force acts inside. Momentum is transferred from one half to the other as
-//! `dP_j/dt = -sigma_ij A` through the middle plane with normal i. In a tube of points about the
-//! axis i it can be computed exactly, for any basis functions, from velocities alone.
+//! free faces, and no force acts inside. Momentum is transferred from one half to the other by
+//! `dP_j/dt = -sigma_ij A` through the middle plane with normal i. In a tube of points around axis
+//! i, the transfer can be computed exactly from velocities alone, for any basis functions.
 //!
 //! ```text
-//! measure   the scene, and stresses by momentum
-//! moduli    mistakes with characteristic moduli
-//! columns   the columns `stress` and `deformation_gradient`
+//! measure   the scene, stresses from momentum, and the columns `stress` and `deformation_gradient`
+//! moduli    defects with characteristic moduli
 //! ```
 
 mod measure;
@@ -34,7 +33,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Examines every dimension that the solver supports, until one has findings.
+/// Examines each number of dimensions that the solver supports, until one has findings.
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let first = patient.able(&[2, 3, 1], &ELASTIC, &spreading)?;
     let mut all = Examined::default();
@@ -59,7 +58,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(all)
 }
 
-/// The finding on a body in tension, if the body in compression has none.
+/// Finding on a body in tension, if the same body in compression has none.
 fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
     let mut stretched = scene.clone();
     stretched.velocity.gradient = scene.velocity.gradient.map(|row| row.map(|slope| -slope));
@@ -79,7 +78,7 @@ fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFi
     }))
 }
 
-/// The run of `scene`, the moduli, and, if the solver `averages` velocities, a run without
+/// The run of `scene` and its moduli. If the solver `averages` velocities, also a run without
 /// stiffness.
 fn measure(
     patient: &Patient<'_>,
@@ -96,7 +95,7 @@ fn measure(
     Ok((course, measured))
 }
 
-/// The examination of one scene, and the share of momentum that averaging moves.
+/// The result for one scene, and the share of momentum transferred by averaging.
 fn examine_scene(
     patient: &Patient<'_>,
     scene: &BoxScene,
@@ -106,7 +105,7 @@ fn examine_scene(
     let (mut course, mut measured) = measure(patient, &scene, averages)?;
     let (lambda, mu) = scene.lame();
     let ratio = measured.along.abs() / (lambda + 2.0 * mu);
-    // Waves that are faster than expected have arrived: repeat with a shorter time.
+    // Waves faster than expected have arrived: repeat with a shorter run.
     if ratio > 2.0 {
         scene.dt /= ratio.sqrt();
         (course, measured) = measure(patient, &scene, averages)?;
@@ -129,7 +128,7 @@ fn examine_scene(
     Ok((examined, measured.averaged_share))
 }
 
-/// Findings that a viscosity can cause.
+/// Findings that a viscosity can cause as well.
 const UNNAMED: [&str; 3] = ["stress-scaled", "velocity-gradient-scaled", "moduli-differ"];
 
 fn viscosity(measured: &MeasuredModuli) -> SolverFinding {
@@ -158,7 +157,7 @@ fn describe(scene: &BoxScene, measured: &MeasuredModuli) -> String {
     )
 }
 
-/// The total momentum, which inner forces do not change.
+/// Finding on total momentum that changes, although internal forces conserve it.
 fn lost_momentum(
     patient: &Patient<'_>,
     course: &Course,
@@ -167,7 +166,7 @@ fn lost_momentum(
     let last = course.last();
     let (start, end) = (course.mean(velocity, 0), course.mean(velocity, last));
     let change: [f64; 3] = std::array::from_fn(|i| end[i] - start[i]);
-    // Speed that a face gains in the time.
+    // Speed that a face gains during the run.
     let gain = scene.wave_speed() * STRETCH.abs() * course.times[last];
     let share = size(change) / gain;
     let most = match patient.solver.precision() {

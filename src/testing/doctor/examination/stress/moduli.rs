@@ -1,20 +1,20 @@
-//! Defects that are recognised by the measured moduli.
+//! Recognises defects from the measured moduli.
 
 use super::measure::{MeasuredModuli, NEAR as NEAR_FACTOR, factor as column_factor, strain_factor};
 use crate::testing::doctor::course::{Course, shown};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::BoxScene;
 
-/// Maximum difference of a modulus, as a share of the largest modulus.
+/// Maximum difference between moduli, relative to the largest modulus.
 const NEAR: f64 = 0.03;
 
-/// Additional maximum difference if averaging moves as much momentum as stress.
+/// Additional maximum difference if averaging transfers as much momentum as stress.
 const AVERAGED: f64 = 0.06;
 
-/// A defect: its name, its moduli (along, across, shear), its cause, and where to look.
+/// A defect: name, moduli (longitudinal, lateral, shear), cause, and code to check.
 type Mistake = (&'static str, [f64; 3], &'static str, &'static str);
 
-/// The defect with the measured moduli, if they differ from those of the law.
+/// Finding on measured moduli that differ from those of the law.
 pub(super) fn cause(
     course: &Course,
     scene: &BoxScene,
@@ -151,8 +151,8 @@ fn mistakes(scene: &BoxScene, lambda: f64, mu: f64) -> Vec<Mistake> {
     all
 }
 
-/// Finding for a common factor of all moduli: the modulus, the mass, the volume or the gradients
-/// are wrong. The column `stress` shows whether it is the modulus.
+/// Finding on moduli with a common factor. The modulus, the mass, the volume or the gradients are
+/// wrong; the column `stress` shows whether it is the modulus.
 fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> SolverFinding {
     let is = |wanted: f64| (factor / wanted - 1.0).abs() <= NEAR;
     if is(-1.0) {
@@ -223,7 +223,7 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
     SolverFinding::defect(name, seen, &cause, look_at)
 }
 
-/// Distinct factors of accelerations with a known cause.
+/// Distinct acceleration factors whose cause is known.
 fn factors(scene: &BoxScene) -> Vec<(f64, &'static str)> {
     let d = scene.dimension as u32;
     let (h, particles) = (scene.h, scene.ppc.pow(d) as f64);

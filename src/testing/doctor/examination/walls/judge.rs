@@ -1,43 +1,45 @@
-//! Findings on walls, from the results of the runs with each.
+//! Determines findings on walls from the results of their runs.
 
 use super::measure::{SUNK, TRAVEL, Wall};
 use crate::testing::doctor::course::shown;
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::FACES;
 
-/// Range of the force on a decelerated body, over the expected force. It oscillates about its mean
-/// for a long time: with FLIP and cubic functions, the mean of the run is 0.70.
+/// Accepted range of the force on a decelerated body, relative to the expected force. The force
+/// oscillates about its mean for a long time. With FLIP and cubic functions, the mean over the run
+/// is 0.70.
 const THROWN: std::ops::RangeInclusive<f64> = 0.5..=1.5;
 
-/// Force below which a wall lets go, or lets slide.
+/// Relative force below which a wall lets the body separate or slide.
 const NONE: f64 = 0.2;
 
-/// Force below which the wall counts as missing.
+/// Relative force below which a wall counts as missing.
 const ABSENT: f64 = 0.1;
 
-/// Maximum relative difference of the forces of walls that are mirror images, or that differ in
-/// their condition along the wall only.
+/// Maximum relative difference between forces of walls that are mirror images, or that differ only
+/// in their tangential condition.
 const UNEVEN: f64 = 0.05;
 
-/// Displacement of a body through the wall that counts as no wall, over that of a free body in the
-/// time of one cell.
+/// Displacement through the wall above which the wall counts as missing. Unit: displacement of a
+/// free body while a wave crosses one cell.
 const THROUGH: f64 = 0.8;
 
-/// Maximum relative error of the force under gravity, which begins smoothly: averaging (PIC) with
-/// cubic functions has 0.15.
+/// Maximum relative error of the force under gravity, which begins smoothly. Averaging (PIC) with
+/// cubic functions has an error of 0.15.
 const SMOOTH: f64 = 0.2;
 
-/// Part of the weight of a cell that may be missing in the force of a wall under gravity.
+/// Maximum missing part of a wall force under gravity, as a share of the weight of a cell.
 const WEIGHT: f64 = 0.3;
 
-/// Maximum excess of this force, as a share of the weight of a cell: averaging (PIC) has 0.14.
+/// Maximum excess of that force, as a share of the weight of a cell; averaging (PIC) has 0.14.
 const CARRIED: f64 = 0.4;
 
-/// Maximum error of displacements in a uniform stretch: correct clients have up to 0.04 with
-/// quadratic functions that are modified at the wall, functions cut at the wall 0.07 or more.
+/// Maximum error of displacements in a uniform stretch. Correct clients with quadratic functions
+/// that are modified at the wall have up to 0.04; functions truncated at the wall have 0.07 or
+/// more.
 const STRETCH: f64 = 0.05;
 
-/// Kinds of findings; those that explain others come first.
+/// Kinds of findings. A kind that explains others precedes them.
 const KINDS: [&str; 11] = [
     "position-limited",
     "wall-holds-acceleration-only",
@@ -52,12 +54,12 @@ const KINDS: [&str; 11] = [
     "wall-breaks-linear-fields",
 ];
 
-/// The defect or, without one, the remark that explains the others, with the affected faces.
+/// The defect that explains all others, with the affected faces; without a defect, the remark.
 pub(super) fn finding(walls: &[Wall]) -> Option<SolverFinding> {
     first_kind(walls, of_wall).or_else(|| uneven(walls)).or_else(|| first_kind(walls, of_stretch))
 }
 
-/// The finding of the first kind in the order of [`KINDS`], with the faces that show it.
+/// The first finding in the order of [`KINDS`], with the faces that show it.
 fn first_kind(
     walls: &[Wall],
     judge: impl Fn(&Wall) -> Option<SolverFinding>,
@@ -76,8 +78,8 @@ fn first_kind(
     Some(finding)
 }
 
-/// The finding on two walls with different forces that should be equal: opposite faces with one
-/// condition, or one face with two conditions, as nothing moves along it.
+/// Finding on two walls whose forces differ but should be equal: opposite faces with one condition,
+/// or one face with two conditions if nothing moves along the face.
 fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
     let axis = |wall: &Wall| FACES.iter().position(|pair| pair.contains(&wall.face));
     let differ =
@@ -102,7 +104,7 @@ fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
     ))
 }
 
-/// The finding on a wall that moves particles, or that no force acts at.
+/// Finding on a wall that moves particles, or at which no force acts.
 fn of_absent_wall(wall: &Wall) -> Option<SolverFinding> {
     let seen = format!("forces over the expected ones are {}", wall.describe());
     if let Some(jump) = wall.jump.filter(|jump| !(jump.abs() <= 3.0)) {
@@ -164,7 +166,7 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
         ));
     }
     let is_smooth = |falling: f64| (falling - 1.0).abs() <= SMOOTH;
-    // A wall that carries more than the weight of its own nodes is inside the body.
+    // A wall that carries more than the weight of its own nodes is located inside the body.
     let is_inside = wall.offset.is_some_and(|offset| !(offset <= CARRIED));
     let is_even = wall.along.is_none_or(|along| is_near(along) || along.abs() <= NONE);
     if !(thrown().all(is_near) && is_even && !is_inside && wall.falling.is_none_or(is_smooth)) {
@@ -201,12 +203,12 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
     of_sinking(wall, &seen).or_else(|| of_column(wall))
 }
 
-/// The finding on a wall that a body under gravity moves into.
+/// Finding on a wall into which a body sinks under gravity.
 fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     let [sinking, halved] = wall.sinking?;
-    // Averaging (PIC) softens the wall too, but more with smaller steps.
+    // Averaging (PIC) also softens the wall, but softens it more with smaller steps.
     let sinks_by_steps = sinking.abs() > SUNK && halved.abs() <= 0.75 * sinking.abs();
-    // The wall does not carry the weight of its own nodes, half a cell, although it fixes them
+    // The wall does not carry the weight of its own nodes (half a cell), although it fixes them
     // correctly.
     let is_missing =
         wall.stretch.abs() <= STRETCH && wall.offset.is_some_and(|offset| !(offset >= -WEIGHT));
@@ -226,8 +228,8 @@ fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     None
 }
 
-/// The finding on a column `stress` that does not show the force of a wall. Where the stress is
-/// uniform, the order of its points does not matter.
+/// Finding on a column `stress` that does not show the wall force. A wrong order of the points is
+/// visible only where the stress is not uniform.
 fn of_column(wall: &Wall) -> Option<SolverFinding> {
     let column = wall.column.filter(|column| !THROWN.contains(column))?;
     Some(SolverFinding::defect(
@@ -241,7 +243,7 @@ fn of_column(wall: &Wall) -> Option<SolverFinding> {
     ))
 }
 
-/// The remark on a wall next to which linear fields are not reproduced.
+/// Remark on a wall near which linear fields are not reproduced.
 fn of_stretch(wall: &Wall) -> Option<SolverFinding> {
     let error = Some(wall.stretch).filter(|error| !(error.abs() <= STRETCH))?;
     Some(SolverFinding::remark(

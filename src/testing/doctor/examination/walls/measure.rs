@@ -1,4 +1,4 @@
-//! Forces of walls, and motions next to them, by the momentum of the halves of a bar.
+//! Measures wall forces, and motions near walls, from the momentum of the halves of a bar.
 
 use crate::testing::doctor::course::{AffineField, Course, displacement, line, shown, velocity};
 use crate::testing::doctor::examination::stress::{constant_and_rate, mean_tensor};
@@ -9,56 +9,57 @@ use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
 const CELLS: f64 = 16.0;
 pub(super) const TRAVEL: f64 = 7.0;
 
-/// Steps of a run: a quarter of a cell each.
+/// Number of steps; waves travel a quarter of a cell per step.
 const STEPS: u64 = 28;
 
-/// Speed of the bar over that of waves.
+/// Speed of the bar, relative to the wave speed.
 const SPEED: f64 = 1e-3;
 
-/// Distance that waves travel while a bar is stretched evenly (cells), number of steps, and strain
-/// rate times the time of a wave through a cell.
+/// For the stretched bar: distance that waves travel (cells), number of steps, and strain rate
+/// times the time in which a wave crosses a cell.
 const STRETCH_TRAVEL: f64 = 4.0;
 const STRETCH_STEPS: u64 = 16;
 const STRETCH_RATE: f64 = 1e-4;
 
-/// Gravity (m/s2), which gives a speed of this order in the run.
+/// Gravity (m/s2), which causes a speed of this order during the run.
 const GRAVITY: f64 = 1e-3;
 
-/// Displacement into a wall, over g t times the time of one cell, that is examined with half the
-/// step.
+/// Displacement into a wall above which the run is repeated with half the step. Unit: g t times the
+/// time in which a wave crosses one cell.
 pub(super) const SUNK: f64 = 0.1;
 
-/// Results of the runs for one wall; `None` if no run shows the figure.
+/// Results of the runs for one wall; `None` if no run measures the figure.
 #[derive(Debug, Clone)]
 pub(super) struct Wall {
     pub(super) face: &'static str,
     pub(super) condition: &'static str,
-    /// Force over the expected one of a body that is pushed against the wall.
+    /// Force on a body that is pushed against the wall, relative to the expected force.
     pub(super) pushed: Option<f64>,
-    /// Force over the expected one of a body that is pulled from it.
+    /// Force on a body that is pulled from the wall, relative to the expected force.
     pub(super) pulled: Option<f64>,
-    /// Force over the expected one of a body that moves along it.
+    /// Force on a body that moves along the wall, relative to the expected force.
     pub(super) along: Option<f64>,
-    /// Force over the expected one under gravity.
+    /// Force under gravity, relative to the expected force.
     pub(super) falling: Option<f64>,
-    /// Immediate force under gravity, over that on the mass of one cell: the force that is missing
-    /// at all times.
+    /// Immediate force under gravity, relative to the weight of one cell. This is the force that is
+    /// missing at all times.
     pub(super) offset: Option<f64>,
-    /// Displacement of a body through the wall, over that of a free body in the time of one cell.
+    /// Displacement through the wall, over that of a free body while a wave crosses a cell.
     pub(super) through: Option<f64>,
-    /// Largest displacement in the first step, over that due to the velocity.
+    /// Largest displacement in the first step, relative to that due to the velocity.
     pub(super) jump: Option<f64>,
-    /// Displacement along gravity at the wall, over g t times the time of one cell: with the steps
-    /// of the run, and with half of them.
+    /// Displacement along gravity at the wall, in units of g t times the time in which a wave
+    /// crosses one cell: with the steps of the run, and with half-length steps.
     pub(super) sinking: Option<[f64; 2]>,
-    /// Error of the displacements in an even stretch from the wall, over that at one cell.
+    /// Error of the displacements in a uniform stretch from the wall, relative to the displacement
+    /// at a distance of one cell.
     pub(super) stretch: f64,
-    /// Column `stress` next to the wall at the end of the first run, over the expected one.
+    /// Column `stress` next to the wall at the end of the first run, over the expected value.
     pub(super) column: Option<f64>,
 }
 
 impl Wall {
-    /// The forces, for reports.
+    /// The forces as text for reports.
     pub(super) fn describe(&self) -> String {
         let forces = [
             ("pushed", self.pushed),
@@ -86,8 +87,8 @@ pub(super) fn bar(kind: Kind, axis: usize, condition: &'static str) -> BoxScene 
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// Both walls across `axis`: the bar has an initial velocity, moves along the wall, and falls. On
-/// the first axis the velocity has both signs.
+/// Both walls normal to `axis`: the bar has an initial velocity, moves along the wall, and falls.
+/// On the first axis, both signs of the velocity are tested.
 pub(super) fn walls_across(
     patient: &Patient<'_>,
     kind: Kind,
@@ -124,7 +125,7 @@ pub(super) fn walls_across(
     let sides = [false, true].map(|high| BarEnd { axis, high });
     let fall = falls.then(|| &courses[courses.len() - 1]);
     let sunk = fall.map(|course| sides.map(|side| sinking(side, course)));
-    // Only a body that sinks into the wall is examined again.
+    // Only a body that sinks into the wall is run again.
     let halved = match sunk {
         Some(sunk) if sunk.iter().any(|sunk| !(sunk.abs() <= SUNK)) => {
             Some(patient.run_all(&[falling.with_half_the_step()])?)
@@ -133,7 +134,7 @@ pub(super) fn walls_across(
     };
     Ok(sides.map(|side| {
         let force = |run: usize| side.force(&courses[run], &scenes[run], axis, c);
-        // The first run pushes the high wall and pulls the low one, the second one the reverse.
+        // The first run pushes the high wall and pulls the low wall; the second the reverse.
         let (push, pull) = if side.high { (0, 1) } else { (1, 0) };
         let of_run = |run: usize| (run == 0 || axis == 0).then(|| force(run));
         let run_along = if axis == 0 { 2 } else { 1 };
@@ -171,13 +172,14 @@ pub(super) fn walls_across(
     }))
 }
 
-/// Errors of the displacements within two cells of the walls at both ends of `axis`, over the
-/// displacement at a distance of one cell; positive away from the wall.
+/// Errors of the displacements within two cells of the walls at both ends of `axis`, relative to
+/// the displacement at a distance of one cell; positive away from the wall.
 ///
-/// With the initial velocity `v = a (X - X_wall)` along the normal, a bar of linear elasticity
-/// stretches uniformly until a wave arrives from its free end: every particle keeps its velocity. A
-/// method reproduces this if its functions represent a linear velocity up to the wall. They do not
-/// if nodes beyond the wall are fixed at zero: the exact values are the odd continuation.
+/// With the initial velocity `v = a (X - X_wall)` along the normal, a linear elastic bar stretches
+/// uniformly until a wave arrives from its free end, and every particle keeps its velocity. A
+/// method reproduces this if its basis functions represent a linear velocity up to the wall. They
+/// do not if nodes beyond the wall are fixed at zero, because the exact nodal values continue with
+/// opposite sign.
 fn stretch_errors(
     patient: &Patient<'_>,
     kind: Kind,
@@ -195,14 +197,14 @@ fn stretch_errors(
             let error = (-end.sign() * u[axis] - strain * depth) / (strain * H);
             (depth <= 2.0 * H).then_some(error)
         });
-        // The larger one; NaN propagates.
+        // The larger error; NaN propagates.
         errors.fold(0.0, |largest: f64, error| {
             if largest.is_nan() || error.abs() <= largest.abs() { largest } else { error }
         })
     }))
 }
 
-/// The bar with one wall, stretched from there.
+/// The bar with one wall, stretched from that wall.
 fn stretched(kind: Kind, end: BarEnd, condition: &'static str) -> BoxScene {
     let mut scene = bar(kind, end.axis, condition);
     scene.faces = vec![(FACES[end.axis][usize::from(end.high)], condition)];
@@ -220,12 +222,12 @@ fn stretched(kind: Kind, end: BarEnd, condition: &'static str) -> BoxScene {
     scene.with_waves(STRETCH_TRAVEL, STRETCH_STEPS)
 }
 
-/// A broad body between two `fixed` walls across `axis`, which moves along them with a thousandth
-/// of `c` (m/s). It ends before waves have crossed it.
+/// A broad body between two `fixed` walls normal to `axis`. It moves along the walls with a
+/// thousandth of `c` (m/s), and the run ends before waves have crossed it.
 fn broad(kind: Kind, axis: usize, c: f64) -> BoxScene {
     let mut scene = bar(kind, axis, "fixed");
     let other = (axis + 1) % kind.0;
-    // As long along the walls, and half as long between them.
+    // Full length along the walls, half the length between them.
     scene.body.1[axis] = scene.body.0[axis] + 0.5 * CELLS * H;
     scene.grid.1[axis] = scene.body.1[axis];
     scene.body.1[other] = scene.body.0[other] + CELLS * H;
@@ -249,14 +251,14 @@ impl BarEnd {
         if self.high { 1.0 } else { -1.0 }
     }
 
-    /// Distance (m) of a place from the wall.
+    /// Distance of a position from the wall (m).
     fn depth(self, scene: &BoxScene, label: [f64; 3]) -> f64 {
         let ends = (scene.body.0[self.axis], scene.body.1[self.axis]);
         if self.high { ends.1 - label[self.axis] } else { label[self.axis] - ends.0 }
     }
 
-    /// Velocity component `along` gained by this half since the start, over the length of the bar:
-    /// the impulse of the wall per mass of the half times its length (m2/s).
+    /// Velocity component `along` that this half has gained since the start, times the length of
+    /// the half. This is the impulse of the wall divided by the mass per length (m2/s).
     fn gained(self, course: &Course, scene: &BoxScene, along: usize, k: usize) -> f64 {
         let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
         let weights = &course.states[0].weight;
@@ -273,8 +275,9 @@ impl BarEnd {
         half * sum / volume
     }
 
-    /// Force of the wall on a body of uniform initial velocity, over `rho c v`, in the last three
-    /// quarters of the run: averaging (PIC) adds to it at the start.
+    /// Wall force on a body with uniform initial velocity, relative to `rho c v`, in the last three
+    /// quarters of the run. The first quarter is ignored, because averaging (PIC) increases the
+    /// force there.
     fn force(self, course: &Course, scene: &BoxScene, along: usize, c: f64) -> f64 {
         let last = course.last();
         let late = last / 4..=last;
@@ -284,8 +287,8 @@ impl BarEnd {
         -slope / (c * scene.velocity.value[along])
     }
 
-    /// Force of the wall under gravity from rest: the immediate part, over `rho h g`, and the
-    /// growing part, over `rho c g t`.
+    /// Wall force under gravity from rest: the immediate part relative to `rho h g`, and the
+    /// growing part relative to `rho c g t`.
     fn force_under_gravity(self, course: &Course, scene: &BoxScene, c: f64) -> [f64; 2] {
         let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
         let held: Vec<f64> = (0..=course.last())
@@ -295,8 +298,8 @@ impl BarEnd {
         [constant / (scene.h * GRAVITY), rate / (c * GRAVITY)]
     }
 
-    /// Mean normal stress (Pa) within two cells of the wall at the end, if the solver reports the
-    /// column.
+    /// Mean normal stress (Pa) less than two cells from the wall at the end; `None` if the solver
+    /// does not report the column.
     fn stress_column(self, course: &Course, scene: &BoxScene) -> Option<f64> {
         let d = scene.dimension;
         let is_near = |label: &[f64]| {
@@ -307,8 +310,8 @@ impl BarEnd {
         Some(mean[self.axis * (d + 1)])
     }
 
-    /// Displacement (m) along the axis at the wall at the end: the line through the points within
-    /// two cells.
+    /// Displacement (m) along the axis at the wall at the end, extrapolated by a line through the
+    /// points less than two cells from the wall.
     fn at_wall(self, course: &Course, scene: &BoxScene) -> f64 {
         let (mut depth, mut out) = (Vec::new(), Vec::new());
         for (label, u) in course.points(displacement, course.last()) {

@@ -1,16 +1,16 @@
-//! Walls on every face: a body that is thrown against them, pulled from them, moves along them,
-//! and falls.
+//! Examination of walls on every face: a body is thrown against them, is pulled from them, moves
+//! along them, and falls.
 //!
-//! A bar of modulus E without Poisson's effect that is fixed at one end and has the initial
-//! velocity v stops there with the force `rho c v A`, c^2 = E/rho, until the wave has crossed it.
-//! Under the acceleration g from rest the force is `rho c g t A`. Both ends are fixed in one run:
-//! one is in compression, the other in tension. The momentum of one half shows the force of its
-//! wall as long as no wave arrives from the other wall. A bar that is stretched uniformly from a
+//! A bar with modulus E and zero Poisson's ratio is fixed at one end and has the initial velocity
+//! v. The fixed end stops it with the force `rho c v A`, c^2 = E/rho, until the wave has crossed
+//! the bar. Under the acceleration g from rest, the force is `rho c g t A`. One run tests both
+//! ends: one end is in compression, the other in tension. The momentum of each half gives the force
+//! of its wall until a wave arrives from the other wall. A bar that is stretched uniformly from a
 //! wall shows whether linear fields are reproduced there.
 //!
 //! ```text
 //! measure   the scenes, and the forces and motions at each wall
-//! judge     the finding that explains them
+//! judge     the finding that explains the results
 //! ```
 
 mod judge;
@@ -76,17 +76,17 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         measured.push(format!("sliding: {}", sliding.measured));
     }
     let mut findings: Vec<SolverFinding> = finding(&walls).into_iter().collect();
-    // A wall that moves or is missing explains a body that does not slide evenly.
+    // A wall that moves or is missing explains a body that does not slide uniformly.
     if findings.is_empty() {
         findings.extend(sliding.findings);
     }
     Ok(Examined::new(measured.join("; "), findings))
 }
 
-/// A body next to two rollers across `axis` moves along them as if there were none.
+/// Checks that a body between two rollers normal to `axis` moves along them without resistance.
 fn slide(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<Examined, Hindrance> {
     let other = (axis + 1) % kind.0;
-    // Particles pass cell faces at a distance.
+    // Particles keep a distance from cell faces.
     let mut from = [0.25; 3];
     from[other] += 0.1125 * H;
     let mut scene = BoxScene::of_cells(kind, from, 4.0, 4.0);
