@@ -94,7 +94,7 @@ fn save(path: &Path, key: &str, level: &impl Serialize) -> io::Result<()> {
     write_whole(path, &unfinished, text(key, level)?.as_bytes())
 }
 
-/// The text of a file.
+/// Contents of a file.
 fn text(key: &str, level: &impl Serialize) -> io::Result<String> {
     Ok(format!("# {key}\n{}{END}", written(level).map_err(io::Error::other)?))
 }

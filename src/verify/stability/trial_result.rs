@@ -57,17 +57,17 @@ pub struct Trial {
     pub steps: u64,
     /// Largest energy, relative to its initial value.
     pub energy: f64,
-    /// The energy at the end over that at the start.
+    /// Energy at the end, relative to its initial value.
     pub energy_kept: f64,
     /// Kinetic energy at the end, relative to its initial value; NaN if the latter is zero.
     pub kinetic_kept: f64,
-    /// The largest relative change of the momentum.
+    /// Largest relative change of the momentum.
     pub momentum: f64,
-    /// The largest relative change of the angular momentum.
+    /// Largest relative change of the angular momentum.
     pub angular_momentum: f64,
-    /// The smallest J met.
+    /// Smallest J during the run.
     pub least_j: f64,
-    /// The largest speed met, over the wave speed.
+    /// Largest speed during the run, relative to the wave speed.
     pub speed: f64,
     /// Kinetic energy at the end in the null space of the map to the grid, relative to the largest
     /// kinetic energy of the run. NaN if it is not measured.

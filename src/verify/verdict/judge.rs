@@ -2,10 +2,10 @@
 //!
 //! 1. Is every level valid, and the hypothesis testable? Otherwise `failed`.
 //! 2. Are there four usable levels? Otherwise `too few levels`.
-//! 3. Does the error oscillate, grow, or stop at a floor? `oscillatory`, `divergent` or `at floor`, by
-//!    the shapes of [`error_trend`]; an error of exactly zero is also a floor.
-//! 4. Which levels are asymptotic? See [`window`]. If the window excludes levels at the fine end, the
-//!    verdict is `at floor`.
+//! 3. Does the error oscillate, grow, or stop at a floor? `oscillatory`, `divergent` or `at floor`,
+//!    by the shapes of [`error_trend`]; an error of exactly zero is also a floor.
+//! 4. Which levels are asymptotic? See [`window`]. If the window excludes levels at the fine end,
+//!    the verdict is `at floor`.
 //! 5. Has the order settled over these levels? A wide interval or a drift is `pre-asymptotic`.
 //! 6. `too good` or `too low` if the order is outside the expected range; `converging` if the whole
 //!    interval is inside; `pre-asymptotic` if only the order is inside.
