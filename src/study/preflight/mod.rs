@@ -4,7 +4,8 @@
 //! subject      the study, and paths in its file
 //! grid         levels that count for an order, a motion that leaves the grid, and a box whose last
 //!              particles start on nodes, with linear functions
-//! error_floor  errors that refinement does not lower: small strain, single precision, linearised law
+//! error_floor  errors that refinement does not lower: small strain, single precision, and
+//!              linearised laws
 //! alignment    interfaces and loaded faces inside a cell
 //! undamped     an equilibrium without dissipation
 //! ```
