@@ -100,7 +100,7 @@ impl TimedSuite {
     }
 }
 
-/// Most accurate setting whose predicted time is within a budget, with its measured result.
+/// The most accurate setting whose predicted time is within a budget, with its measured result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BestCandidate {
     /// The budget (s).

@@ -4,7 +4,7 @@ use crate::named::named;
 use serde::{Deserialize, Serialize};
 
 named! {
-    /// Verdict of a run.
+    /// End of a run.
     pub enum Stability {
         /// The energy stayed within the range of exchange between its kinds.
         Stable = "stable",
