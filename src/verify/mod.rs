@@ -3,20 +3,20 @@
 //! | module | content |
 //! |---|---|
 //! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
-//!  [`conservation`](ConservationError) | drift of conserved sums in a motion without external forces |
-//!  [`level`](Level), [`hypothesis`](OrderHypothesis) | errors, pairwise orders, the tested order |
+//! | [`conservation`](ConservationError) | drift of conserved sums without external forces |
+//! | [`level`](Level), [`hypothesis`](OrderHypothesis) | errors, pairwise orders, tested order |
 //! | [`fit`](Interval), [`t_quantile`](two_sided_95) | order by regression, and its interval |
 //! | `window` | the asymptotic levels |
 //! | `error_trend` | floor, divergence, oscillation |
 //! | [`judge`](judge()) | the decision sequence, and the verdict |
-//!  [`case`](judge_case) | judgement of a case: all results that a report shows |
-//!  [`judge_plan`](JudgePlan), [`rerun`](Reruns) | inputs of a judgement, and repeated levels |
+//! | [`case`](judge_case) | judgement of a case: all results that a report shows |
+//! | [`judge_plan`](JudgePlan), [`rerun`](Reruns) | inputs of a judgement, and repeated levels |
 //! | [`floor`](Floor) | the cause of an error floor |
 //! | [`richardson`](Richardson) | order and limit from three values |
 //! | [`limit_estimate`](LimitEstimate) | order and limit of a series, with intervals |
 //! | [`cost`](Ranking) | cost of accuracy, in transfers or seconds |
-//!  [`spectrum`](SpectrumStudy) | measured and predicted phase speed and damping of a wave |
-//!  [`stability`](StabilityStudy) | growth in runs, amplification matrix, limits by bisection |
+//! | [`spectrum`](SpectrumStudy) | measured and predicted phase speed and damping of a wave |
+//! | [`stability`](StabilityStudy) | growth in runs, amplification matrix, limits by bisection |
 //! | [`gradient`](GradientStudy) | derivatives that a solver reports |
 //! | [`expectation`](Expectation), [`limits`](Limits) | expectations of suites |
 //! | [`figure`](CaseFigure) | registry of the figures that suites bound |

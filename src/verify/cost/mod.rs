@@ -1,13 +1,13 @@
 //! Cost of accuracy: the method that reaches an error with the least work.
 //!
-//!  module | contents |
+//! | module | contents |
 //! |---|---|
 //! | [`sample`](Sample) | levels, the converging part, the front, the work at an error |
 //! | [`exponent`](Exponent) | cost of one more digit, compared with theory |
-//!  [`ranking`](Ranking) | these figures for the methods of one problem |
+//! | [`ranking`](Ranking) | these figures for the methods of one problem |
 //! | [`timing`](Timing) | measured seconds, and a suite with timed levels |
-//!  [`model`](Model) | predicted seconds |
-//!  [`predicted_error`](PredictedError) | predicted errors, with an interval |
+//! | [`model`](Model) | predicted seconds |
+//! | [`predicted_error`](PredictedError) | predicted errors, with an interval |
 //!
 //! Work is any additive number: particle-node transfers, which are equal on all machines, or
 //! seconds. Rankings do not extrapolate: an error below the errors of all levels is not reached.
