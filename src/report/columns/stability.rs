@@ -37,7 +37,7 @@ fn steps<'a>() -> TrialColumn<'a> {
     TrialColumn::new("steps", "steps", "steps taken", |trial| Cell::plain(trial.steps))
 }
 
-/// Table of runs, if no limit is searched.
+/// Table of runs, if no limit is sought.
 pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     let figures = study.figures.iter().map(|one| figure(*one));
     let columns = [verdict(), steps()].into_iter().chain(figures);

@@ -11,7 +11,7 @@ const CURVES: usize = 5;
 /// Maximum number of curves in one plot.
 const MOST_CURVES: usize = 6;
 
-/// Studies that do not search a limit, with the names of their cases.
+/// Studies that seek no limit, with the names of their cases.
 fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_none()).collect()
 }

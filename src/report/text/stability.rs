@@ -7,12 +7,12 @@ use crate::report::figure::map::{column_head, merged_fields};
 use crate::report::figure::{Map, MapField};
 use crate::verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
 
-/// Studies of a suite that search a limit, with the names of their cases.
+/// Studies of a suite that seek a limit, with the names of their cases.
 fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_some()).collect()
 }
 
-/// Map of the stability limits of all cases of a suite; `None` if no study searches a limit.
+/// Map of the stability limits of all cases of a suite; `None` if no study seeks a limit.
 pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
     let studies = seeking(outcome);
     let (_, first) = studies.first()?;

@@ -132,7 +132,7 @@ impl CaseRun<'_> {
         })
     }
 
-    /// Limit of the parameter whose limit is searched. If the particles are frozen, it is predicted
+    /// Limit of the parameter whose limit is sought. If the particles are frozen, it is predicted
     /// and confirmed by runs; otherwise it is observed in runs.
     fn critical(
         &self,

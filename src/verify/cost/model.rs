@@ -186,8 +186,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 
-        /// On any machine, with 3 % noise, the time on a grid twice as fine is predicted within 15
-        /// %.
+        /// On any machine, with 3 % noise, the time on a grid twice as fine is predicted to 15 %.
         #[test]
         fn a_finer_level_is_predicted(
             a in 1e-10..1e-8_f64, b in 0.0..1e-7_f64, c in 0.0..1e-7_f64, d in 0.0..1e-5_f64,

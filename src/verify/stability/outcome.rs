@@ -11,7 +11,7 @@ use crate::verify::study_results::StudyResults;
 pub struct StabilityStudy {
     /// Swept parameter.
     pub swept: String,
-    /// Parameter whose limit is searched, if any.
+    /// Parameter whose limit is sought, if any.
     pub sought: Option<String>,
     /// Figures for tables.
     pub figures: Vec<RunFigure>,
@@ -24,9 +24,9 @@ pub struct StabilityStudy {
 pub struct StabilityRow {
     /// Value of the swept parameter.
     pub value: f64,
-    /// The run, if no limit is searched.
+    /// The run, if no limit is sought.
     pub trial: Option<Trial>,
-    /// Stability limit, if the study searches one.
+    /// Stability limit, if the study seeks one.
     pub critical: Option<Critical>,
     /// Reason why there is neither a run nor a limit.
     pub refused: Option<String>,
@@ -68,7 +68,7 @@ impl StudyResults for StabilityStudy {
 }
 
 impl StabilityStudy {
-    /// The verdicts of the rows, or the searched limit.
+    /// The verdicts of the rows, or the limit that is sought.
     pub fn verdict(&self) -> String {
         if let Some(sought) = &self.sought {
             return format!("limit of {sought}");
