@@ -57,7 +57,7 @@ pub struct LevelProblem {
     pub constant_body_force: Option<Vec<f64>>,
 }
 
-/// Particles at the start: n particles, one after the other.
+/// Initial values of n particles, one column per quantity.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ProblemParticles {
@@ -77,7 +77,7 @@ pub struct ProblemParticles {
     pub deformation_gradient: Vec<f64>,
     /// Cauchy stresses (Pa), n D^2 numbers, row after row.
     pub stress: Vec<f64>,
-    /// Number of the body that each belongs to.
+    /// Index of the body of each particle, n numbers.
     pub body: Vec<f64>,
     /// Hoop stresses (Pa), n numbers, of bodies of revolution; empty otherwise.
     pub hoop_stress: Vec<f64>,

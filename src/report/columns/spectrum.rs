@@ -5,7 +5,7 @@ use crate::verify::{SpectrumRow, WaveFigures};
 
 type WaveColumn<'a> = TableColumn<'a, SpectrumRow>;
 
-/// A number of a row, with its text by `format`.
+/// A number of a row, with its text formatted by `format`.
 fn figure<'a>(
     heading: &'static str,
     key: &'static str,

@@ -18,10 +18,10 @@ pub(super) struct SharedWord {
     pub(super) all: usize,
 }
 
-/// Words of several worse cases, sorted by the number of worse cases with the word, then by the
-/// smaller number of all cases with it. A case counts only for the first of its words. Empty if at
-/// most half of the worse cases have a shared word. `cases` are pairs of `SUITE::CASE` and whether
-/// the case became worse.
+/// Finds words shared by several worse cases. Words in more worse cases come first, and of these,
+/// words in fewer cases overall. A case counts only for the first of its words. Empty if at most
+/// half of the worse cases have a shared word. `cases` are pairs of `SUITE::CASE` and whether the
+/// case became worse.
 pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
     let words = |name: &str| -> BTreeSet<String> {
         let case = name.rsplit("::").next().unwrap_or_default();

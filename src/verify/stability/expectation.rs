@@ -9,7 +9,7 @@ use crate::verify::order::format_number::format_number;
 /// Expectation of one row.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StabilityExpectation {
-    /// Expected end of the run.
+    /// Expected verdict on the run.
     pub verdict: Option<Stability>,
     /// Bounds on the stability limit.
     pub critical: Option<FigureBounds>,
