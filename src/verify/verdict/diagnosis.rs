@@ -357,7 +357,8 @@ mod tests {
         assert_eq!(causes(&found), ["the cause"]);
     }
 
-    /// An order far below the limit of a kink has a larger cause, and so has a rising order.
+    /// An order far below the limit of a kink has a larger cause. An order that a change raises had
+    /// one too.
     #[test]
     fn a_kink_that_does_not_explain_the_order_comes_last() {
         let mut found = diagnosis((TooLow, order(0.8, 0.05)), (TooLow, order(1.2, 0.05), 0.6));
