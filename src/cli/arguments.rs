@@ -1,4 +1,4 @@
-//! Arguments that several commands have, and parsers of their values.
+//! Arguments common to several commands, and parsers for their values.
 
 use anstream::ColorChoice;
 use clap::{Args, ValueEnum};
@@ -44,7 +44,7 @@ pub(super) struct SolversArgs {
 /// A value of `--solver`.
 #[derive(Debug, Clone)]
 pub(super) struct SolverCommand {
-    /// Name in reports; the solver's own if there is none.
+    /// Name in reports; `None` for the solver's own name.
     pub(super) name: Option<String>,
     pub(super) command: String,
 }
@@ -52,7 +52,7 @@ pub(super) struct SolverCommand {
 impl FromStr for SolverCommand {
     type Err = Expected;
 
-    /// Reads `NAME=COMMAND` or `COMMAND`. A name has letters, digits, `-`, `_` and `.` only.
+    /// Parses `NAME=COMMAND` or `COMMAND`. A name consists of letters, digits, `-`, `_` and `.`.
     fn from_str(text: &str) -> Result<Self, Expected> {
         let is_name = |name: &str| {
             !name.is_empty()
@@ -102,7 +102,7 @@ pub(super) enum Format {
     Json,
 }
 
-/// The error of a parser of values: the values that it accepts.
+/// Error of a value parser: the values that it accepts.
 #[derive(Debug, Error)]
 #[error("expected {0}")]
 pub(super) struct Expected(pub(super) Cow<'static, str>);
@@ -113,7 +113,7 @@ impl Expected {
     }
 }
 
-/// A time with its unit, in seconds.
+/// Parses a time with its unit, in seconds.
 pub(super) fn seconds(text: &str) -> Result<f64, Expected> {
     let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
     let known = units.iter().find_map(|(unit, size)| {
@@ -124,29 +124,29 @@ pub(super) fn seconds(text: &str) -> Result<f64, Expected> {
     usable.ok_or_else(|| Expected::one("a time with its unit, such as `10s` or `500ms`"))
 }
 
-/// A whole number.
+/// Parses a whole number.
 pub(super) fn whole(text: &str) -> Result<usize, Expected> {
     text.parse().map_err(|_| Expected::one("a whole number"))
 }
 
-/// A whole number from 1 on.
+/// Parses a whole number of at least 1.
 pub(super) fn count(text: &str) -> Result<usize, Expected> {
     let known = text.parse().ok().filter(|count| *count > 0);
     known.ok_or_else(|| Expected::one("a whole number, 1 or more"))
 }
 
-/// A number of megabytes.
+/// Parses a number of megabytes.
 fn megabytes(text: &str) -> Result<u64, Expected> {
     count(text).map(|count| count as u64)
 }
 
-/// A finite number.
+/// Parses a finite number.
 pub(super) fn number(text: &str) -> Result<f64, Expected> {
     let known = text.parse().ok().filter(|number: &f64| number.is_finite());
     known.ok_or_else(|| Expected::one("a finite number"))
 }
 
-/// A finite number that is not negative.
+/// Parses a finite number that is not negative.
 pub(super) fn share(text: &str) -> Result<f64, Expected> {
     let known = number(text).ok().filter(|share| *share >= 0.0);
     known.ok_or_else(|| Expected::one("a finite number, zero or more"))
@@ -167,7 +167,7 @@ enum Color {
 }
 
 impl ColorArgs {
-    /// Sets the choice of colours for both output streams.
+    /// Applies the colour choice to both output streams.
     pub(super) fn write_global(&self) {
         match self.color {
             Color::Auto => ColorChoice::Auto,

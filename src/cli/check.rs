@@ -38,7 +38,7 @@ pub(super) struct CheckPrintArgs {
     notes: bool,
 }
 
-/// Prints for each suite that it is sound, or its errors. Warns of runs that cannot meet their
+/// Prints for each suite its errors, or that it is valid. Warns of runs that cannot meet their
 /// expectation.
 pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
     let found = select::with_sources(&args.targets.targets);
@@ -100,14 +100,14 @@ fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
     diagnostic.with_severity(Severity::Warning).with_help("names tell reports and tests apart")
 }
 
-/// The findings so far: text is printed immediately, JSON at the end.
+/// Findings so far. Text is printed immediately, JSON at the end.
 pub(super) struct CheckFindings {
     is_json: bool,
     is_quiet: bool,
-    /// Whether notes are printed in full.
+    /// Whether the texts of notes are printed.
     has_notes: bool,
     suites: Vec<Value>,
-    /// With an external solver: the suites that it can run.
+    /// Suites that an external solver can run; `None` without an external solver.
     applicable: Option<ApplicableSuites>,
 }
 
@@ -115,14 +115,14 @@ pub(super) struct CheckFindings {
 #[derive(Default)]
 struct ApplicableSuites {
     names: Vec<String>,
-    /// Number of suites by missing capability.
+    /// Number of suites for each missing capability.
     lacking: BTreeMap<String, usize>,
-    /// Number of suites that are not applicable.
+    /// Number of suites that the solver cannot run.
     others: usize,
 }
 
 impl ApplicableSuites {
-    /// A summary in a few lines.
+    /// Summary in a few lines.
     fn text(mut self) -> String {
         self.names.sort_unstable();
         let (count, all) = (self.names.len(), self.names.len() + self.others);
@@ -144,7 +144,8 @@ impl ApplicableSuites {
 const MOST_LACKING: usize = 8;
 
 impl CheckFindings {
-    /// Findings about `count` suites. Notes are printed if every target names one suite.
+    /// Starts the findings about `count` suites. Notes are printed if every target is a single
+    /// suite.
     pub(super) fn new(args: &CheckArgs, count: usize) -> Self {
         let applicable = args.solver.solver.is_some() && count > 1;
         let is_named = count <= args.targets.targets.len();
@@ -157,13 +158,13 @@ impl CheckFindings {
         }
     }
 
-    /// Whether the output ends with a summary of the suites that a solver can run, instead of
-    /// warnings and notes.
+    /// Whether the output ends with a summary of the suites that a solver can run. Warnings and
+    /// notes are then omitted.
     pub(super) fn has_summary(&self) -> bool {
         self.applicable.is_some()
     }
 
-    /// Adds a file that cannot be used.
+    /// Adds a file that cannot be loaded.
     pub(super) fn refused(&mut self, diagnostic: &Diagnostic) {
         if !self.is_json {
             return output::diagnose(diagnostic);
@@ -192,7 +193,8 @@ impl CheckFindings {
         self.suites.push(json!({"file": file, "suite": name, "lacks": lacks, "diagnostics": []}));
     }
 
-    /// Adds a suite that can run. With an external solver the expectation is that of `run --gate`.
+    /// Adds a suite that can run. With an external solver, the expectation is the requirement of
+    /// `run --gate`.
     pub(super) fn sound(
         &mut self,
         suite: &Suite,
@@ -262,7 +264,7 @@ fn of_diagnostic(diagnostic: &Diagnostic) -> Value {
     })
 }
 
-/// Complaints by severity.
+/// Number of findings by severity.
 #[derive(Debug, Default, Clone, Copy)]
 pub(super) struct Counts {
     pub(super) errors: usize,
@@ -279,7 +281,7 @@ impl Counts {
         } += 1;
     }
 
-    /// Prints one line on standard error, if any count is not zero.
+    /// Prints the counts in one line on standard error, unless all are zero.
     fn print(self, has_notes: bool) {
         let counted = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")];
         let said = |(count, noun): (usize, &str)| match count {
@@ -312,7 +314,7 @@ fn sound(suite: &Suite, is_explored: bool) -> String {
     format!("{}: sound, {cases} {noun}{cost}{linearised}{gate}\n", suite.name)
 }
 
-/// One significant digit: an estimate has no more.
+/// Rounds to one significant digit, because an estimate is not more accurate.
 fn rounded(value: f64) -> f64 {
     format!("{value:.0e}").parse().unwrap_or(value)
 }

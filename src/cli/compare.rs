@@ -41,21 +41,21 @@ pub(super) enum Page {
     Json,
 }
 
-/// Name of the snapshot of all cases.
+/// File name of the overview snapshot.
 const OVERVIEW: &str = "OVERVIEW.snap";
 
-/// Name of the results in a folder of `run --out`.
+/// File name of the results in a folder of `run --out`.
 const REPORT: &str = "report.json";
 
-/// Results of one side.
+/// Results on one side of the comparison.
 enum ComparedResults {
-    /// Document of a run, with all levels.
+    /// Results of a run, with all levels.
     Run(ReportDocument),
-    /// Document of snapshots, with the finest level.
+    /// Results from snapshots, with the finest level only.
     Snapshots(ReportDocument),
 }
 
-/// Prints the changes between two runs. Both sides are read first, so that errors in both are
+/// Prints the changes between two runs. Both sides are read first, so that errors on both sides are
 /// reported.
 pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
     let tolerance = args.tolerance;
@@ -93,7 +93,8 @@ fn print(found: &ReportComparison, format: Page) -> Status {
     if found.is_worse() { Status::Failed } else { Status::Passed }
 }
 
-/// The results at `place`: a file, a folder or a commit, in whose tree snapshots are in `folder`.
+/// Loads the results at `place`: a file, a folder or a commit. In the tree of a commit, snapshots
+/// are in `folder`.
 fn side(place: &str, folder: &str) -> Result<ComparedResults, Diagnostic> {
     let path = Path::new(place);
     if path.is_dir() {
@@ -124,13 +125,13 @@ fn side(place: &str, folder: &str) -> Result<ComparedResults, Diagnostic> {
     Ok(snapshots(&overview, |file| committed(place, &format!("{folder}/{file}")).ok()))
 }
 
-/// The results in snapshots; `read` returns the text of a file.
+/// Loads the results in snapshots. `read` returns the text of a file.
 fn snapshots(overview: &str, read: impl Fn(&str) -> Option<String>) -> ComparedResults {
     let report = |group: &str, suite: &str| read(&format!("{group}/{suite}.snap"));
     ComparedResults::Snapshots(ReportDocument::of_snapshots(overview, report))
 }
 
-/// The text of a file as a commit has it.
+/// Text of a file in a commit.
 fn committed(commit: &str, file: &str) -> io::Result<String> {
     if commit.starts_with('-') {
         return Err(io::Error::other("a commit does not begin with a dash"));
@@ -144,7 +145,7 @@ fn committed(commit: &str, file: &str) -> io::Result<String> {
     }
 }
 
-/// The results of a run, from its JSON.
+/// Loads the results of a run from its JSON.
 fn run(path: &Path) -> Result<ReportDocument, Diagnostic> {
     let file = path.display().to_string();
     let text = fs::read_to_string(path).map_err(|error| {
@@ -164,7 +165,7 @@ fn run(path: &Path) -> Result<ReportDocument, Diagnostic> {
     })
 }
 
-/// The byte at a line and a column, which is counted in bytes.
+/// Byte at a line and a column, where columns are counted in bytes.
 fn bytes(text: &str, line: usize, column: usize) -> Range<usize> {
     let start: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
     let at = (start + column - 1).min(text.len());

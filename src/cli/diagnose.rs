@@ -1,4 +1,4 @@
-//! `mpm-verify diagnose`: the cause if a case does not have the theoretical order.
+//! `mpm-verify diagnose`: finds out why a case does not have the theoretical order.
 
 use super::arguments::{FormatArgs, SolverArgs, Targets, seconds};
 use super::output::{CommandError, Status};
@@ -26,7 +26,7 @@ pub(super) struct DiagnoseArgs {
     solver: SolverArgs,
 }
 
-/// Prints the diagnosis of each case that is named.
+/// Prints the diagnosis of each requested case.
 pub(super) fn diagnose(args: &DiagnoseArgs) -> Result<Status, CommandError> {
     let solver = solver::greeted(&args.solver)?;
     let solver = solver.as_ref().map(|solver| solver as &dyn SolverFactory);
@@ -51,12 +51,12 @@ pub(super) fn diagnose(args: &DiagnoseArgs) -> Result<Status, CommandError> {
     Ok(all.code)
 }
 
-/// Diagnoses of the cases that were examined so far.
+/// Diagnoses so far.
 struct Diagnoses<'a> {
     args: &'a DiagnoseArgs,
     solver: Option<&'a dyn SolverFactory>,
     code: Status,
-    /// Number of cases that were run.
+    /// Number of diagnosed cases.
     diagnosed: usize,
     json: Vec<Value>,
 }

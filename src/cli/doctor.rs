@@ -14,7 +14,7 @@ pub(super) struct DoctorArgs {
     format: FormatArgs,
 }
 
-/// Examines the solver that the command line names, and prints what was found.
+/// Examines the solver on the command line and prints the findings.
 pub(super) fn doctor(args: &DoctorArgs) -> Result<Status, CommandError> {
     let program = solver::greeted(&args.solver)?
         .ok_or_else(|| CommandError::Message("expected a solver: `--solver COMMAND`".to_owned()))?;
@@ -28,6 +28,6 @@ pub(super) fn doctor(args: &DoctorArgs) -> Result<Status, CommandError> {
 }
 
 fn json(report: &DoctorReport) -> String {
-    // Names and finite numbers only, so that the conversion to JSON cannot fail.
+    // The report contains only names and finite numbers, so the conversion to JSON cannot fail.
     serde_json::to_string_pretty(report).unwrap_or_default() + "\n"
 }

@@ -1,4 +1,4 @@
-//! `mpm-verify explain`: the problem, the cost of a step of each case, and the expectations.
+//! `mpm-verify explain`: prints the problem, the cost of a step of each case, and the expectations.
 
 use super::arguments::{FormatArgs, Targets};
 use super::output::{CommandError, Status};
@@ -27,7 +27,7 @@ pub(super) struct ExplainArgs {
     format: FormatArgs,
 }
 
-/// Prints the page of each suite.
+/// Prints a page for each suite.
 pub(super) fn explain(args: &ExplainArgs) -> Result<Status, CommandError> {
     let without = args.without.as_deref().map(named).transpose()?;
     if let Some(file) = &args.sketch {
@@ -40,7 +40,7 @@ pub(super) fn explain(args: &ExplainArgs) -> Result<Status, CommandError> {
     Ok(show::each(targets, |suite| explanation(suite, without)))
 }
 
-/// Writes the sketch of the only suite that is named into `file`.
+/// Writes the sketch of the only requested suite into `file`.
 fn draw(args: &ExplainArgs, file: &Path) -> Result<Status, CommandError> {
     let mut suites = select::suites(&args.targets.targets);
     let suite = match (suites.pop(), suites.is_empty()) {
@@ -68,8 +68,7 @@ fn named(name: &str) -> Result<Dispensable, CommandError> {
     Err(CommandError::option("--without", name, reason))
 }
 
-/// Integration of linear elasticity in the solver, which the equation of small strain does not
-/// determine.
+/// How the solver integrates linear elasticity. The small-strain equation does not determine this.
 const PLAIN_RATE: &str = "in the solver sigma' = C : D, the plain rate, without the spin terms of an \
                           objective rate";
 
@@ -105,7 +104,7 @@ fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     page + "\n"
 }
 
-/// The levels, once for all cases with the same levels.
+/// The levels, listed once for all cases that have them in common.
 fn levels(suite: &Suite) -> String {
     let mut page = String::new();
     let planned = planned_levels(suite);
@@ -179,7 +178,7 @@ fn line(key: &str, value: &str) -> String {
     format!("  {key:17} {value}\n")
 }
 
-/// Cost of a step of the case, and its difference without an effect.
+/// Cost of a step of the case, and the lines that change without an effect.
 fn taken(suite: &Suite, case: &str, without: Option<Dispensable>) -> String {
     let Some(all) = study::profile(suite, case, None) else { return String::new() };
     let mut page: String =

@@ -1,4 +1,5 @@
-//! Texts that this program generates from itself: JSON Schemas, shell completions and manual pages.
+//! Texts that the program generates from its own definitions: JSON Schemas, shell completions and
+//! manual pages.
 
 use super::output;
 use super::output::{CommandError, Status};
@@ -26,7 +27,7 @@ pub(super) enum SchemaName {
     Protocol,
 }
 
-/// Prints the schema that the command line names.
+/// Prints the requested schema.
 pub(super) fn schema(args: &SchemaArgs) -> Status {
     output::print(&match args.of {
         SchemaName::Suite => suite_schema(),
@@ -50,7 +51,7 @@ pub(super) struct ManArgs {
     command: Option<String>,
 }
 
-/// Prints the completion script of a shell.
+/// Prints the completion script for a shell.
 pub(super) fn completions(args: &CompletionsArgs, mut cli: Command) -> Status {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut cli, "mpm-verify", &mut script);
@@ -58,7 +59,7 @@ pub(super) fn completions(args: &CompletionsArgs, mut cli: Command) -> Status {
     Status::Passed
 }
 
-/// Prints the page of the program, or that of one of its commands.
+/// Prints the manual page of the program or of one of its commands.
 pub(super) fn man(args: &ManArgs, cli: Command) -> Result<Status, CommandError> {
     let mut cli = cli.disable_help_subcommand(true);
     cli.build();
@@ -78,7 +79,7 @@ pub(super) fn man(args: &ManArgs, cli: Command) -> Result<Status, CommandError> 
     Ok(Status::Passed)
 }
 
-/// The command under the name of its page, `mpm-verify-run`.
+/// The command with the name of its manual page, `mpm-verify-run`.
 fn titled(command: &Command, name: &str) -> Command {
     command.clone().display_name(format!("mpm-verify-{name}"))
 }

@@ -1,5 +1,5 @@
-//! `mpm-verify list` and `mpm-verify steps`: suites with their cases, and the time step of every
-//! level.
+//! `mpm-verify list` prints suites with their cases; `mpm-verify steps` prints the time step of
+//! every level.
 
 use super::arguments::{FormatArgs, Targets};
 use super::output::Status;
@@ -21,7 +21,7 @@ pub(super) struct ListArgs {
     format: FormatArgs,
 }
 
-/// Prints every suite with its cases.
+/// Prints all suites with their cases.
 pub(super) fn list(args: &ListArgs) -> Status {
     let targets = &args.targets.targets;
     if args.format.is_json() {
@@ -59,7 +59,7 @@ pub(super) struct StepsArgs {
     format: FormatArgs,
 }
 
-/// Prints the steps of each suite. Returns whether all are within the tolerance.
+/// Prints the time steps of each suite. The status states whether all are within the tolerance.
 pub(super) fn steps(args: &StepsArgs) -> Status {
     let extent = if args.full { Extent::Full } else { Extent::Usual };
     let is_off = Cell::new(false);

@@ -1,5 +1,5 @@
-//! `mpm-verify`: write, run, list, check and explain suites, propose expectations, compare runs,
-//! measure the cost of accuracy, and estimate the limit of a series.
+//! `mpm-verify`: writes, runs, lists, checks and explains suites, proposes expectations, compares
+//! runs, measures the cost of accuracy, and estimates the limit of a series.
 
 mod arguments;
 mod check;
@@ -95,7 +95,7 @@ enum Command {
     Man(generate::ManArgs),
 }
 
-/// Parses the command line and runs the command. Output that could not be written is an error.
+/// Parses the command line and runs the command. A failure to write output is an error.
 pub(crate) fn main() -> ExitCode {
     let arguments = with_command(std::env::args_os().collect(), &Cli::command());
     let mut status = arguments.and_then(run_arguments).unwrap_or_else(|error| {
@@ -115,9 +115,9 @@ fn run_arguments(arguments: Vec<OsString>) -> Result<Status, CommandError> {
             cli.color.write_global();
             run_command(cli.command)
         }
-        // Help and the version too, which are printed to standard output.
+        // Help and version, which are printed to standard output, are errors for `clap` too.
         Err(mut answer) => {
-            // `-- -1` would pass a negative number as a suite.
+            // The suggestion `-- -1` would pass a negative number as a suite.
             let unknown = answer.get(ContextKind::InvalidArg).map(ToString::to_string);
             let is_number = |text: &str| text.parse::<f64>().is_ok();
             if unknown.is_some_and(|text| text.starts_with('-') && is_number(&text)) {
@@ -151,10 +151,10 @@ fn run_command(command: Command) -> Result<Status, CommandError> {
     }
 }
 
-/// The arguments, with `run` inserted if they name no command.
+/// Inserts `run` into the arguments if they contain no command.
 ///
 /// # Errors
-/// If the first argument is neither a command nor a suite, and is most like a command.
+/// If the first argument is neither a command nor a suite, but is most similar to a command.
 fn with_command(words: Vec<OsString>, cli: &clap::Command) -> Result<Vec<OsString>, CommandError> {
     let at = first(&words);
     let word = words.get(at).map(|word| word.to_string_lossy());
@@ -181,7 +181,7 @@ fn with_command(words: Vec<OsString>, cli: &clap::Command) -> Result<Vec<OsStrin
     Ok(words)
 }
 
-/// Place of the first argument after the program's name and the options that any command has.
+/// Index of the first argument after the program name and the global options.
 fn first(words: &[OsString]) -> usize {
     let mut at = words.len().min(1);
     while let Some(word) = words.get(at).and_then(|word| word.to_str()) {

@@ -1,6 +1,6 @@
 //! Standard output and standard error. All output goes through this module, so that a failure to
-//! write is reported at the end. Verdicts and errors have colours, which the streams strip unless
-//! they are terminals.
+//! write is reported at the end. Verdicts and errors are coloured; the streams remove colours
+//! unless they are terminals.
 
 use anstyle::{AnsiColor, Style};
 use mpm_verify::suite::yaml::Diagnostic;
@@ -11,10 +11,10 @@ use std::process::ExitCode;
 use std::sync::OnceLock;
 use thiserror::Error;
 
-/// The first failure to write to standard output.
+/// First failure to write to standard output.
 static FAILURE: OnceLock<String> = OnceLock::new();
 
-/// Prints to standard output, with colours if that is a terminal.
+/// Prints to standard output, in colour if it is a terminal.
 pub(super) fn print(text: &str) {
     let painted = painted(text);
     note(anstream::stdout().lock(), painted.as_bytes());
@@ -25,7 +25,7 @@ pub(super) fn print_bytes(bytes: &[u8]) {
     note(io::stdout().lock(), bytes);
 }
 
-/// The first failure to print, as text; `None` if there is none.
+/// Message about the first failure to print; `None` without a failure.
 pub(super) fn failure() -> Option<&'static str> {
     FAILURE.get().map(String::as_str)
 }
@@ -40,8 +40,8 @@ pub(super) fn diagnose(diagnostic: &Diagnostic) {
     complain(&diagnostic.styled());
 }
 
-/// Records the result of a write. A reader that closes the pipe (`mpm-verify | head`) is not a
-/// failure.
+/// Records the result of a write. A reader that closes the pipe (`mpm-verify | head`) does not
+/// count as a failure.
 pub(super) fn keep(outcome: io::Result<()>) {
     if let Err(error) = outcome
         && error.kind() != ErrorKind::BrokenPipe
@@ -59,7 +59,7 @@ const DOUBTFUL: Style = AnsiColor::Yellow.on_default().bold();
 const GOOD: Style = AnsiColor::Green.on_default();
 const REMARK: Style = AnsiColor::Cyan.on_default().bold();
 
-/// Beginnings of lines that are colored, apart from spaces.
+/// Coloured beginnings of lines, after leading spaces.
 const FIRST: [(&str, Style); 8] = [
     ("error:", BAD),
     ("warning:", DOUBTFUL),
@@ -71,10 +71,10 @@ const FIRST: [(&str, Style); 8] = [
     ("n/a ", DOUBTFUL),
 ];
 
-/// Colored texts in the row with the result of a case.
+/// Coloured texts in the line with the result of a case.
 const RESULTS: [(&str, Style); 2] = [("NOT AS EXPECTED", BAD), ("as expected", GOOD)];
 
-/// The text with its verdicts in colour.
+/// The text with coloured verdicts.
 fn painted(text: &str) -> String {
     text.split_inclusive('\n').map(line).collect()
 }
@@ -100,11 +100,11 @@ fn line(line: &str) -> String {
 /// Exit status of a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Status {
-    /// All results are as expected; in a comparison, nothing got worse.
+    /// All results are as expected; in a comparison, nothing has become worse.
     Passed = 0,
-    /// Some expectation was not met; in a comparison, something got worse.
+    /// An expectation is not met; in a comparison, something has become worse.
     Failed = 1,
-    /// Some input could not be used, or the output could not be written.
+    /// An input is invalid, or output could not be written.
     BadInput = 2,
 }
 
@@ -114,24 +114,23 @@ impl From<Status> for ExitCode {
     }
 }
 
-/// An error that ends a command with [`Status::BadInput`]. The text may have hints on lines of
-/// their own.
+/// An error that ends a command with [`Status::BadInput`]. Hints in the text are on separate lines.
 #[derive(Debug, Error)]
 pub(super) enum CommandError {
     #[error("error: {0}")]
     Message(String),
-    /// An error with its place in a file.
+    /// An error with its position in a file.
     #[error("{}", .0.styled())]
     Diagnostic(#[from] Diagnostic),
 }
 
 impl CommandError {
-    /// An error about a suite, a case or an option.
+    /// Creates an error about a suite, a case or an option.
     pub(super) fn about(subject: impl Display, reason: impl Display) -> Self {
         Self::Message(format!("{subject}: {reason}"))
     }
 
-    /// An error about the value of an option.
+    /// Creates an error about the value of an option.
     pub(super) fn option(option: &str, value: impl Display, reason: impl Display) -> Self {
         Self::about(format_args!("{option} {value}"), reason)
     }

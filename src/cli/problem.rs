@@ -1,4 +1,4 @@
-//! `mpm-verify problem`: a level of a suite as a file.
+//! `mpm-verify problem`: writes a level of a suite as a file.
 
 use super::arguments::{Expected, number, whole};
 use super::output::{CommandError, Status};
@@ -26,7 +26,7 @@ pub(super) struct ProblemArgs {
     format: ProblemFormat,
 }
 
-/// The format with this name.
+/// Parses the name of a format.
 fn format(name: &str) -> Result<ProblemFormat, Expected> {
     let known = ProblemFormat::ALL;
     let names = || known.iter().map(|format| format.name()).collect::<Vec<_>>().join(", ");

@@ -1,4 +1,4 @@
-//! `mpm-verify propose`: entries of `expect` that a run supports.
+//! `mpm-verify propose`: proposes entries of `expect` that a run supports.
 
 use super::arguments::{FormatArgs, SolverArgs, Targets};
 use super::output::{CommandError, Status};
@@ -21,7 +21,7 @@ pub(super) struct ProposeArgs {
     solver: SolverArgs,
 }
 
-/// Runs each suite without its expectations, and prints possible expectations.
+/// Runs each suite without its expectations, and prints proposed expectations.
 pub(super) fn propose(args: &ProposeArgs) -> Result<Status, CommandError> {
     let targets = &args.targets.targets;
     let solver = solver::greeted(&args.solver)?;
@@ -57,7 +57,7 @@ fn of_suite(
     if let Some(refused) = outcome.cases.iter().find(|case| case.study.is_none()) {
         return Err(CommandError::about(format_args!("{name}::{}", refused.case), &refused.reason));
     }
-    // Notes on the amplitude, the grid and the steps, whose errors no expectation can avoid.
+    // Findings about the amplitude, the grid and the steps. Expectations cannot avoid these errors.
     let found = preflight(&exploring, source);
     let remarks = found.iter().map(|found| {
         let help = found.help().map(|help| format!("; {help}"));

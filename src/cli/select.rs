@@ -1,4 +1,4 @@
-//! Suites that the user names.
+//! Finds and loads the suites that the command line names.
 
 use mpm_verify::nearest;
 use mpm_verify::suite::yaml::{self, Diagnostic, Source};
@@ -12,24 +12,25 @@ use std::path::{Path, PathBuf};
 /// Default folder of suites.
 const FOLDER: &str = "verification";
 
-/// The target that is standard input.
+/// Target that means standard input.
 const STDIN: &str = "-";
 
-/// The suites that `targets` name, each loaded or with the diagnostic that gives the reason.
+/// Suites that `targets` name, each loaded or with a diagnostic about the failure.
 ///
-/// Without targets: all of `verification/`, or the embedded suites if there is no such folder.
+/// Without targets: all suites in `verification/`, or the embedded suites if there is no such
+/// folder.
 pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Diagnostic>> {
     with_sources(targets).into_iter().map(|found| found.map(|(_, suite)| suite)).collect()
 }
 
-/// The suites that `targets` name, each with its file, or with a diagnostic.
+/// Suites that `targets` name, each with its source, or with a diagnostic.
 pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Result<(Source, Suite), Diagnostic>> {
     let sources = if targets.is_empty() {
         everything()
     } else {
         targets.iter().flat_map(|target| sources(target)).collect()
     };
-    // The check of an exact solution takes 0.1 s, and there may be many suites.
+    // Suites are loaded in parallel, because checking an exact solution takes 0.1 s.
     let load = |source: Source| Suite::load(&source).map(|suite| (source, suite));
     sources.into_par_iter().map(|source| source.and_then(load)).collect()
 }
@@ -46,7 +47,7 @@ fn everything() -> Sources {
 }
 
 /// Names of the suites that `targets` name individually: as a file, by name or on standard input,
-/// and not by a folder, a group or a pattern. `suites` are all that the targets select.
+/// instead of by a folder, a group or a pattern. `suites` are all suites that the targets select.
 pub(super) fn named_singly(targets: &[PathBuf], suites: &[Suite]) -> BTreeSet<String> {
     #[derive(serde::Deserialize)]
     struct Name {
@@ -65,18 +66,18 @@ pub(super) fn named_singly(targets: &[PathBuf], suites: &[Suite]) -> BTreeSet<St
     sources.filter_map(|source| name(source.ok()?)).collect()
 }
 
-/// Whether `target` names suites that exist, or should exist.
+/// Whether `target` refers to existing suites, or looks like a path.
 pub(super) fn is_known(target: &str) -> bool {
     let path = Path::new(target);
     target == STDIN || is_pattern(path) || place(path).is_some() || named(target).is_some()
 }
 
-/// Whether it is a pattern of names, and not the name of a file.
+/// Whether the target is a pattern of names instead of a file name.
 fn is_pattern(target: &Path) -> bool {
     target.to_string_lossy().contains('*') && !target.exists()
 }
 
-/// File or folder that `target` names, existing or not; `None` for a plain name.
+/// File or folder that `target` names, whether or not it exists; `None` for a plain name.
 fn place(target: &Path) -> Option<PathBuf> {
     let name = target.to_string_lossy();
     if name == STDIN || is_pattern(target) {
@@ -88,7 +89,7 @@ fn place(target: &Path) -> Option<PathBuf> {
     }
     let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
     let of_name = local.into_iter().find(|file| file.file_stem() == Some(target.as_os_str()));
-    // A built-in suite has precedence over a group of local suites.
+    // A built-in suite takes precedence over a group of local suites.
     let group = || Some(Path::new(FOLDER).join(target)).filter(|group| group.is_dir());
     of_name.or_else(|| if embedded::source(&name).is_none() { group() } else { None })
 }
@@ -110,7 +111,7 @@ fn sources(target: &Path) -> Sources {
     }
 }
 
-/// The built-in suite of this name, or else the suites of this group.
+/// The built-in suite with this name, or else the suites of the group with this name.
 fn named(name: &str) -> Option<Sources> {
     if let Some(suite) = embedded::source(name) {
         return Some(vec![suite]);
@@ -120,7 +121,7 @@ fn named(name: &str) -> Option<Sources> {
     Some(group).filter(|group| !group.is_empty())
 }
 
-/// The suites whose name, or group and name, fit a pattern.
+/// Suites whose name, or group and name, match a pattern.
 fn fitting(glob: &str) -> Sources {
     let fits = |path: &Path| {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -142,7 +143,7 @@ fn fitting(glob: &str) -> Sources {
     vec![Err(diagnostic.with_help("`*` stands for any text: `mms-*`, `heat/*`"))]
 }
 
-/// Suggestion for the path of a missing file: a file in the same folder, or a suite of this name.
+/// Suggestion for the path of a missing file: a file in the same folder, or a suite with this name.
 fn meant_by_path(target: &Path) -> String {
     let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let folder = target.parent().unwrap_or(Path::new(""));
@@ -170,7 +171,7 @@ fn unknown(name: &str) -> Diagnostic {
     diagnostic.with_help(&help)
 }
 
-/// Names of suites and groups: in the default folder, and embedded ones.
+/// Names of local and embedded suites and groups.
 pub(super) fn suite_names() -> Vec<String> {
     let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
     let groups = local.iter().map(|path| Source::group_of(path));
@@ -182,7 +183,7 @@ pub(super) fn suite_names() -> Vec<String> {
     names
 }
 
-/// The suites of a folder.
+/// All suites in a folder.
 fn files_in(folder: &Path) -> Sources {
     let name = folder.display().to_string();
     match Source::files_in(folder) {

@@ -1,4 +1,4 @@
-//! Pages about suites, one after the other, or in one JSON document.
+//! Prints information about suites, one after the other or in one JSON document.
 
 use super::output::{CommandError, Status};
 use super::{output, select};
@@ -8,12 +8,12 @@ use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::path::PathBuf;
 
-/// Prints a page of each suite that can be loaded, and diagnostics about the other suites.
+/// Prints a page for each suite that can be loaded, and diagnostics for the others.
 pub(super) fn each(targets: &[PathBuf], page: impl Fn(&Suite) -> String) -> Status {
     try_each(targets, |_, suite| Ok(page(suite)))
 }
 
-/// Prints a page of each suite, or its error. `page` may use the file of the suite, and may fail.
+/// Prints a page for each suite, or its error. `page` may use the suite file and may fail.
 pub(super) fn try_each(
     targets: &[PathBuf],
     page: impl Fn(&Source, &Suite) -> Result<String, CommandError>,
@@ -32,7 +32,7 @@ pub(super) fn try_each(
     code
 }
 
-/// Prints one document of all suites that can be loaded, and diagnostics about the other suites.
+/// Prints one JSON document with all suites that can be loaded, and diagnostics for the others.
 pub(super) fn json(
     targets: &[PathBuf],
     value: impl Fn(&Source, &Suite) -> Result<Value, CommandError>,

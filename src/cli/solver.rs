@@ -1,4 +1,4 @@
-//! Suites with an external solver.
+//! Starts external solvers, and replaces the methods of suites by them.
 
 use super::arguments::{SolverArgs, SolverCommand, SolverLimitArgs, SolversArgs};
 use super::output;
@@ -10,15 +10,15 @@ use mpm_verify::verify::SuiteOutcome;
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-/// The solver that the command line names, if it does.
+/// Starts the solver that the command line names, if any.
 ///
 /// # Errors
-/// The solver cannot be used.
+/// If the solver cannot be used.
 pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, CommandError> {
     args.solver.as_deref().map(|command| greet(command, &args.limits)).transpose()
 }
 
-/// Starts all solvers of the command line, each under its name.
+/// Starts all solvers of the command line, with their names.
 ///
 /// # Errors
 /// If a solver cannot be used, or if their names are not unique.
@@ -45,7 +45,7 @@ pub(super) fn greet_all(args: &SolversArgs) -> Result<Vec<SolverProgram>, Comman
 /// Starts a solver and requests its capabilities.
 ///
 /// # Errors
-/// The solver cannot be used.
+/// If the solver cannot be used.
 pub(super) fn greet(
     command: &str,
     limits: &SolverLimitArgs,
@@ -64,8 +64,8 @@ pub(super) fn greet(
     Ok(solver)
 }
 
-/// The suite with the solver, if any, in place of its methods; `None`, with a note, if the suite
-/// studies the inside of a method.
+/// The suite with the solver instead of its methods, if there is a solver. `None`, with a note, if
+/// external solvers cannot run the suite because it examines the inside of a method.
 pub(super) fn in_place_of_methods(
     suite: Suite,
     solver: Option<&dyn SolverFactory>,
@@ -89,8 +89,8 @@ fn suite_of_solver(
     judged
 }
 
-/// The suites with the solver in place of their methods, each gated on its `terms`, if any, and the
-/// names of skipped suites, which study the inside of a method.
+/// The suites with the solver instead of their methods, each gated on its `terms`, if any. Also
+/// returns the names of skipped suites, which examine the inside of a method.
 pub(super) fn suites_of_solver(
     suites: Vec<Suite>,
     solver: &SolverProgram,

@@ -1,17 +1,17 @@
-//! Suites with their own methods, with external solvers, or both in one report.
+//! Suites that run with their own methods, with external solvers, or with both in one report.
 
 use super::output::CommandError;
 use mpm_verify::study::Shard;
 use mpm_verify::suite::{Extent, Suite};
 use std::collections::BTreeSet;
 
-/// A suite as it runs: with its own methods, with each solver, or both.
+/// One suite with all its runs: by its own methods, by external solvers, or by both.
 pub(super) struct SuiteRuns {
-    /// The suite, and the index of the solver that runs it, if it is not run by its methods.
+    /// One run by the methods of the suite, and one by each solver.
     parts: Vec<SuitePart>,
 }
 
-/// A suite with the methods, or the solver, that run it.
+/// A suite, and what runs it: its methods or a solver.
 pub(super) struct SuitePart {
     pub(super) suite: Suite,
     /// Index of the solver; `None` for the methods of the suite.
@@ -19,14 +19,14 @@ pub(super) struct SuitePart {
 }
 
 impl SuiteRuns {
-    /// The suites with their own methods.
+    /// Prepares one run of each suite, with its own methods.
     pub(super) fn of_methods(suites: Vec<Suite>) -> Vec<Self> {
         let part = |suite| SuitePart { suite, solver: None };
         suites.into_iter().map(|suite| Self { parts: vec![part(suite)] }).collect()
     }
 
-    /// The suites as each solver runs them (`of_each`), after their own methods if `with_methods`.
-    /// Suites that nothing runs are skipped.
+    /// Prepares runs of the suites with each solver (`of_each`), after runs with their own methods
+    /// if `with_methods`. Suites without any run are skipped.
     pub(super) fn of_solvers(
         suites: &[Suite],
         of_each: Vec<Vec<Suite>>,
@@ -35,7 +35,7 @@ impl SuiteRuns {
         let mut all: Vec<(String, Vec<SuitePart>)> =
             suites.iter().map(|suite| (suite.name.clone(), Vec::new())).collect();
         let mut put = |suite: Suite, solver: Option<usize>| {
-            // Two suites may have the same name; they are matched in order.
+            // Several suites may have the same name. They are matched in order.
             let is_free = |(name, parts): &&mut (String, Vec<SuitePart>)| {
                 *name == suite.name && parts.last().is_none_or(|part| part.solver != solver)
             };
@@ -57,7 +57,7 @@ impl SuiteRuns {
         all.into_iter().filter(has_parts).map(|(_, parts)| Self { parts }).collect()
     }
 
-    /// The cases with a name for which `is_chosen` returns true; `None` if there is no such case.
+    /// Keeps the cases whose names `is_chosen` accepts; `None` if there is no such case.
     pub(super) fn only(self, is_chosen: impl Fn(&str) -> bool) -> Option<Self> {
         let part = |SuitePart { suite, solver }: SuitePart| {
             let names = suite.case_names();
@@ -69,7 +69,7 @@ impl SuiteRuns {
         (!parts.is_empty()).then_some(Self { parts })
     }
 
-    /// The cases in `shard`; each suite must run in one way only.
+    /// Keeps the cases in `shard`. Each suite must have only one run.
     pub(super) fn shard(runs: Vec<Self>, shard: Shard, extent: Extent) -> Vec<Self> {
         let solver = runs.iter().find_map(|runs| runs.parts[0].solver);
         let suites: Vec<Suite> = runs.into_iter().map(|runs| runs.suite().clone()).collect();
@@ -81,12 +81,12 @@ impl SuiteRuns {
         &self.parts
     }
 
-    /// The statement of the problem, which all parts share.
+    /// Statement of the problem, which is common to all parts.
     pub(super) fn suite(&self) -> &Suite {
         &self.parts[0].suite
     }
 
-    /// The first name that two cases have.
+    /// The first name that occurs twice among the cases.
     fn twice(&self) -> Option<String> {
         let mut names = BTreeSet::new();
         let all = self.parts.iter().flat_map(|part| part.suite.case_names());
@@ -94,10 +94,10 @@ impl SuiteRuns {
     }
 }
 
-/// Refuses solvers with the name of another case.
+/// Checks that no solver has the name of another case.
 ///
 /// # Errors
-/// The first such name.
+/// The first name that occurs twice.
 pub(super) fn check_names(runs: &[SuiteRuns]) -> Result<(), CommandError> {
     let Some((name, suite)) = runs.iter().find_map(|runs| Some((runs.twice()?, runs.suite())))
     else {

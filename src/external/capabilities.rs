@@ -48,7 +48,7 @@ pub struct Capabilities {
     pub binary: bool,
 }
 
-/// Requirements of a problem, with the names of suites and capabilities.
+/// Requirements of a problem, with the names used in suites and capabilities.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 #[expect(clippy::struct_excessive_bools, reason = "independent needs, each with its ability")]
@@ -61,7 +61,7 @@ pub struct ProblemNeeds {
     pub conditions: Vec<&'static str>,
     /// Loads and effects.
     pub loads: Vec<&'static str>,
-    /// The judged column, if it is an optional one.
+    /// The judged column, if it is optional.
     pub column: Option<&'static str>,
     /// Parameters with respect to which the study needs gradients.
     pub gradients: Vec<&'static str>,
@@ -87,12 +87,12 @@ pub struct ProblemNeeds {
     pub loaded_rims: bool,
     /// Whether the load is applied in load steps.
     pub load_steps: bool,
-    /// Parts of the scene that the protocol cannot represent yet.
+    /// Parts of the scene that the protocol does not support yet.
     pub beyond: Vec<&'static str>,
 }
 
 impl Capabilities {
-    /// Capabilities by their names in suites: numbers of dimensions, laws, conditions on faces,
+    /// Capabilities with names as in suites: numbers of dimensions, laws, conditions on faces,
     /// loads.
     pub fn of(dimensions: &[usize], laws: &[&str], conditions: &[&str], loads: &[&str]) -> Self {
         let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
@@ -105,7 +105,7 @@ impl Capabilities {
         }
     }
 
-    /// Missing capabilities, each as the entry that the solver would have to list.
+    /// Missing capabilities, each as the entry that the solver would have to add to its list.
     pub fn lacking(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = Vec::new();
         if !self.dimensions.contains(&needs.dimension) {
@@ -156,7 +156,7 @@ impl Capabilities {
 }
 
 impl Capabilities {
-    /// One line for each unknown name in the lists, and for each unknown key in `keys`.
+    /// Warnings, one line for each unknown name in the lists and each unknown key in `keys`.
     #[cfg(feature = "external-programs")]
     pub(super) fn unknown_names(&self, keys: &[String]) -> Vec<String> {
         let mut warnings = Vec::new();
@@ -202,8 +202,8 @@ impl ProblemNeeds {
         ]
     }
 
-    /// Requirements that version 1 of the protocol does not pass as numbers, each as its entry in
-    /// the capabilities.
+    /// Requirements that version 1 of the protocol does not pass as numbers, each as the
+    /// corresponding entry of the capabilities.
     #[cfg(feature = "external-programs")]
     pub(crate) fn beyond_version_1(&self) -> Vec<String> {
         let by_name = |capability: &'static str, names: &[&'static str], handed: &[&str]| {
@@ -251,7 +251,7 @@ const CONDITIONS: &[&str] = &["free", "fixed", "roller", "periodic", "friction",
 /// Names of the optional columns of a state.
 const COLUMNS: &[&str] = &["stress", "deformation_gradient", "temperature"];
 
-/// Parameters with respect to which there are gradients.
+/// Names of the parameters for gradients.
 const GRADIENTS: &[&str] =
     &["young", "poisson", "density", "yield", "hardening", "friction", "initial_velocity"];
 
@@ -278,7 +278,7 @@ const KEYS: &[&str] = &[
     "binary",
 ];
 
-/// The names that the list called `capability` may contain.
+/// Names that the list `capability` may contain.
 fn known(capability: &str) -> &'static [&'static str] {
     match capability {
         "laws" => LAWS,
@@ -289,14 +289,14 @@ fn known(capability: &str) -> &'static [&'static str] {
     }
 }
 
-/// The unknown name in `stated` that is nearest to `name`.
+/// The unknown name in `stated` that is most similar to `name`.
 fn misspelt<'a>(capability: &str, name: &str, stated: &'a [String]) -> Option<&'a str> {
     let known = known(capability);
     let unknown = stated.iter().map(String::as_str).filter(|stated| !known.contains(stated));
     unknown.into_iter().find(|stated| nearest(stated, known.iter().copied()) == Some(name))
 }
 
-/// The known name that is nearest to a misspelt name, or all known names.
+/// Suggests the known name that is most similar to a mistyped name, or lists all known names.
 #[cfg(feature = "external-programs")]
 fn hint(name: &str, known: &[&'static str]) -> String {
     match nearest(name, known.iter().copied()) {

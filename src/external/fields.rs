@@ -1,4 +1,4 @@
-//! Quantities of a problem as numbers, or as functions of place and time.
+//! Quantities of a problem, as numbers or as functions of place and time.
 
 use serde::{Serialize, Serializer};
 #[cfg(feature = "schemas")]
@@ -59,13 +59,13 @@ pub enum FieldName {
     Stress,
     /// Stress of the reference configuration (Pa).
     InitialStress,
-    /// The quantity of the load with this index.
+    /// Quantity of the load with this index.
     Load(usize),
-    /// The quantity of the condition on the face with this index.
+    /// Quantity of the condition on the face with this index.
     Face(usize),
 }
 
-/// Names of the fields of a body, as requests spell them.
+/// Names of body fields in requests.
 #[cfg(feature = "external-programs")]
 pub(crate) const BODY_FIELDS: [(&str, FieldName); 6] = [
     ("body_force", FieldName::BodyForce),
@@ -83,52 +83,53 @@ impl FieldName {
     }
 }
 
-/// Places at which values are requested, all of the same problem.
+/// Places of one problem at which values are requested.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct FieldPlaces<'a> {
     /// Reference positions (m), D numbers each.
     pub labels: &'a [f64],
-    /// Index of the body of each place.
+    /// Index of the body at each place.
     pub bodies: &'a [usize],
-    /// Displacements (m), D numbers each, if the request has them.
+    /// Displacements (m), D numbers each, if the request contains them.
     pub displacement: Option<&'a [f64]>,
 }
 
 impl<'a> FieldPlaces<'a> {
-    /// Places by their reference positions (m, D numbers each), with the body of each.
+    /// Creates places from their reference positions (m, D numbers each) and the body at each
+    /// place.
     pub fn new(labels: &'a [f64], bodies: &'a [usize]) -> Self {
         Self { labels, bodies, displacement: None }
     }
 }
 
-/// Reason why there are no values.
+/// Reason why values cannot be returned.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum FieldError {
-    /// The request is wrong: one line.
+    /// The request is invalid; the reason is one line.
     #[error("{0}")]
     Request(String),
-    /// The problem does not define the values that are requested: one line.
+    /// The problem does not define the requested values; the reason is one line.
     #[error("{0}")]
     Undefined(String),
 }
 
 /// Evaluates the fields of a scene.
 pub(crate) trait FieldSource: Send + Sync {
-    /// [`ProblemFields::bodies`].
+    /// Implements [`ProblemFields::bodies`].
     fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError>;
 
-    /// [`ProblemFields::nearest_body`].
+    /// Implements [`ProblemFields::nearest_body`].
     fn nearest_body(&self, label: &[f64]) -> usize;
 
-    /// [`ProblemFields::check_places`].
+    /// Implements [`ProblemFields::check_places`].
     fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError>;
 
-    /// [`ProblemFields::values`], for all fields except the body force.
+    /// Implements [`ProblemFields::values`] for all fields except the body force.
     fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError>;
 }
 
-/// The initial state, loads and conditions on faces of a problem, at places and times that a solver
+/// Initial state, loads and face conditions of a problem, at places and times that a solver
 /// chooses.
 #[derive(Clone)]
 pub struct ProblemFields(pub(crate) Arc<dyn FieldSource>);
@@ -137,27 +138,29 @@ impl ProblemFields {
     /// Index of the body that contains each of the reference positions (m, D numbers each).
     ///
     /// # Errors
-    /// [`FieldError::Request`] for a place that is outside every body, and for one on the common
-    /// boundary of two.
+    /// [`FieldError::Request`] for a place that is outside all bodies or on the common boundary of
+    /// two bodies.
     pub fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
         self.0.bodies(labels)
     }
 
-    /// Index of a body that contains the reference position `label` (m), or of the first one.
+    /// Index of a body that contains the reference position `label` (m), or of the first body if
+    /// none does.
     pub fn nearest_body(&self, label: &[f64]) -> usize {
         self.0.nearest_body(label)
     }
 
-    /// Checks that each place is in its stated body, up to rounding.
+    /// Checks that each place is in its stated body, within rounding.
     ///
     /// # Errors
-    /// [`FieldError::Request`] for the first place that is not.
+    /// [`FieldError::Request`] for the first place that is outside.
     pub fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError> {
         self.0.check_places(places)
     }
 
-    /// Values at places of a body, place after place; vectors have D numbers and tensors D^2, row
-    /// after row. The body force is [`LevelProblem::body_force`](super::LevelProblem::body_force).
+    /// Values at places of a body, place by place. Vectors have D numbers, tensors D^2, row by row.
+    /// The body force is available from
+    /// [`LevelProblem::body_force`](super::LevelProblem::body_force).
     ///
     /// # Errors
     /// [`FieldError::Request`] for a place that is not on its face, [`FieldError::Undefined`] if
@@ -178,9 +181,9 @@ impl fmt::Debug for ProblemFields {
     }
 }
 
-/// A body force of a scene.
+/// Evaluates the body force of a scene.
 pub(crate) trait ForceSource: Send + Sync {
-    /// [`BodyForceField::at`].
+    /// Implements [`BodyForceField::at`].
     fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3];
 
     /// Whether the force depends on the displacement.
@@ -188,18 +191,19 @@ pub(crate) trait ForceSource: Send + Sync {
         false
     }
 
-    /// [`BodyForceField::at_displaced`].
+    /// Implements [`BodyForceField::at_displaced`].
     fn at_displaced(&self, body: usize, label: &[f64], t: f64, _u: &[f64; 3]) -> [f64; 3] {
         self.at(body, label, t)
     }
 
-    /// [`BodyForceField::at_places`], if it is cheaper than evaluation at single places.
+    /// Implements [`BodyForceField::at_places`], if this is cheaper than evaluation at single
+    /// places.
     fn at_places(&self, _bodies: &[usize], _labels: &[&[f64]]) -> Option<PlacedBodyForce> {
         None
     }
 }
 
-/// A body force at its places: fills in the components (m/s2) at each, at a time (s).
+/// A body force at fixed places: writes the components (m/s2) at each place for a time (s).
 pub type PlacedBodyForce = Box<dyn FnMut(f64, &mut [[f64; 3]]) + Send>;
 
 /// A body force per unit of mass, as a function of the reference position and time.
@@ -207,8 +211,8 @@ pub type PlacedBodyForce = Box<dyn FnMut(f64, &mut [[f64; 3]]) + Send>;
 pub struct BodyForceField(pub(crate) Arc<dyn ForceSource>);
 
 impl BodyForceField {
-    /// The force (m/s2) at a reference position `label` (m, D numbers) of the body with a number,
-    /// and a time (s); components beyond the dimension are zero.
+    /// Force (m/s2) at the reference position `label` (m, D numbers) of body number `body` at time
+    /// `t` (s). Components beyond the dimension are zero.
     pub fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3] {
         self.0.at(body, label, t)
     }
@@ -218,12 +222,12 @@ impl BodyForceField {
         self.0.depends_on_displacement()
     }
 
-    /// The force (m/s2) like [`at`](Self::at), with the displacement `u` (m).
+    /// Force (m/s2) as in [`at`](Self::at), for a place with the displacement `u` (m).
     pub fn at_displaced(&self, body: usize, label: &[f64], t: f64, u: &[f64; 3]) -> [f64; 3] {
         self.0.at_displaced(body, label, t, u)
     }
 
-    /// The force at fixed places, with the body of each: much cheaper for many times.
+    /// The force at fixed places, with the body at each place; much cheaper for many times.
     pub fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
         self.0.at_places(bodies, labels).unwrap_or_else(|| {
             let (force, places) = (self.clone(), owned(bodies, labels));
@@ -236,7 +240,7 @@ impl BodyForceField {
     }
 }
 
-/// Copies of places with their bodies.
+/// Copies places together with their bodies.
 pub(crate) fn owned(bodies: &[usize], labels: &[&[f64]]) -> Vec<(usize, Vec<f64>)> {
     bodies.iter().copied().zip(labels.iter().map(|label| label.to_vec())).collect()
 }

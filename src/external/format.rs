@@ -1,4 +1,4 @@
-//! A problem as a file, for comparison by hand and for viewers.
+//! Writes a problem to a file, for manual comparison and for viewers.
 
 use super::problem::LevelProblem;
 use crate::named::named;
@@ -32,7 +32,7 @@ impl ProblemFormat {
 }
 
 impl LevelProblem {
-    /// The bytes of the problem as a file.
+    /// Converts the problem to the bytes of a file.
     ///
     /// # Errors
     /// An error of the zip library.
@@ -45,7 +45,7 @@ impl LevelProblem {
         }
     }
 
-    /// The message of the protocol, in lines.
+    /// The protocol message, in lines.
     fn document(&self) -> String {
         let mut document = json!(self);
         let columns = self.particles.columns();
@@ -74,7 +74,8 @@ fn is_tensor(column: &str) -> bool {
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// A table with one particle a line, whose head names the columns: `position_x`, `stress_xy`.
+/// A table with one particle per line. The header contains the column names: `position_x`,
+/// `stress_xy`.
 fn csv_table(problem: &LevelProblem) -> String {
     let (d, columns) = (problem.dimension, problem.particles.columns());
     let mut head = Vec::new();
@@ -104,12 +105,12 @@ fn csv_table(problem: &LevelProblem) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Alignment of the header of an array (bytes).
+/// Alignment of the header of an npy file (bytes).
 const ALIGNED: usize = 64;
 
-/// Arrays of NumPy: a zip file of `npy` files (NumPy Enhancement Proposal 1, version 1.0 of the
-/// format). One array for each column: n rows, and as many columns as it has components. The other
-/// arrays are `grid_origin`, `h`, `dt` and `until`.
+/// A zip file with `npy` arrays (NumPy Enhancement Proposal 1, version 1.0 of the format). Each
+/// column becomes an array with n rows and one array column for each component. The other arrays
+/// are `grid_origin`, `h`, `dt` and `until`.
 fn npz_file(problem: &LevelProblem) -> ZipResult<Vec<u8>> {
     let mut file = ZipWriter::new(Cursor::new(Vec::new()));
     let mut add = |name: &str, shape: &str, numbers: &[f64]| -> ZipResult<()> {
@@ -131,7 +132,7 @@ fn npz_file(problem: &LevelProblem) -> ZipResult<Vec<u8>> {
     Ok(file.finish()?.into_inner())
 }
 
-/// An array of doubles as a `npy` file.
+/// An array of doubles in the `npy` format.
 fn array(shape: &str, numbers: &[f64]) -> Vec<u8> {
     let mut head = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
     let magic = b"\x93NUMPY\x01\x00";
@@ -146,7 +147,7 @@ fn array(shape: &str, numbers: &[f64]) -> Vec<u8> {
     bytes
 }
 
-/// Points with data for ParaView: one vertex for each particle, at its position.
+/// Points with data for ParaView: one vertex at the position of each particle.
 fn vtu_file(problem: &LevelProblem) -> Vec<u8> {
     let rank = |name: &str| match name {
         name if is_scalar(name) => TensorRank::Scalar,

@@ -1,4 +1,4 @@
-//! Values and gradients of functionals, and problems with another value of a parameter.
+//! Values and gradients of functionals, and problems with a changed parameter.
 
 use super::fields::{FieldError, FieldName, FieldPlaces, FieldSource, HandedNumber, ProblemFields};
 use super::problem::LevelProblem;
@@ -6,12 +6,12 @@ use crate::subject::{Functional, FunctionalValue, GradientParameter, Samples, Su
 use std::sync::Arc;
 use thiserror::Error;
 
-/// A request for a value and its gradient after all steps of a problem.
+/// Request for the value of a functional and its gradient after all steps of a problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradientRequest {
     /// The functional.
     pub of: Functional,
-    /// The parameters, in the order of the entries of the gradient.
+    /// Parameters, in the order of the gradient entries.
     pub with_respect_to: Vec<GradientParameter>,
 }
 
@@ -20,18 +20,18 @@ pub struct GradientRequest {
 pub struct Gradient {
     /// Value of the functional.
     pub value: f64,
-    /// Derivatives, one for each parameter of the request, in units of the functional per unit of
-    /// the parameter.
+    /// Derivatives, one for each requested parameter, in units of the functional per unit of the
+    /// parameter.
     pub gradient: Vec<f64>,
 }
 
-/// Reason for which a solver gives no gradient.
+/// Reason why a solver returns no gradient.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum GradientError {
-    /// The solver does not support this gradient: one line.
+    /// The solver does not support this gradient; the reason is one line.
     #[error("{0}")]
     Cannot(String),
-    /// The solver broke: one line.
+    /// The solver failed; the reason is one line.
     #[error("{0}")]
     Failed(String),
 }
@@ -46,7 +46,8 @@ impl From<SubjectError> for GradientError {
 }
 
 impl LevelProblem {
-    /// The nominal value of a parameter; `None` if the problem does not have it, or has several.
+    /// Nominal value of a parameter; `None` if the problem lacks the parameter or has several
+    /// materials.
     pub fn parameter(&self, parameter: GradientParameter) -> Option<f64> {
         let [material] = self.materials.as_slice() else { return None };
         match parameter {
@@ -63,8 +64,8 @@ impl LevelProblem {
         }
     }
 
-    /// The problem with another value of a parameter. Everything else keeps its value: initial
-    /// velocities, steps, loads and the other parameters. A density changes all masses.
+    /// The problem with a changed parameter. Initial velocities, steps, loads and the other
+    /// parameters do not change. A changed density changes all masses.
     #[must_use]
     pub fn with_parameter(mut self, parameter: GradientParameter, value: f64) -> Self {
         match parameter {
@@ -101,8 +102,9 @@ impl LevelProblem {
 }
 
 impl Functional {
-    /// The value for `samples` of particles with masses `mass` (kg), and the size of its rounding:
-    /// displacements are differences of positions. NaN if the particle or axis does not exist.
+    /// Value for `samples` of particles with the masses `mass` (kg), and the size of its rounding
+    /// error: displacements are differences of positions. NaN if the particle or axis does not
+    /// exist.
     pub fn value(self, mass: &[f64], samples: &Samples) -> FunctionalValue {
         let d = samples.dimension.max(1);
         let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
@@ -135,7 +137,7 @@ impl Functional {
     }
 }
 
-/// Largest magnitude; NaN if a number is.
+/// Largest magnitude; NaN if a number is NaN.
 fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
     let larger = |a: f64, b: f64| if b <= a || a.is_nan() { a } else { b };
     numbers.map(f64::abs).fold(0.0, larger)

@@ -1,12 +1,12 @@
-//! External solvers: the trait of their makers, their problem, and the protocol for programs.
+//! External solvers: the trait for creating them, their problem, and the protocol for programs.
 //!
 //! ```text
 //! problem        initial state of one level: particles, grid, faces, materials, loads, steps
 //! fields         quantities of a problem at any place and time
-//! capabilities   what a solver can do, what a problem needs, and the names of both
-//! gradient       derivatives of functionals, and problems with another value of a parameter
+//! capabilities   capabilities of solvers, requirements of problems, and their names
+//! gradient       derivatives of functionals, and problems with a changed parameter
 //! format         a problem as a file
-//! program/       solvers in programs that speak the protocol (docs/protocol.md)
+//! program/       solvers in programs that implement the protocol (docs/protocol.md)
 //! ```
 
 mod capabilities;
@@ -35,12 +35,12 @@ pub use problem::{
 #[cfg(feature = "external-programs")]
 pub use program::{ProgramError, ProgramLimits, SolverProgram, protocol_schema, read_answers};
 
-/// A solver that can be put on every level of a suite.
+/// Creates a solver for any level of a suite.
 pub trait SolverFactory: Sync {
-    /// Its name, which is also that of its case.
+    /// Name of the solver and of its case.
     fn name(&self) -> &str;
 
-    /// Theoretical order in h of its displacements on a smooth solution.
+    /// Theoretical order in h of the displacements on a smooth solution.
     fn formal_order(&self) -> f64 {
         2.0
     }
@@ -55,33 +55,33 @@ pub trait SolverFactory: Sync {
         Vec::new()
     }
 
-    /// Hash of all inputs of the results except the problem: the program and its arguments. Results
-    /// are cached for later runs of a solver with the same hash. `None` (the default): results are
+    /// Hash of all inputs of the results except the problem: the program and its arguments. Later
+    /// runs of a solver with the same hash use cached results. `None` (the default): results are
     /// not cached.
     fn identity(&self) -> Option<u64> {
         None
     }
 
-    /// Missing capabilities of the solver for a problem; empty if it can be run.
+    /// Capabilities that a problem requires and the solver lacks; empty if it can run the problem.
     fn lacks(&self, _needs: &ProblemNeeds) -> Vec<String> {
         Vec::new()
     }
 
-    /// The solver in the initial state of `problem`. Its labels are the reference positions of the
-    /// particles, or its own sample points.
+    /// Creates the solver in the initial state of `problem`. Its labels are the reference positions
+    /// of the particles, or its own sample points.
     ///
     /// # Errors
-    /// [`SubjectError::Unsupported`] if the solver refuses the problem. A case with an error is not
-    /// applicable. A solver that breaks returns a subject whose first step fails, and the case
+    /// [`SubjectError::Unsupported`] if the solver refuses the problem; the case is then not
+    /// applicable. If the solver fails, it returns a subject whose first step fails; the case then
     /// fails.
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError>;
 
-    /// The value of a functional after all steps of `problem`, and its gradient. The default is
-    /// that of a solver that is not differentiable.
+    /// Value of a functional after all steps of `problem`, and its gradient. The default is for
+    /// solvers that are not differentiable.
     ///
     /// # Errors
-    /// [`GradientError::Cannot`] if the solver has no such gradient, [`GradientError::Failed`] if
-    /// it breaks.
+    /// [`GradientError::Cannot`] if the solver does not support this gradient,
+    /// [`GradientError::Failed`] if it fails.
     fn gradient(
         &self,
         _problem: LevelProblem,

@@ -57,7 +57,7 @@ pub struct LevelProblem {
     pub constant_body_force: Option<Vec<f64>>,
 }
 
-/// Particles at the start: n particles, one after the other.
+/// Initial values of n particles, one column per quantity.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ProblemParticles {
@@ -77,7 +77,7 @@ pub struct ProblemParticles {
     pub deformation_gradient: Vec<f64>,
     /// Cauchy stresses (Pa), n D^2 numbers, row after row.
     pub stress: Vec<f64>,
-    /// Number of the body that each belongs to.
+    /// Index of the body of each particle, n numbers.
     pub body: Vec<f64>,
     /// Hoop stresses (Pa), n numbers, of bodies of revolution; empty otherwise.
     pub hoop_stress: Vec<f64>,
@@ -86,7 +86,7 @@ pub struct ProblemParticles {
 }
 
 impl ProblemParticles {
-    /// Names of the columns that not every problem has.
+    /// Names of the optional columns.
     pub(super) const OPTIONAL: [&str; 2] = ["hoop_stress", "initial_stress"];
 
     /// Number of particles.
@@ -99,8 +99,8 @@ impl ProblemParticles {
         self.mass.is_empty()
     }
 
-    /// Every column with its name, in the order of the protocol; optional columns only if they
-    /// are not empty.
+    /// All columns with their names, in the order of the protocol. Empty optional columns are
+    /// excluded.
     pub fn columns(&self) -> Vec<(&'static str, &[f64])> {
         let mut columns: Vec<(&'static str, &[f64])> = vec![
             ("reference_position", &self.reference_position),
@@ -211,7 +211,7 @@ pub struct ProblemMaterial {
 }
 
 impl ProblemMaterial {
-    /// The parameter with this key (SI units); NaN if the law has none.
+    /// Value of the parameter with this key (SI units); NaN if the law does not have it.
     pub fn parameter(&self, key: &str) -> f64 {
         let found = self.parameters.iter().find(|(name, _)| *name == key);
         found.map_or(f64::NAN, |(_, value)| *value)

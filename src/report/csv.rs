@@ -1,4 +1,4 @@
-//! The report as a table of comma-separated values, for spreadsheets and plots.
+//! Reports as a table of comma-separated values, for spreadsheets and plots.
 
 use crate::report::columns::level;
 use crate::report::suite::json;
@@ -6,7 +6,7 @@ use crate::verify::SuiteOutcome;
 use serde_json::Value;
 use std::collections::HashMap;
 
-/// Keys of a case in the JSON document that each of its rows repeats.
+/// Keys of a case in the JSON document. Each row of the case repeats their values.
 const OF_CASE: [&str; 9] = [
     "case",
     "subject",
@@ -19,19 +19,19 @@ const OF_CASE: [&str; 9] = [
     "expected",
 ];
 
-/// The values of a row by the names of their columns.
+/// Values of a row by column name.
 type CsvRow = HashMap<String, String>;
 
-/// One row for each level of a convergence study, each value of a stability study and each position
-/// of an internal-force study; one row for a case without any of these.
+/// Reports as CSV with one row for each level of a convergence study, each value of a stability
+/// study and each position of an internal-force study. A case without any of these has one row.
 ///
-/// Columns have the names of the keys in the JSON document ([`json`](crate::report::json())), with
-/// a dot between outer and inner key (`errors.rms`, `observed_order.low`); those of stability and
+/// Column names are the keys of the JSON document ([`json`](crate::report::json())), with a dot
+/// between outer and inner key (`errors.rms`, `observed_order.low`). Columns of stability and
 /// internal-force studies begin with `stability.` and `forces.`. Numbers have enough digits to be
-/// read back exactly. A field is empty if the document has `null`.
+/// read back exactly. A field is empty if the document contains `null`.
 ///
 /// # Panics
-/// Never: memory is written to.
+/// Never, because writing to memory does not fail.
 pub fn csv(outcomes: &[SuiteOutcome]) -> String {
     let mut table = CsvTable::default();
     for outcome in outcomes {
@@ -44,7 +44,7 @@ pub fn csv(outcomes: &[SuiteOutcome]) -> String {
 
 #[derive(Default)]
 struct CsvTable {
-    /// Names of the columns, in the order in which they first occur.
+    /// Column names in order of first occurrence.
     columns: Vec<String>,
     rows: Vec<CsvRow>,
 }
@@ -78,7 +78,7 @@ impl CsvTable {
         }
     }
 
-    /// Puts a value into a row, in one column for each member if it has members.
+    /// Adds a value to a row. A value with members gets one column for each member.
     fn put(&mut self, row: &mut CsvRow, column: &str, value: &Value) {
         let text = match value {
             Value::Null => return,
@@ -118,7 +118,7 @@ impl CsvTable {
     }
 }
 
-/// Keys of levels in the order in which their columns are declared.
+/// Keys of levels in the order of their column declarations.
 fn level_keys() -> Vec<&'static str> {
     let outer = |key: &'static str| key.split_once('.').map_or(key, |(outer, _)| outer);
     let mut keys: Vec<_> = level::json_columns().iter().map(|column| outer(column.key)).collect();

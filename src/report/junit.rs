@@ -1,18 +1,18 @@
-//! The report as JUnit XML, for continuous integration services.
+//! Reports as JUnit XML, for continuous integration services.
 
 use crate::report::suite::text;
 use crate::verify::{CaseOutcome, SuiteOutcome};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::collections::BTreeSet;
 
-/// One test suite for each suite and one test case for each case.
+/// Reports as JUnit XML, with a test suite for each suite and a test case for each case.
 ///
-/// A case that is not applicable, excepted or not gated is skipped with its reason, unless its
-/// suite is one of `required`: then it fails, as under `run --gate`. A failure contains the report
-/// of the case as its text. There are no times, so that equal results give equal documents.
+/// A case that is not applicable, excepted or not gated is skipped with its reason. If its suite is
+/// one of `required`, it fails instead, as with `run --gate`. A failure contains the report of the
+/// case as its text. Times are omitted, so that equal results give equal documents.
 ///
 /// # Panics
-/// Never: memory is written to.
+/// Never, because writing to memory does not fail.
 pub fn junit(outcomes: &[SuiteOutcome], required: &BTreeSet<String>) -> String {
     let mut report = Report::new("mpm-verify");
     for outcome in outcomes {

@@ -1,4 +1,4 @@
-//! The report as LaTeX tables, for papers.
+//! Reports as LaTeX tables, for papers.
 
 use crate::report::columns::grouped;
 use crate::report::columns::level::{self, LevelRow, NamedStudy};
@@ -10,9 +10,9 @@ const MOST_CASES: usize = 3;
 
 /// Tables of the errors and orders of convergence studies, in the style of the package `booktabs`.
 ///
-/// Each table has a row for each level and two columns for each case; cases with different levels,
-/// or of different judged errors, are in different tables. Suites without convergence study have no
-/// table. The text needs `\usepackage{booktabs}` and no other package.
+/// Each table has a row for each level and two columns for each case. Cases with different levels
+/// or different judged errors are in different tables. Suites without a convergence study have no
+/// table. The text requires `\usepackage{booktabs}` and no other package.
 pub fn latex(outcomes: &[SuiteOutcome]) -> String {
     let tables = outcomes.iter().flat_map(tables).collect::<Vec<_>>().join("\n");
     format!("% Written by mpm-verify {}. Needs \\usepackage{{booktabs}}.\n{tables}", version())
@@ -104,7 +104,8 @@ fn interval(order: Interval) -> String {
     format!("${:.2}$ [${:.2}$, ${:.2}$]", order.value, order.low, order.high)
 }
 
-/// A cell of a text table in LaTeX: `1.235e-05` as a power of ten, a dash for an empty cell.
+/// A cell of a text table in LaTeX. `1.235e-05` becomes a power of ten; an empty cell becomes a
+/// dash.
 fn number(text: &str) -> String {
     let (before, rest) = text.strip_prefix('(').map_or(("", text), |rest| ("(", rest));
     let (inner, after) = rest.strip_suffix(')').map_or((rest, ""), |inner| (inner, ")"));
@@ -122,8 +123,8 @@ fn number(text: &str) -> String {
     format!("{before}{cell}{after}")
 }
 
-/// Text for LaTeX. Letters of Latin alphabets do not change; other characters beyond ASCII become
-/// their command, or a question mark.
+/// Escapes text for LaTeX. Letters of Latin alphabets do not change. Other characters outside ASCII
+/// become their LaTeX command, or a question mark.
 pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

@@ -5,7 +5,7 @@ use crate::verify::{
     Acceptance, CaseOutcome, Convergence, Exemption, StabilityStudy, SuiteOutcome, Verdict,
 };
 
-/// Headings of the columns: bases of MPM, finite elements, and all that is neither.
+/// Headings of the columns: bases of MPM, finite elements, and all other methods.
 pub(crate) const COLUMNS: [&str; 8] =
     ["linear", "uGIMP", "cpGIMP", "CPDI", "quadratic", "cubic", "FEM", "other"];
 
@@ -20,23 +20,23 @@ pub(crate) const LEGEND: &str = "Each entry is the range of observed orders of a
     against limits, and no order is measured; `stable`, `unstable` and `limit` (a critical value): \
     results of stability studies. The report of a suite states the reasons.";
 
-/// Class of a finding, from good to bad, shown as a colour on the page.
+/// Class of a finding, from good to bad. The page shows it as a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum FindingClass {
-    /// Bounds, stability studies, and cases that are not applicable.
+    /// Bounds, stability studies, and cases that do not apply.
     Other,
-    /// The expected order, or a higher one.
+    /// At least the expected order.
     Order,
     /// An order below the expected one.
     LowOrder,
-    /// No order: the error stops falling, or levels do not agree.
+    /// No order: the error stops decreasing, or the orders of the levels differ.
     NoOrder,
-    /// The error grows with refinement, or runs break.
+    /// The error grows with refinement, or runs fail.
     Fails,
 }
 
 impl FindingClass {
-    /// All classes with a meaning of their own.
+    /// Classes with their own colour.
     pub(crate) const SHOWN: [Self; 4] = [Self::Order, Self::LowOrder, Self::NoOrder, Self::Fails];
 
     /// Name of the class in style sheets.
@@ -50,7 +50,7 @@ impl FindingClass {
         }
     }
 
-    /// Meaning for a reader.
+    /// Meaning of the class, for the legend.
     pub(crate) fn meaning(self) -> &'static str {
         match self {
             Self::Other => "bounds, stability, or not applicable",
@@ -78,7 +78,7 @@ impl FindingClass {
     }
 }
 
-/// The worst class of the cases in each of [`COLUMNS`]; `None` without cases.
+/// The worst class among the cases in each of [`COLUMNS`]; `None` without cases.
 pub(crate) fn classes(outcome: &SuiteOutcome) -> [Option<FindingClass>; COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcome.cases.iter().filter(|case| column_of(case) == column);
@@ -86,8 +86,8 @@ pub(crate) fn classes(outcome: &SuiteOutcome) -> [Option<FindingClass>; COLUMNS.
     })
 }
 
-/// In each of [`COLUMNS`], the number of cases with the expected order, and of all cases with an
-/// order or an order-related verdict.
+/// For each of [`COLUMNS`], the number of cases with the expected order, and the number of all
+/// cases with an order or an order-related verdict.
 pub(crate) fn shares(outcomes: &[&SuiteOutcome]) -> [(usize, usize); COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcomes.iter().flat_map(|outcome| &outcome.cases);
@@ -100,7 +100,7 @@ pub(crate) fn shares(outcomes: &[&SuiteOutcome]) -> [(usize, usize); COLUMNS.len
     })
 }
 
-/// Items of suites, by the groups of their names.
+/// Items grouped by the group of their suite, with the groups in alphabetical order.
 pub(crate) fn by_group<'a, T>(
     all: impl IntoIterator<Item = T>,
     suite: impl Fn(&T) -> &'a SuiteOutcome,
@@ -110,7 +110,7 @@ pub(crate) fn by_group<'a, T>(
     groups
 }
 
-/// Findings of a suite, one text for each of [`COLUMNS`]; a dash if it has no such case.
+/// Findings of a suite, one text for each of [`COLUMNS`]; a dash if the suite has no such case.
 pub(crate) fn findings(outcome: &SuiteOutcome) -> [String; COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcome.cases.iter().filter(|case| column_of(case) == column);
@@ -118,8 +118,8 @@ pub(crate) fn findings(outcome: &SuiteOutcome) -> [String; COLUMNS.len()] {
     })
 }
 
-/// Suites in which methods of a column fail, with how: their errors grow or stop falling, or their
-/// runs break.
+/// Suites in which methods of a column fail, with the kinds of failure: the error grows or stops
+/// decreasing, or a run fails.
 pub(crate) fn failures(outcomes: &[SuiteOutcome], column: usize) -> Vec<(&str, Vec<String>)> {
     let of_suite = |outcome: &'_ SuiteOutcome| {
         let cases = outcome.cases.iter().filter(|case| column_of(case) == column && case.fails());
@@ -139,7 +139,7 @@ fn column_of(case: &CaseOutcome) -> usize {
     }
 }
 
-/// Orders as a range, then other verdicts.
+/// Range of the orders, followed by other verdicts.
 fn finding(cases: &[&CaseOutcome]) -> String {
     let orders = cases.iter().filter_map(|case| order(case));
     let [least, most] = orders.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], order| {
@@ -154,13 +154,13 @@ fn finding(cases: &[&CaseOutcome]) -> String {
     if parts.is_empty() { "-".to_owned() } else { parts.join("/") }
 }
 
-/// The order of a case that has one.
+/// Order of a case, if it has one.
 fn order(case: &CaseOutcome) -> Option<f64> {
     let study = case.convergence().filter(|_| word(case).is_none())?;
     study.judgement.order.map(|order| order.value)
 }
 
-/// The word for a case whose verdict is not an order.
+/// Text for a case whose verdict is not an order.
 fn word(case: &CaseOutcome) -> Option<String> {
     if !case.lacks.is_empty() {
         return Some("n/a".to_owned());

@@ -1,11 +1,11 @@
 //! Output of a [`SuiteOutcome`](crate::verify::SuiteOutcome) for people and programs.
 //!
-//! - [`text()`]: the aligned text of snapshots. No time, host, date or path.
-//! - [`json()`]: one document, an interface.
+//! - [`text()`]: the aligned text of snapshots, without time, host, date and path.
+//! - [`json()`]: one document, an interface for programs.
 //! - [`latex()`]: tables for papers; with the feature `cli` also `csv()`, and `junit()` for CI
 //!   services.
-//! - [`svg()`]: figures, drawn by the layer in [`figure`].
-//! - [`mod@page`]: one HTML page with all of it.
+//! - [`svg()`]: figures, drawn by [`figure`].
+//! - [`mod@page`]: one HTML page with the complete results.
 //! - [`drift`]: comparison of two texts, number by number.
 //! - [`mod@compare`]: comparison of two JSON documents, the largest changes first.
 

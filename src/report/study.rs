@@ -1,4 +1,4 @@
-//! Tables, remarks, JSON and figures of each kind of study.
+//! Tables, remarks, JSON and figures for each kind of study.
 
 use crate::report::columns::stability::json_columns;
 use crate::report::columns::{TableColumn, interval, number};
@@ -13,21 +13,21 @@ use crate::verify::{
 };
 use serde_json::{Map, Value, json};
 
-/// Every kind of study.
+/// All kinds of study.
 pub(crate) const KINDS: [&dyn StudyReport; 5] =
     [&ConvergenceReport, &InternalForceReport, &StabilityReport, &GradientReport, &SpectrumReport];
 
-/// Report of one kind of study; cases of other kinds add nothing.
+/// Report of one kind of study. Cases of other kinds add nothing to it.
 pub(crate) trait StudyReport: Sync {
     /// Tables of all cases of a suite.
     fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]);
 
-    /// Remarks on one case that no table has.
+    /// Remarks on one case that no table contains.
     fn remarks(&self, _case: &CaseOutcome) -> Vec<String> {
         Vec::new()
     }
 
-    /// Keys of one case in JSON, null if the case is of another kind.
+    /// JSON keys of one case, with null values if the case is of another kind.
     fn json(&self, case: &CaseOutcome) -> Map<String, Value>;
 
     /// Figures of a suite.
@@ -39,7 +39,7 @@ pub(crate) fn studies<R: StudyResults>(cases: &[CaseOutcome]) -> Vec<(&str, &R)>
     cases.iter().filter_map(|case| Some((case.case.as_str(), case.results()?))).collect()
 }
 
-/// The members of an object from `json!`.
+/// Members of an object that was created by `json!`.
 pub(crate) fn members(object: Value) -> Map<String, Value> {
     match object {
         Value::Object(members) => members,
@@ -47,7 +47,7 @@ pub(crate) fn members(object: Value) -> Map<String, Value> {
     }
 }
 
-/// Shows [`Convergence`].
+/// Reports [`Convergence`].
 pub(crate) struct ConvergenceReport;
 
 impl StudyReport for ConvergenceReport {
@@ -80,7 +80,7 @@ impl StudyReport for ConvergenceReport {
     }
 }
 
-/// Remarks on steps that are too long, failed runs, and causes of floors.
+/// Remarks about steps that are too long, failed runs, and causes of floors.
 fn remarks(study: &Convergence) -> Vec<String> {
     let too_long = study.levels.iter().filter(|level| level.is_too_long());
     let too_long: Vec<String> = too_long.map(|level| level.name(study.axis)).collect();
@@ -94,7 +94,7 @@ fn remarks(study: &Convergence) -> Vec<String> {
     too_long.into_iter().chain(failures).chain(floor).collect()
 }
 
-/// Quantity and norm of the judged errors, and their scale.
+/// Quantity, norm and scale of the judged errors.
 fn judge(study: &Convergence) -> Value {
     json!({"of": study.of.name(), "norm": study.norm.name(), "scale": study.scale.map(number)})
 }
@@ -114,7 +114,7 @@ fn floor(floor: &Floor) -> Value {
     })
 }
 
-/// Shows [`InternalForce`].
+/// Reports [`InternalForce`].
 pub(crate) struct InternalForceReport;
 
 impl StudyReport for InternalForceReport {
@@ -141,7 +141,7 @@ impl StudyReport for InternalForceReport {
     }
 }
 
-/// Shows [`StabilityStudy`].
+/// Reports [`StabilityStudy`].
 pub(crate) struct StabilityReport;
 
 impl StudyReport for StabilityReport {
@@ -167,7 +167,7 @@ impl StudyReport for StabilityReport {
     }
 }
 
-/// The rows of a stability study in JSON.
+/// Rows of a stability study as JSON.
 fn stability_json(study: &StabilityStudy) -> Value {
     let columns = json_columns(study);
     json!({
@@ -177,7 +177,7 @@ fn stability_json(study: &StabilityStudy) -> Value {
     })
 }
 
-/// Shows [`GradientStudy`].
+/// Reports [`GradientStudy`].
 pub(crate) struct GradientReport;
 
 impl StudyReport for GradientReport {
@@ -199,7 +199,7 @@ impl StudyReport for GradientReport {
     }
 }
 
-/// All checks of one derivative in JSON.
+/// All checks of one derivative as JSON.
 fn gradient_json(study: &GradientStudy) -> Value {
     let (levels, taylor, points) = (gradient::levels(), gradient::taylor(), gradient::points());
     let level = |row: &gradient::GradientLevelRow| json_object(&levels, row);
@@ -218,7 +218,7 @@ fn gradient_json(study: &GradientStudy) -> Value {
     })
 }
 
-/// Shows [`SpectrumStudy`].
+/// Reports [`SpectrumStudy`].
 pub(crate) struct SpectrumReport;
 
 impl StudyReport for SpectrumReport {
@@ -265,10 +265,10 @@ impl StudyReport for SpectrumReport {
     }
 }
 
-/// The name of a case and one of its waves.
+/// Name of a case and one of its waves.
 type NamedWave = (String, SpectrumRow);
 
-/// A column of names of cases, followed by `columns`.
+/// A column with the names of the cases, followed by `columns`.
 fn with_case(columns: Vec<TableColumn<'_, SpectrumRow>>) -> Vec<TableColumn<'_, NamedWave>> {
     let name = TableColumn::text("case", "case", |(name, _): &NamedWave| name.clone());
     let of_row = columns.into_iter().map(|column| column.within(|(_, row)| Some(row)));

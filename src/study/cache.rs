@@ -1,9 +1,9 @@
-//! Cache of the results of finished levels on disk: an interrupted run continues with the remaining
-//! levels.
+//! Stores the results of finished levels on disk, so that an interrupted run continues with the
+//! remaining levels.
 //!
-//! The result of a level is written as soon as it ends, under a name made of all its inputs: a hash
-//! of the program, the text of the suite, the case and the level. So a result of another program or
-//! text is never used, and a resumed run prints the same bytes as an uninterrupted one. Files are
+//! The result of a level is written as soon as the level ends. The file name contains a hash of all
+//! inputs: the program, the suite text, the case and the level. So results of another program or
+//! text are never used, and a resumed run prints the same bytes as an uninterrupted one. Files are
 //! written atomically, by renaming.
 
 use crate::subject::SubjectError;
@@ -16,26 +16,26 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// Last line of a file. Without it a file that was cut off could be read: keys at its end are
-/// optional, and a number without its last digits is a number.
+/// Last line of a file. Without it a truncated file could be accepted: the last keys are optional,
+/// and a number without its last digits is still a number.
 const END: &str = "# end\n";
 
-/// A folder of finished levels.
+/// A folder with the results of finished levels.
 #[derive(Debug)]
 pub struct ResultCache {
     folder: PathBuf,
-    /// Further folders, which are only read; if there are any, no level runs.
+    /// Additional folders, which are only read. If there are any, no level runs.
     others: Vec<PathBuf>,
     program: u64,
-    /// The first result that could not be written, and why.
+    /// The first error of writing a result.
     first_error: OnceLock<io::Error>,
 }
 
 impl ResultCache {
-    /// Uses a folder, and creates it if it does not exist.
+    /// Opens a folder, and creates it if it does not exist.
     ///
     /// # Errors
-    /// If the folder cannot be created, or the program cannot be read.
+    /// If the folder cannot be created, or the program file cannot be read.
     pub fn open(folder: &Path) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
         let program = fingerprint(&fs::read(std::env::current_exe()?)?);
@@ -43,10 +43,10 @@ impl ResultCache {
         Ok(Self { folder, others, program, first_error: OnceLock::new() })
     }
 
-    /// Takes finished levels from `folders`, and runs no level.
+    /// Reads finished levels from `folders` without running any level.
     ///
     /// # Errors
-    /// If one is not a folder, or the program cannot be read.
+    /// If an entry is not a folder, or the program file cannot be read.
     pub fn of_parts(folders: &[PathBuf]) -> Result<Self, (PathBuf, io::Error)> {
         let readable = |folder: &PathBuf| fs::read_dir(folder).map(drop);
         for folder in folders {
@@ -57,8 +57,8 @@ impl ResultCache {
         Ok(Self { others: folders.to_vec(), ..cache })
     }
 
-    /// The result of a level: from the folder, or from `run`. `key` contains all inputs of the
-    /// result except the program; messages call the level `name`.
+    /// Returns the result of a level, from the folder or from `run`. `key` contains all inputs of
+    /// the result except the program. `name` is the name of the level in messages.
     pub(crate) fn level<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
@@ -94,13 +94,13 @@ fn save(path: &Path, key: &str, level: &impl Serialize) -> io::Result<()> {
     write_whole(path, &unfinished, text(key, level)?.as_bytes())
 }
 
-/// The text of a file.
+/// Contents of a file.
 fn text(key: &str, level: &impl Serialize) -> io::Result<String> {
     Ok(format!("# {key}\n{}{END}", written(level).map_err(io::Error::other)?))
 }
 
-/// Writes a file atomically, also if the machine stops: the bytes are written to `unfinished`,
-/// which is renamed to `path`.
+/// Writes a file so that it is complete or absent, even if the machine stops. The bytes are written
+/// to `unfinished`, which is renamed to `path`.
 fn write_whole(path: &Path, unfinished: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(unfinished)?;
     file.write_all(bytes)?;
@@ -108,7 +108,7 @@ fn write_whole(path: &Path, unfinished: &Path, bytes: &[u8]) -> io::Result<()> {
     fs::rename(unfinished, path)
 }
 
-/// `None` if the text belongs to another level, or is incomplete or invalid.
+/// Reads a result; `None` if the text belongs to another level, or is incomplete or invalid.
 fn read<T: DeserializeOwned>(text: &str, key: &str) -> Option<T> {
     let rest = text.strip_prefix("# ")?.strip_prefix(key)?.strip_prefix('\n')?;
     read_again(rest.strip_suffix(END)?)
@@ -151,7 +151,7 @@ mod tests {
         }
     }
 
-    /// As text, NaN is itself and -0 is not 0.
+    /// Text of a result, which makes NaN equal to itself and distinguishes -0 from 0.
     fn shown(run: &RunResult) -> String {
         format!("{run:?}")
     }

@@ -1,4 +1,4 @@
-//! Kinds of study: the interface of each, and the list of all.
+//! The interface of all kinds of study, and their list.
 
 use super::cache::ResultCache;
 use super::describe::Dispensable;
@@ -17,27 +17,27 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::any::Any;
 
-/// Callback after each unit of work that is done: a level, a row or a case.
+/// Callback after each finished unit of work: a level, a row or a case.
 pub type Progress<'a> = &'a (dyn Fn() + Sync);
 
-/// A plan whose cases can be stated and run.
+/// A plan whose cases can be described and run.
 pub(crate) trait Study: StudyPlan {
-    /// Rows of name and value that state the study.
+    /// Rows of name and value that describe the study.
     fn statement(&self) -> Rows;
 
-    /// Capabilities that it requires of an external solver; `None` if no external solver can run
-    /// the study.
+    /// Capabilities that the study requires of an external solver; `None` if no external solver can
+    /// run it.
     fn needs(&self) -> Option<ProblemNeeds> {
         None
     }
 
     /// Profile of a step of the case with this index on the coarsest level, optionally without one
-    /// effect; `None` for a study without levels, or if the subject gives none.
+    /// effect. `None` for a study without levels, or if the subject has no profile.
     fn profile(&self, _case: usize, _without: Option<Dispensable>) -> Option<Profile> {
         None
     }
 
-    /// Runner of the cases. It does not start any run.
+    /// Creates a runner of the cases, without starting any run.
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a>;
 }
 
@@ -48,7 +48,8 @@ pub struct StepWarning {
     pub case: usize,
     /// Text of the warning.
     pub text: String,
-    /// Whether the step is too long. A suite may intend this, with an expectation of it.
+    /// Whether the step is too long. A suite may do this deliberately, with a corresponding
+    /// expectation.
     pub is_too_long: bool,
 }
 
@@ -57,19 +58,19 @@ pub(crate) type ShowRun<'a> = &'a mut dyn FnMut(ShownRun<'_>) -> Result<(), Seri
 
 /// Runs the cases of one study.
 pub(crate) trait CaseRunner: Send + Sync {
-    /// Units of progress of all cases.
+    /// Number of progress units of all cases.
     fn units(&self) -> u64;
 
-    /// Warnings that need no run, without the name of the suite.
+    /// Warnings that require no run, without the name of the suite.
     fn warnings(&self) -> Vec<StepWarning> {
         Vec::new()
     }
 
     /// Calls `then` with the most informative run of a case: the first one that failed or grew in
-    /// `outcome`, or the last one.
+    /// `outcome`, or otherwise the last one.
     ///
     /// # Errors
-    /// The errors of `then`, or one line with the reason why there is no such run.
+    /// The errors of `then`, or the reason why there is no such run.
     fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), SeriesError> {
         Err("its study has no runs to be shown".into())
     }
@@ -78,27 +79,27 @@ pub(crate) trait CaseRunner: Send + Sync {
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome;
 }
 
-/// All inputs of the runs of a suite in addition to its plan.
+/// Inputs of the runs of a suite in addition to its plan.
 #[derive(Clone, Copy)]
 pub(crate) struct RunContext<'a> {
     /// Name of the suite.
     pub(crate) suite: &'a str,
-    /// Hash of its text.
+    /// Hash of the suite text.
     pub(crate) fingerprint: u64,
-    /// Levels that run.
+    /// Extent of the levels that run.
     pub(crate) extent: Extent,
     /// Results of earlier runs.
     pub(crate) cache: Option<&'a ResultCache>,
     /// Number of times that each level of a convergence study runs.
     pub(crate) repeat: usize,
-    /// The solver of cases whose method is not of this crate.
+    /// Solver for cases with an external method.
     pub(crate) solver: Option<&'a dyn SolverFactory>,
 }
 
 impl RunContext<'_> {
-    /// The cached result of `key`, which messages call `name`, or that of `run`, which is then
-    /// cached. A result of an external solver is not cached if it is `broken`: a solver that fails,
-    /// or does not answer in time, may succeed the next time.
+    /// The cached result of `key`, or the result of `run`, which is then cached. Messages call it
+    /// `name`. A result of an external solver is not cached if it is `broken`, because a solver
+    /// that fails or times out may succeed the next time.
     pub(crate) fn cached<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
@@ -110,7 +111,7 @@ impl RunContext<'_> {
         let solver = match self.solver.map(SolverFactory::identity) {
             None => String::new(),
             Some(Some(identity)) => format!(" {identity:016x}"),
-            // A solver without an identity may be another one the next time.
+            // A solver without an identity may have changed before the next run.
             Some(None) => return run(),
         };
         let mut uncached = None;
@@ -127,10 +128,10 @@ impl RunContext<'_> {
     }
 }
 
-/// Downcast of a plan to a study of one kind.
+/// Downcasts a plan to one kind of study.
 type AsStudy = for<'a> fn(&'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study>;
 
-/// Every kind of study.
+/// All kinds of study.
 const KINDS: [AsStudy; 5] = [
     of::<ConvergencePlan>,
     of::<ForcePlan>,
@@ -153,15 +154,15 @@ pub(crate) fn study(suite: &Suite) -> &dyn Study {
     found.unwrap_or_else(|| panic!("`{}` is of a kind of study that is not listed", suite.name))
 }
 
-/// Rows of name and value that state the problem of a suite, for reports.
+/// Rows of name and value that describe the problem of a suite, for reports.
 pub fn statement(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = head(suite);
     rows.extend(study(suite).statement());
     rows
 }
 
-/// Profile of a step of the case named `name` on the coarsest level, optionally without one effect;
-/// `None` for a case without levels, or if the subject gives none.
+/// Profile of a step of the case `name` on the coarsest level, optionally without one effect.
+/// `None` for a case without levels, or if the subject has no profile.
 pub fn profile(suite: &Suite, name: &str, without: Option<Dispensable>) -> Option<Profile> {
     let case = suite.case_names().into_iter().position(|case| case == name)?;
     study(suite).profile(case, without)

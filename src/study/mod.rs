@@ -1,18 +1,18 @@
-//! Studies: running and judging the contents of a suite.
+//! Studies: run and judge the contents of a suite.
 //!
 //! ```text
-//! setup            model -> Subject: names become types
-//! convergence      errors over a refinement plan, judged
+//! setup            model -> Subject: converts names to types
+//! convergence      errors over a refinement plan, and their verdict
 //! internal_force   the internal force on a node while a particle crosses it
 //! gradient         derivatives that a differentiable solver reports
-//! spectrum         phase speed and damping of waves, measured and predicted
-//! stability        runs watched for growth, limits by bisection
-//! cost             seconds of every level, and what they buy
-//! cache            results of finished levels kept on disk
-//! describe         the rows that state a problem in reports
-//! diagnosis        why an order is not that of theory, by runs that change one thing
+//! spectrum         measured and predicted phase speed and damping of waves
+//! stability        growth in runs, and limits by bisection
+//! cost             seconds of every level, and the accuracy within a budget
+//! cache            results of finished levels on disk
+//! describe         the rows that describe a problem in reports
+//! diagnosis        causes of a wrong order, from runs with single changes
 //! exact_motion     amplitude, extremes and linearisation of an exact motion
-//! handover         a level as a problem that any solver can be handed
+//! handover         a level as a problem for any solver
 //! preflight        warnings about a suite before anything runs
 //! time_series      a case as files for ParaView: particles and grid over time
 //! ```

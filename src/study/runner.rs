@@ -1,4 +1,4 @@
-//! Runs a suite of any kind of study.
+//! Runs a suite with any kind of study.
 
 use super::cache::ResultCache;
 use super::kind::{CaseRunner, Progress, RunContext, StepWarning, statement, study};
@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use std::io;
 use std::str::FromStr;
 
-/// Runs cases of one suite.
+/// Runs the cases of one suite.
 pub struct Runner<'a> {
     suite: &'a Suite,
     context: RunContext<'a>,
@@ -22,33 +22,33 @@ pub struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    /// A runner of the levels of the gate. It does not start any run.
+    /// Creates a runner of the gate levels, without starting any run.
     pub fn new(suite: &'a Suite) -> Self {
         Self::over(suite, Extent::Usual)
     }
 
-    /// A runner of the levels in `extent`.
+    /// Creates a runner of the levels in `extent`.
     pub fn over(suite: &'a Suite, extent: Extent) -> Self {
         let (name, fingerprint) = (suite.name.as_str(), suite.fingerprint);
         let (cache, solver, repeat) = (None, None, 1);
         Self::with(suite, RunContext { suite: name, fingerprint, extent, cache, repeat, solver })
     }
 
-    /// The solver of the cases of [`Suite::of_external`].
+    /// Sets the solver for the cases of [`Suite::of_external`].
     #[must_use]
     pub fn judging(self, solver: &'a dyn SolverFactory) -> Self {
         Self::with(self.suite, RunContext { solver: Some(solver), ..self.context })
     }
 
-    /// Stores finished levels in a cache, and uses stored ones.
+    /// Stores finished levels in a cache, and reuses stored ones.
     #[must_use]
     pub fn keeping(self, cache: Option<&'a ResultCache>) -> Self {
         Self::with(self.suite, RunContext { cache, ..self.context })
     }
 
-    /// Runs each level of a convergence study `count` times, in a new process for an external
-    /// solver, and reports the spread between the runs. Results are then neither stored in a cache
-    /// nor taken from it. A `count` of 0 or 1 is one run, without a spread.
+    /// Runs each level of a convergence study `count` times and reports the spread of the runs. An
+    /// external solver starts a new process each time. The cache is then neither read nor written.
+    /// A `count` of 0 or 1 means one run without a spread.
     #[must_use]
     pub fn repeating(self, count: usize) -> Self {
         Self::with(self.suite, RunContext { repeat: count.max(1), ..self.context })
@@ -58,27 +58,27 @@ impl<'a> Runner<'a> {
         Self { suite, context, cases: study(suite).runner(context) }
     }
 
-    /// Units of progress of the whole suite.
+    /// Number of progress units of the whole suite.
     pub fn units(&self) -> u64 {
         self.cases.units()
     }
 
-    /// Warnings that need no run, about steps longer than the predicted stable time step, or
-    /// different from the requested ones.
+    /// Warnings that require no run: steps that are longer than the predicted stable time step, or
+    /// differ from the requested ones.
     pub fn warnings(&self) -> Vec<StepWarning> {
         let text = |warning: &StepWarning| format!("{}::{}", self.suite.name, warning.text);
         let named = |warning| StepWarning { text: text(&warning), ..warning };
         self.cases.warnings().into_iter().map(named).collect()
     }
 
-    /// Runs every case, in parallel; outcomes are in the order of the suite and do not depend on
-    /// the number of threads.
+    /// Runs all cases in parallel. The outcomes are in suite order and do not depend on the number
+    /// of threads.
     pub fn run(&self, progress: Progress<'_>) -> SuiteOutcome {
         let count = self.suite.case_names().len();
         self.outcome((0..count).into_par_iter().map(|i| self.case(i, progress)).collect())
     }
 
-    /// The outcome of the suite, from the outcomes of its cases.
+    /// Creates the outcome of the suite from the outcomes of its cases.
     pub fn outcome(&self, cases: Vec<CaseOutcome>) -> SuiteOutcome {
         let statement = statement(self.suite);
         let words: Vec<String> =
@@ -95,11 +95,12 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Runs a case again and gives its particles and its grid over time to `write`, as files for
-    /// ParaView: on the first level (or row) that failed or grew in `outcome`, or on the finest.
+    /// Runs a case again and passes its particles and its grid over time to `write`, as files for
+    /// ParaView. The level (or row) is the first one that failed or grew in `outcome`, or otherwise
+    /// the finest.
     ///
     /// # Errors
-    /// [`SeriesError`] if the case has no run to write, or `write` gives an error.
+    /// [`SeriesError`] if the case has no run to write, or `write` returns an error.
     pub fn time_series(
         &self,
         outcome: &CaseOutcome,
@@ -123,17 +124,17 @@ impl<'a> Runner<'a> {
 /// Maximum number of parts of a run.
 const MOST: usize = 10_000;
 
-/// Time (s) of a case in addition to its steps.
+/// Predicted time (s) of a case in addition to its steps.
 const SET_UP: f64 = 1e-3;
 
-/// One of several parts of a run: `2/5`.
+/// One of several parts of a run, such as `2/5`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     number: usize,
     count: usize,
 }
 
-/// The text does not have the form `K/N`.
+/// Error for a text that does not have the form `K/N`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("expected a number and a count, such as `2/5`, up to {MOST}")]
 pub struct ShardError;
@@ -154,9 +155,9 @@ impl FromStr for Shard {
 
 impl Shard {
     /// The cases of `suites` in this part; suites without such a case are excluded. The most
-    /// expensive remaining case is assigned to the part with the least cost so far (Graham 1969,
-    /// SIAM J. Appl. Math. 17, 416: no part takes more than 4/3 of the optimum). The assignment is
-    /// the same in every part.
+    /// expensive remaining case is always assigned to the part with the lowest cost so far (Graham
+    /// 1969, SIAM J. Appl. Math. 17, 416: no part takes more than 4/3 of the optimum). All parts
+    /// compute the same assignment.
     pub fn of(self, suites: &[Suite], extent: Extent) -> Vec<Suite> {
         let costs: Vec<Vec<f64>> = suites.iter().map(|suite| seconds(suite, extent)).collect();
         let mut all: Vec<(usize, usize)> = Vec::new();

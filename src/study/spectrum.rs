@@ -1,4 +1,4 @@
-//! One case of a spectrum study: a run for each wave.
+//! The spectrum study: runs one wave after another for each case.
 
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::report::columns::distinct;
@@ -21,15 +21,15 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Phase error (relative) whose wavelength a report states.
+/// Relative phase error for which a report states the wavelength.
 const ONE_PERCENT: f64 = 0.01;
 
-/// The needs of a run.
+/// Capabilities that a run requires.
 fn needs(plan: &SpectrumPlan) -> ProblemNeeds {
     of_scene(&plan.scene)
 }
 
-/// One case of a study.
+/// Runs the waves of one case.
 struct WaveRun<'a> {
     plan: &'a SpectrumPlan,
     case: &'a SpectrumCase,
@@ -37,7 +37,8 @@ struct WaveRun<'a> {
 }
 
 impl WaveRun<'_> {
-    /// Cells per wavelength for a phase error of 1 % at the Courant number of each wave.
+    /// Number of cells per wavelength with a phase error of 1 %, at the Courant number of each
+    /// wave.
     fn cells_for_one_percent(&self) -> Vec<Option<f64>> {
         let mut known: Vec<(f64, Option<f64>)> = Vec::new();
         let of = |wave: &Wave| {
@@ -54,7 +55,7 @@ impl WaveRun<'_> {
         self.plan.waves.iter().map(of).collect()
     }
 
-    /// The row of one wave.
+    /// Result row of one wave.
     fn row(&self, wave: &Wave, cells_for_one_percent: Option<f64>) -> SpectrumRow {
         let (cells, courant) = (wave.cells, wave.courant);
         let predicted = self.case.curve.map(|curve| {
@@ -79,7 +80,7 @@ impl WaveRun<'_> {
         }
     }
 
-    /// Number of steps of the run of a wave.
+    /// Number of steps in the run of a wave.
     fn steps(&self, wave: &Wave) -> u64 {
         let log_kept = self
             .case
@@ -103,7 +104,7 @@ impl WaveRun<'_> {
         self.context.cached(&key, &name, |_| false, run)
     }
 
-    /// The subject at the start of the run of `wave` in `scene`.
+    /// The subject at the start of a run of `wave` in `scene`.
     fn subject(
         &self,
         scene: &Scene,
@@ -138,7 +139,7 @@ impl WaveRun<'_> {
         solver.subject(problem(self.context.suite, scene, None, level, run))
     }
 
-    /// The run of a wave, for output as files.
+    /// The run of a wave for output as files.
     fn shown(&self, wave: &Wave) -> Result<ShownRun<'static>, SubjectError> {
         let steps = self.steps(wave);
         Ok(ShownRun {
@@ -151,7 +152,7 @@ impl WaveRun<'_> {
     }
 }
 
-/// Capabilities that the study of `plan` requires and `solver` does not have.
+/// Capabilities that the study requires and `solver` lacks.
 fn lacking(plan: &SpectrumPlan, solver: &dyn SolverFactory) -> Vec<String> {
     let mut lacks = solver.lacks(&needs(plan));
     if solver.precision() == Precision::Single {
@@ -174,7 +175,7 @@ impl Study for SpectrumPlan {
     }
 }
 
-/// Runs cases of a spectrum study.
+/// Runs the cases of a spectrum study.
 struct SpectrumRunner<'a> {
     plan: &'a SpectrumPlan,
     context: RunContext<'a>,
@@ -238,7 +239,7 @@ fn described(case: &SpectrumCase, solver: Option<&dyn SolverFactory>) -> CaseOut
     }
 }
 
-/// The outcome of a case, from its rows.
+/// Creates the outcome of a case from its rows.
 fn outcome(described: CaseOutcome, case: &SpectrumCase, rows: Vec<SpectrumRow>) -> CaseOutcome {
     let unmet: Vec<String> = case
         .expected
@@ -260,7 +261,7 @@ fn outcome(described: CaseOutcome, case: &SpectrumCase, rows: Vec<SpectrumRow>) 
     }
 }
 
-/// Rows of the study.
+/// Rows that describe the study.
 fn rows(plan: &SpectrumPlan) -> Rows {
     let mut rows = Rows::new();
     scene(&plan.scene, &mut rows);

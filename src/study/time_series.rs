@@ -1,5 +1,5 @@
-//! A run as files for ParaView: particles and nodes of the grid at instants, and the time series
-//! that lists them.
+//! Writes a run as files for ParaView: particles and grid nodes at instants, and a list of these
+//! files.
 
 use crate::exact::Truth;
 use crate::subject::{BodyFields, Samples, StateField, Subject, SubjectError};
@@ -21,21 +21,21 @@ pub(crate) struct ShownRun<'a> {
     pub(crate) dt: Vec<f64>,
     /// Number of steps.
     pub(crate) steps: u64,
-    /// The exact solution, if there is one.
+    /// Exact solution, if there is one.
     pub(crate) truth: Option<&'a dyn Truth>,
 }
 
 /// A file of a time series.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeriesFile {
-    /// Path below the folder of all series: folders, and a name that ends in `.vtu` (particles),
-    /// `.vti` (nodes of the grid) or `.pvd` (the list of all).
+    /// Path below the folder of all series. The file name ends in `.vtu` (particles), `.vti` (grid
+    /// nodes) or `.pvd` (list of all files).
     pub path: String,
-    /// Contents.
+    /// Contents of the file.
     pub bytes: Vec<u8>,
 }
 
-/// Reason why the time series of a case was not written, or not completely.
+/// Reason why the time series of a case was not written completely.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SeriesError {
@@ -47,7 +47,7 @@ pub enum SeriesError {
     Write {
         /// Path below the folder of all series.
         path: String,
-        /// Error of the system.
+        /// Error of the operating system.
         error: io::Error,
     },
 }
@@ -58,8 +58,8 @@ impl From<&str> for SeriesError {
     }
 }
 
-/// Runs `run` to its end, or until it fails, and writes its state at the start, at up to
-/// [`INSTANTS`] instants and at a failure; the list of the files, named `NAME.RUN.pvd`, comes last.
+/// Runs `run` until its end or failure. Writes its state at the start, at up to [`INSTANTS`]
+/// instants and at a failure. The list of the files, `NAME.RUN.pvd`, comes last.
 ///
 /// # Errors
 /// [`SeriesError::Write`] with the first error of `write`.
@@ -90,7 +90,7 @@ pub(super) fn time_series(
     for step in 1..=steps {
         let dt = *lengths.next().unwrap_or(&f64::NAN);
         let failed = subject.step(dt).is_err();
-        // Equal steps are multiplied to avoid accumulated rounding.
+        // The time is computed without accumulated rounding errors if steps are equal.
         t = if equal { dt * step as f64 } else { t + dt };
         if failed || is_instant(step, steps, INSTANTS) {
             number += 1;
@@ -104,7 +104,8 @@ pub(super) fn time_series(
     write(format!("{name}.pvd"), list.into_bytes())
 }
 
-/// The files of one instant, with `#` for its number: for each body the particles, then the grid.
+/// Files of one instant, with `#` in place of its number: for each body the particles, then the
+/// grid.
 fn files(subject: &dyn Subject, truth: Option<&dyn Truth>, t: f64) -> Vec<(String, Vec<u8>)> {
     let mut samples = Samples::default();
     subject.sample(&mut samples);
@@ -138,7 +139,7 @@ fn files(subject: &dyn Subject, truth: Option<&dyn Truth>, t: f64) -> Vec<(Strin
     files
 }
 
-/// Fields of the particles of all bodies that no solver stores: u, and the errors.
+/// Fields of the particles of all bodies that solvers do not store: u and the errors.
 fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<StateField> {
     let components = samples.dimension;
     let u = StateField { name: "u".to_owned(), components, numbers: samples.displacement.clone() };
@@ -150,7 +151,7 @@ fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<St
     [u].into_iter().chain(fields.filter_map(error)).collect()
 }
 
-/// Fields of a subject that shows no more than its samples, with the names of our own.
+/// Fields of a subject that reports only samples. The names are those of the built-in solver.
 fn sampled_fields(samples: &Samples) -> Vec<StateField> {
     let all = [
         ("X", &samples.label),
@@ -167,14 +168,14 @@ fn sampled_fields(samples: &Samples) -> Vec<StateField> {
     all.into_iter().filter_map(field).collect()
 }
 
-/// The entries of some particles.
+/// Values of a field for a range of particles.
 fn part(field: &StateField, particles: std::ops::Range<usize>) -> StateField {
     let n = field.components;
     let numbers = field.numbers[particles.start * n..particles.end * n].to_vec();
     StateField { name: field.name.clone(), components: n, numbers }
 }
 
-/// The name of a run for file names: `dt = 0.001 s` becomes `dt-0.001-s`.
+/// Converts the name of a run to a file name: `dt = 0.001 s` becomes `dt-0.001-s`.
 fn file_name(run: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '.';
     run.split(|c| !plain(c)).filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")

@@ -1,5 +1,4 @@
-//! Judging a case of a convergence study: from its levels and a plan to everything that a report
-//! shows about it.
+//! Judges a case of a convergence study: from its levels and a plan to the contents of its report.
 
 use super::conservation::ConservationError;
 use super::convergence::{Convergence, LevelOutcome};
@@ -17,22 +16,23 @@ use super::verdict::floor::Floor;
 use super::verdict::judge::Judgement;
 use super::verdict::name::Verdict;
 
-/// The judgement of a case: the part of its outcome that follows from its levels.
+/// Judgement of a case: the part of its outcome that its levels determine.
 #[derive(Debug, Clone)]
 pub struct CaseJudgement {
-    /// The verdict in words.
+    /// Text of the verdict.
     pub verdict: String,
     /// The figures that led to the verdict.
     pub reason: String,
     /// Expectations that are not met.
     pub unmet: Vec<String>,
-    /// Why the gate requires nothing of the case; `None` if it does.
+    /// Reason why the gate requires nothing of the case; `None` if it requires something.
     pub exemption: Option<String>,
     /// Levels, orders and figures.
     pub study: Convergence,
 }
 
-/// Judges a case. `reruns` runs levels again if the verdict depends on it.
+/// Judges a case. `reruns` repeats levels with other settings if the verdict depends on the
+/// results.
 pub fn judge_case<R: Reruns>(
     plan: &JudgePlan<'_>,
     mut levels: Vec<LevelOutcome>,
@@ -47,7 +47,7 @@ pub fn judge_case<R: Reruns>(
         }
         _ => None,
     };
-    // Errors below the rounding bound show no order, neither a sound nor a wrong one.
+    // Errors below the rounding bound give no information about the order.
     if gate.as_ref().is_some_and(|gate| gate.result.is_err()) && leaves_too_few(&levels, &judgement)
     {
         exemption = Some("the rounding bound leaves too few levels for an order".to_owned());
@@ -92,8 +92,8 @@ pub fn judge_case<R: Reruns>(
 }
 
 impl JudgePlan<'_> {
-    /// The verdict and its reason if nothing is expected: the judgement against the theoretical
-    /// order, and drifts.
+    /// The verdict and its reason for a case without expectations: the judgement against the
+    /// theoretical order, and the drifts.
     fn explore(&self, judgement: &Judgement, measured: &Measured) -> (String, String) {
         let drift = self.sums.iter().map(|sum| (*sum, f64::INFINITY)).collect();
         let drifts = Limits { drift, ..Limits::default() }.found(measured);
@@ -135,7 +135,7 @@ impl JudgePlan<'_> {
     }
 }
 
-/// Values that limits apply to.
+/// Values that limits are compared with.
 fn measure(levels: &[LevelOutcome]) -> Measured {
     let drifts: Option<Vec<ConservationError>> =
         counted(levels).map(|level| level.run.drift).collect();
@@ -150,7 +150,7 @@ fn measure(levels: &[LevelOutcome]) -> Measured {
     }
 }
 
-/// The verdict and its reason. If a case has limits only, the limited figures come first; the
+/// The verdict and its reason. For a case with limits only, the limited figures come first. The
 /// judgement follows if there are enough levels.
 fn headline(
     expectation: &Expectation,
@@ -167,7 +167,7 @@ fn headline(
         return (verdict.to_string(), format!("{reason}; {figures}"));
     }
     let within = if unmet.is_empty() { "within bounds" } else { "out of bounds" };
-    // The judge's reason compares with an expected order, but this case has none.
+    // The judge compares the order with an expected one, which this case does not have.
     let judged = match (verdict, judgement.order) {
         (Verdict::TooFewLevels, _) => String::new(),
         (Verdict::AtFloor | Verdict::Divergent, _) | (_, None) => format!("; {verdict}: {reason}"),
@@ -176,11 +176,11 @@ fn headline(
     (within.to_owned(), figures + &judged)
 }
 
-/// The limit of the displacement at the observed place in 1-D; `None` if fewer than two levels have
-/// one.
+/// Limit of the displacement at the observed place in 1-D; `None` if fewer than two levels report
+/// this displacement.
 fn observed_limit(levels: &[LevelOutcome]) -> Option<Result<LimitEstimate, EstimateRefusal>> {
     let point = |level: &LevelOutcome| match level.run.displacement.as_deref() {
-        // One component out of several does not represent the displacement.
+        // One component of several does not represent the displacement.
         Some([u]) => Some(SeriesPoint { h: level.spacing, value: *u, resolution: 0.0 }),
         _ => None,
     };
@@ -227,7 +227,7 @@ mod tests {
         assert!(alone.drift.unwrap().of(Conserved::Mass).is_nan());
     }
 
-    /// One level with a bound on its error, for which no verdict is expected.
+    /// A level with a bound on its error and without an expected verdict.
     #[test]
     fn bounds_alone_make_the_headline() {
         let bounds = vec![(CaseFigure::ErrorBelow, 1e-9)];

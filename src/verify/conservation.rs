@@ -1,9 +1,9 @@
-//! Conserved sums of a motion without external forces, over a run.
+//! Changes of conserved sums during a run without external forces.
 //!
-//! A drift is the largest change since t = 0, over the instants, relative to a scale. The scale is
-//! the largest value during the run: of the total itself for mass and energies, of the sum of the
-//! magnitudes of its terms for the momenta (which may be zero). The energy is NaN for a law without
-//! an energy.
+//! A drift is the largest change since t = 0, over the instants, relative to a scale. For mass and
+//! energies the scale is the largest value during the run. For the momenta, which may be zero, the
+//! scale is the largest sum of the magnitudes of their terms. The energy is NaN for a law without
+//! stored energy.
 
 use super::error::norm::larger;
 use crate::named::named;
@@ -21,7 +21,7 @@ named! {
         AngularMomentum = "angular_momentum",
         /// Kinetic energy, which is conserved only in a motion without stress.
         KineticEnergy = "kinetic_energy",
-        /// Gain of kinetic energy over the start. It must be zero for a body that stores energy in
+        /// Gain of kinetic energy since the start. It must be zero for a body that stores energy in
         /// stress and releases it.
         KineticEnergyGain = "kinetic_energy_gain",
         /// Kinetic energy plus stored energy, if the law has an energy.
@@ -30,12 +30,12 @@ named! {
 }
 
 impl Conserved {
-    /// The name in a sentence.
+    /// Name in running text.
     pub fn words(self) -> String {
         self.name().replace('_', " ")
     }
 
-    /// The sum, and the scale of its changes.
+    /// Value of the sum, and the scale of its changes.
     fn of(self, totals: &Totals) -> ([f64; 3], f64) {
         match self {
             Self::Mass => ([totals.mass, 0.0, 0.0], totals.mass.abs()),
@@ -52,7 +52,7 @@ impl Conserved {
     }
 }
 
-/// The relative drift of every sum; NaN if one became NaN or the run failed.
+/// Relative drift of each sum; NaN if a value became NaN or the run failed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ConservationError([f64; Conserved::ALL.len()]);
 
@@ -60,19 +60,19 @@ impl ConservationError {
     /// Drifts of a failed run.
     pub const NONE: Self = Self([f64::NAN; Conserved::ALL.len()]);
 
-    /// The drift of one sum.
+    /// Drift of one sum.
     pub fn of(&self, sum: Conserved) -> f64 {
         self.0[sum as usize]
     }
 
-    /// The larger of two, sum by sum; NaN if either is.
+    /// The larger of two drifts for each sum; NaN if either is NaN.
     #[must_use]
     pub fn larger(self, other: Self) -> Self {
         Self(std::array::from_fn(|i| larger(self.0[i], other.0[i])))
     }
 }
 
-/// Totals from instant to instant.
+/// Changes of the totals over the instants of a run.
 #[derive(Debug, Clone)]
 pub(super) struct Balance {
     start: Totals,
@@ -88,8 +88,7 @@ impl Balance {
         balance
     }
 
-    /// Takes the totals of an instant. All drifts become NaN if the subject no longer reports
-    /// totals.
+    /// Adds the totals of an instant. All drifts become NaN if the subject stops reporting totals.
     pub(super) fn look(&mut self, now: Option<&Totals>) {
         for (i, sum) in Conserved::ALL.iter().enumerate() {
             let (before, _) = sum.of(&self.start);
@@ -103,7 +102,7 @@ impl Balance {
         }
     }
 
-    /// Zero change relative to zero counts as no drift.
+    /// Largest changes relative to their scales. Zero change relative to zero is no drift.
     pub(super) fn drift(&self) -> ConservationError {
         let relative = |change: f64, size: f64| if change == 0.0 { 0.0 } else { change / size };
         ConservationError(std::array::from_fn(|i| relative(self.change[i], self.size[i])))

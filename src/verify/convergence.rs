@@ -22,8 +22,8 @@ use super::verdict::name::Verdict;
 pub struct Convergence {
     /// Axis of refinement.
     pub axis: Axis,
-    /// Theoretical order of the method on a smooth solution. For particles per cell there is none
-    /// in general, and the order of the midpoint rule is used.
+    /// Theoretical order of the method on a smooth solution. For particles per cell there is no
+    /// general order; the order of the midpoint rule is used.
     pub formal_order: f64,
     /// Norm of the judged error.
     pub norm: NormName,
@@ -31,20 +31,20 @@ pub struct Convergence {
     pub of: Quantity,
     /// Divisor of the error, if any.
     pub scale: Option<f64>,
-    /// Scale that makes errors and work comparable with those of other cases.
+    /// Scale that makes errors and work of different cases comparable.
     pub error_scale: ErrorScale,
     /// Whether errors are measured against an exact solution or a reference.
     pub compared: bool,
     /// Kind of the steps.
     pub steps: StepKind,
-    /// Whether the case has bounds on figures only: then it has no expected order, and every usable
+    /// Whether the case has bounds on figures only. It then has no expected order, and every usable
     /// level counts.
     pub bounded: bool,
-    /// Reason for which an external solver meets the requirement of the gate, if it does.
+    /// Reason why an external solver passes the gate, if it does.
     pub accepted: Option<Acceptance>,
-    /// Conserved sums whose drift is reported.
+    /// Conserved sums with a reported drift.
     pub drifts: Vec<Conserved>,
-    /// Whether the rate of the energy is reported.
+    /// Whether the energy rate is reported.
     pub rated: bool,
     /// The judgement.
     pub judgement: Judgement,
@@ -52,10 +52,10 @@ pub struct Convergence {
     pub floor: Option<Floor>,
     /// The levels, coarse to fine.
     pub levels: Vec<LevelOutcome>,
-    /// The limit of the displacement (m) at the observed place in 1-D, or the reason why the levels
-    /// show none; `None` if no place is observed.
+    /// Limit of the displacement (m) at the observed place in 1-D, or the reason why the levels
+    /// give none; `None` if no place is observed.
     pub observed_limit: Option<Result<LimitEstimate, EstimateRefusal>>,
-    /// Reference position that was observed (m).
+    /// Observed reference position (m).
     pub observed_at: Option<Vec<f64>>,
 }
 
@@ -67,7 +67,7 @@ pub struct LevelOutcome {
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
-    /// The spacing on the refined axis: of cells (m), time (s) or particles (m).
+    /// Spacing on the refined axis: of cells (m), time (s) or particles (m).
     pub spacing: f64,
     /// Time step (s).
     pub dt: f64,
@@ -79,17 +79,17 @@ pub struct LevelOutcome {
     pub error: f64,
     /// Whether the judge may count the level.
     pub usable: bool,
-    /// Bound of the rounding error of positions (m) in the judged norm, for a solver in single
-    /// precision whose displacement is judged.
+    /// Bound on the rounding error of positions (m) in the judged norm, if a solver in single
+    /// precision is judged by its displacement.
     pub rounding_bound: Option<f64>,
     /// Whether the displacement error (m) lies below `rounding_bound`.
     pub is_below_rounding: bool,
-    /// Largest difference between repeated runs, in the norm and over the scale of the error; NaN
-    /// if the runs cannot be compared, and `None` if the level ran once.
+    /// Largest difference between repeated runs, in the norm and relative to the scale of the
+    /// error. NaN if the runs cannot be compared; `None` if the level ran once.
     pub spread: Option<f64>,
     /// Order between the next coarser level and this one.
     pub order: Option<f64>,
-    /// The largest time step (s) that was predicted stable, if the step is automatic or exceeds
+    /// Largest time step (s) that was predicted to be stable, if the step is automatic or exceeds
     /// this value.
     pub stable_time_step: Option<f64>,
 }
@@ -103,12 +103,12 @@ impl StudyResults for Convergence {
 }
 
 impl LevelOutcome {
-    /// Whether its step is longer than the stable time step, if the latter is known.
+    /// Whether the time step is longer than the stable one, if the latter is known.
     pub fn is_too_long(&self) -> bool {
         self.stable_time_step.is_some_and(|stable| self.dt > stable)
     }
 
-    /// The level as input of the judge, with its failure, whether it counts or not.
+    /// The level as input of the judge, with its failure. Unusable levels are included.
     pub(crate) fn to_level(&self) -> Level {
         let judged = Level::new(self.spacing, self.error);
         match &self.run.failure {
@@ -128,8 +128,8 @@ impl LevelOutcome {
 }
 
 impl Convergence {
-    /// The displacement (m) at the observed place in 1-D that levels are compared with at the end
-    /// of the run; `None` without a place or an exact solution.
+    /// Exact displacement (m) at the observed place in 1-D at the end of the run; `None` without a
+    /// place or an exact solution.
     pub fn observed_exact(&self) -> Option<f64> {
         let exact = self.levels.last()?.run.observed_exact.as_deref()?;
         let [u] = exact else { return None };
@@ -148,7 +148,7 @@ impl Convergence {
         self.judgement.verdict
     }
 
-    /// The observed place, as titles write it.
+    /// The observed place, as written in titles.
     pub fn place(&self) -> Option<String> {
         let coordinates: Vec<String> =
             self.observed_at.as_ref()?.iter().map(ToString::to_string).collect();
@@ -159,7 +159,7 @@ impl Convergence {
         })
     }
 
-    /// The judged error as text, with its unit.
+    /// Description of the judged error, with its unit.
     pub fn judged(&self) -> String {
         let (norm, name, unit) =
             (self.norm.name().replace('_', " "), self.of.words(), self.of.unit());
@@ -172,7 +172,7 @@ impl Convergence {
         }
     }
 
-    /// The observed label's history on the finest level that has one.
+    /// History at the observed label, on the finest level with a history.
     pub fn history(&self) -> Option<&History> {
         self.levels.iter().rev().find_map(|level| level.run.history.as_ref())
     }
@@ -188,7 +188,7 @@ pub(in crate::verify) mod tests {
     use crate::verify::verdict::judge::judge;
     use rstest::rstest;
 
-    /// A study of spacings 1, 1/2, 1/4, ... with these errors, judged against the order 2.
+    /// A study with spacings 1, 1/2, 1/4, ... and these errors, judged against order 2.
     pub(in crate::verify) fn study(errors: &[f64]) -> Convergence {
         let spacing = |k: usize| libm::exp2(-(k as f64));
         let level = |(k, error): (usize, &f64)| LevelOutcome {
@@ -276,7 +276,7 @@ pub(in crate::verify) mod tests {
         assert_eq!(level.is_too_long(), is_too_long);
     }
 
-    /// At order 2 the limit is 2.04, and the interval reaches the finest value 2.
+    /// At order 2 the limit is 2.04, and the interval extends to the finest value, 2.
     #[rstest]
     #[case(2.0, true)]
     #[case(2.079, true)]

@@ -1,13 +1,15 @@
 //! Growth or decay rate of the energy over a long run, with a confidence interval.
 //!
-//! The energy of an oscillating body oscillates too. So neighbouring instants are not independent
-//! observations, and the interval of a line through all of them would be too narrow. Instead the
-//! run is divided into ten parts of equal length, ln E is averaged over each (the method of batch
-//! means; Law, *Simulation Modeling and Analysis*, 5th ed., section 9.5.3), and a line is fitted to
-//! the ten means. Its slope is the rate, d ln E/dt (1/s), with the interval of Student's t. If the
-//! parts are much longer than a period, and the deviations of the means from the line are
-//! independent noise, the interval contains the rate with a probability of 95 %. A drift that is
-//! not linear counts as noise and widens the interval.
+//! The energy of an oscillating body oscillates too. Neighbouring instants are therefore not
+//! independent observations, and a line fitted to all of them would have too narrow an interval.
+//! Instead the run is divided into ten parts of equal length, and ln E is averaged over each part
+//! (the method of batch means; Law, *Simulation Modeling and Analysis*, 5th ed., section 9.5.3).
+//! The slope of a line through the ten means is the rate, d ln E/dt (1/s), with the interval of
+//! Student's t.
+//!
+//! The interval contains the rate with a probability of 95 % under two conditions: the parts are
+//! much longer than a period, and the deviations of the means from the line are independent noise.
+//! A non-linear drift counts as noise and widens the interval.
 
 use super::order::fit::{FittedLine, Interval, LogPoint};
 use crate::subject::Totals;
@@ -18,8 +20,8 @@ const PARTS: usize = 10;
 /// Minimum number of instants per part.
 const LEAST: usize = 5;
 
-/// The rate of the energy (1/s) of a run, from equally spaced instants; `None` if there are fewer
-/// than fifty, or if the energy is unknown or not positive at an instant.
+/// Energy rate (1/s) of a run, from equally spaced instants. `None` if there are fewer than fifty,
+/// or if the energy is unknown or not positive at an instant.
 pub(crate) fn energy_rate(account: &[(f64, Totals)]) -> Option<Interval> {
     let each = account.len() / PARTS;
     if each < LEAST {
@@ -47,7 +49,7 @@ mod tests {
     use approx::{assert_abs_diff_eq, assert_relative_eq};
     use rstest::rstest;
 
-    /// `n` instants of an energy, which is kinetic at some times and stored at others.
+    /// `n` instants with a given energy, which alternates between kinetic and stored energy.
     fn account(n: usize, energy: impl Fn(f64) -> f64) -> Vec<(f64, Totals)> {
         let at = |i: usize| {
             let (t, share) = (i as f64, (i % 3) as f64 / 2.0);
@@ -68,7 +70,7 @@ mod tests {
     }
 
     /// An oscillation of 10 % with a period of twenty instants hardly changes the rate if parts
-    /// contain whole periods, and widens the interval otherwise.
+    /// contain whole periods, and otherwise widens the interval.
     #[test]
     fn a_swing_is_no_drift() {
         let swing = |t: f64| 1.0 + 0.1 * libm::sin(t * std::f64::consts::PI / 10.0);

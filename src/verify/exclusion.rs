@@ -1,11 +1,11 @@
 //! Levels that the judge does not count because their error is not a discretisation error.
 //!
-//! - *Rounding*: the displacement error of a solver in single precision lies below the bound of the
-//!   accumulated rounding error of positions ([`rounding_bound`]).
+//! - *Rounding*: the solver uses single precision, and its displacement error lies below the bound
+//!   on the accumulated rounding error of positions ([`rounding_bound`]).
 //! - *Spread*: the difference between repeated runs exceeds [`MOST_SPREAD`] of the error.
 //!
-//! Both apply to observed orders only. Bounds on errors are compared with the errors of these
-//! levels too: a small error meets a bound, for any cause.
+//! Both rules apply to observed orders only. Bounds on errors are checked on excluded levels too,
+//! since a small error satisfies a bound regardless of its cause.
 
 use super::convergence::LevelOutcome;
 use super::error::norm::NormName;
@@ -15,7 +15,7 @@ use super::verdict::judge::Judgement;
 use super::verdict::name::Verdict;
 use crate::named::named;
 
-/// Largest spread of a level that counts, as a fraction of its error.
+/// Maximum spread of a level that counts, as a fraction of its error.
 const MOST_SPREAD: f64 = 0.1;
 
 named! {
@@ -30,23 +30,23 @@ named! {
     }
 }
 
-/// Distance (m) of neighbouring single-precision numbers just below `largest`, the largest absolute
-/// coordinate (m) of a particle: `2^-24` for `[0, 1]`, `2^-21` for `[7, 8]`. `None` if `largest` is
-/// zero or not a normal number of single precision.
+/// Distance (m) between the single-precision numbers at and just below `largest`, the largest
+/// absolute coordinate (m) of a particle: `2^-24` for `[0, 1]`, `2^-21` for `[7, 8]`. `None` if
+/// `largest` is zero or not a normal number in single precision.
 pub fn single_precision_spacing(largest: f64) -> Option<f64> {
-    // Coordinates are rounded first: a motion that reaches 1 + 1e-16 reaches 1.
+    // Coordinates are rounded first: a motion that reaches 1 + 1e-16 reaches 1 in single precision.
     let largest = largest as f32;
     let is_normal = largest.is_normal() && largest > 0.0;
     is_normal.then(|| f64::from(largest) - f64::from(largest.next_down()))
 }
 
-/// Bound (m) of the rounding error of positions after `steps` steps, in `norm`, if positions are
-/// rounded to a lattice of `spacing` (m) in each step.
+/// Bound (m), in `norm`, on the rounding error of positions after `steps` steps. In each step
+/// positions are rounded to a lattice with the spacing `spacing` (m).
 ///
 /// One rounding error is uniform in `[-spacing/2, spacing/2]`, with the root mean square
-/// `spacing/sqrt 12`. Increments change little from step to step and are rounded alike, so that in
-/// the worst case all errors are equal: their sum is `N spacing/sqrt 12` in the RMS norm, and
-/// `N spacing/2`, larger by `sqrt 3`, in the maximum norm.
+/// `spacing/sqrt 12`. Increments change little from step to step and are rounded alike. In the
+/// worst case all rounding errors are equal. Their sum is then `N spacing/sqrt 12` in the RMS norm,
+/// and `N spacing/2`, larger by `sqrt 3`, in the maximum norm.
 pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
     let most = steps as f64 * spacing;
     match norm {
@@ -56,13 +56,13 @@ pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
 }
 
 impl LevelOutcome {
-    /// Why the level does not count for the observed order; `None` if it does.
+    /// Reason why the level does not count for the observed order; `None` if it counts.
     pub fn exclusion(&self) -> Option<Exclusion> {
         let is_steady = |spread: f64| spread <= MOST_SPREAD * self.error;
         if !self.usable {
             Some(Exclusion::Crossings)
         } else if self.run.failure.is_some() {
-            // A level that failed is judged as such.
+            // Failed levels are judged as failures.
             None
         } else if self.is_below_rounding {
             Some(Exclusion::Rounding)
@@ -74,17 +74,17 @@ impl LevelOutcome {
     }
 }
 
-/// The levels that are excluded for one reason.
+/// Levels that are excluded for the reason `by`.
 fn excluded(levels: &[LevelOutcome], by: Exclusion) -> Vec<&LevelOutcome> {
     levels.iter().filter(|level| level.exclusion() == Some(by)).collect()
 }
 
-/// Whether too few levels for an order remain above the rounding bound.
+/// Whether rounding leaves too few levels for an order.
 pub(super) fn leaves_too_few(levels: &[LevelOutcome], judgement: &Judgement) -> bool {
     judgement.verdict == Verdict::TooFewLevels && !excluded(levels, Exclusion::Rounding).is_empty()
 }
 
-/// The reason of a judgement, with the levels that rounding and spread exclude.
+/// Adds the levels excluded by rounding and spread to the reason of a judgement.
 pub(super) fn with_exclusions(
     judgement: Judgement,
     levels: &[LevelOutcome],
@@ -140,7 +140,7 @@ fn spread_remark(levels: &[LevelOutcome], axis: Axis) -> Option<String> {
     })
 }
 
-/// Two digits of a number.
+/// A number with two digits, as text.
 fn shown(value: Option<f64>) -> String {
     value.map_or("none".to_owned(), |value| format_number(rounded(value, 2)))
 }

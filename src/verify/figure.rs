@@ -1,28 +1,28 @@
-//! Registry of the figures that suites bound: [`CaseFigure`] for convergence studies, [`RunFigure`]
-//! for stability studies.
+//! Registry of the figures that suites bound: [`CaseFigure`] for convergence studies and
+//! [`RunFigure`] for stability studies.
 //!
 //! An entry states the key in suites and JSON, the documentation of the key, the text in reports
-//! (with the unit, if any) and the value. The grammar of suites and its JSON Schema, the checks of
-//! a suite, the comparison with the bound and the reports are derived from the entry. Adding a
-//! figure: `docs/exercises/figure.md`.
+//! (with the unit, if any) and the value. The suite grammar and its JSON Schema, the checks of a
+//! suite, the comparison with the bound, and the reports are derived from it. How to add a figure:
+//! `docs/exercises/figure.md`.
 
 use super::convergence::LevelOutcome;
 use super::error::norm::larger;
 use super::stability::Trial;
 use crate::named::named;
 
-/// Calls the macro `declare` with every bounded figure of a convergence study. An entry
+/// Calls the macro `declare` with every bounded figure of a convergence study. The entry
 ///
 /// `RestBelow = rest_below, "residual speed over the wave speed", Maximum, StateOfRest,`
 /// `residual_speed;`
 ///
-/// gives the member of [`CaseFigure`]; its key in suites; its text in reports; the [`BoundKind`];
-/// the [`FigureNeed`]; and the function that takes the levels of a case and returns the value. The
-/// documentation of the entry becomes that of the key in the JSON Schema.
+/// defines a member of [`CaseFigure`], its key in suites, its text in reports, its [`BoundKind`],
+/// its [`FigureNeed`], and the function that computes the value from the levels of a case. The
+/// documentation of the entry becomes the documentation of the key in the JSON Schema.
 ///
-/// The grammar declares a field for each entry by this macro. `#[serde(flatten)]` over a map of
-/// keys would need no macro, but it excludes `deny_unknown_fields`, and a misspelt key would lose
-/// its place and suggestion.
+/// The grammar uses this macro to declare a field for each entry. `#[serde(flatten)]` over a map of
+/// keys would need no macro. But it excludes `deny_unknown_fields`, and errors for mistyped keys
+/// would lose their position and suggestion.
 macro_rules! each_case_figure {
     ($declare:ident) => {
         $declare! {
@@ -50,10 +50,10 @@ pub enum BoundKind {
     Minimum,
 }
 
-/// Part of a suite without which a figure does not exist.
+/// Part of a suite that a figure requires.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FigureNeed {
-    /// None: every case has the figure.
+    /// No part: every case has the figure.
     Nothing,
     /// The key `observe`.
     ObservedPlace,
@@ -72,7 +72,7 @@ macro_rules! case_figures {
         }
 
         impl CaseFigure {
-            /// Every figure, in the order of declaration.
+            /// All figures, in the order of declaration.
             pub const ALL: [Self; [$(stringify!($key)),+].len()] = [$(Self::$member),+];
 
             /// Key of the bound in suites.
@@ -96,14 +96,14 @@ macro_rules! case_figures {
                 }
             }
 
-            /// Part of a suite without which the figure does not exist.
+            /// Part of a suite that the figure requires.
             pub fn need(self) -> FigureNeed {
                 match self {
                     $(Self::$member => FigureNeed::$need,)+
                 }
             }
 
-            /// Value for the levels of a case; `None` if they do not have the figure.
+            /// Value for the levels of a case; `None` if they do not provide the figure.
             pub fn value(self, levels: &[LevelOutcome]) -> Option<f64> {
                 match self {
                     $(Self::$member => $value(levels),)+
@@ -114,35 +114,36 @@ macro_rules! case_figures {
 }
 each_case_figure!(case_figures);
 
-/// Largest judged error of the levels that count; NaN if one is.
+/// Largest judged error of the levels that count; NaN if one of these is NaN.
 fn largest_error(levels: &[LevelOutcome]) -> Option<f64> {
     counted(levels).map(|level| level.error).reduce(larger)
 }
 
-/// Smallest judged error of the levels that count; NaN if one is.
+/// Smallest judged error of the levels that count; NaN if one of these is NaN.
 fn smallest_error(levels: &[LevelOutcome]) -> Option<f64> {
     counted(levels).map(|level| level.error).reduce(|a, b| -larger(-a, -b))
 }
 
-/// Distance (m) of the observed place from the exact one on the finest level.
+/// Distance (m) between the observed and the exact position of the observed place, on the finest
+/// level.
 fn observed_error(levels: &[LevelOutcome]) -> Option<f64> {
     levels.last().and_then(|level| level.run.observed_error)
 }
 
-/// Largest speed towards the end of the levels that count, over the wave speed; `None` if one level
-/// has none, because the exact solution is not a state of rest.
+/// Largest speed near the end on the levels that count, relative to the wave speed. `None` if a
+/// level has no such speed, because the exact solution is not a state of rest.
 fn residual_speed(levels: &[LevelOutcome]) -> Option<f64> {
     let speeds: Option<Vec<f64>> = counted(levels).map(|level| level.run.residual_speed).collect();
     speeds.and_then(|speeds| speeds.into_iter().reduce(larger))
 }
 
-/// The levels that count.
+/// Levels that count.
 pub(super) fn counted(levels: &[LevelOutcome]) -> impl Iterator<Item = &LevelOutcome> {
     levels.iter().filter(|level| level.usable)
 }
 
-/// Declares [`RunFigure`]: for each member its documentation, its name in suites and JSON, its
-/// heading in tables and its value in a run.
+/// Declares [`RunFigure`]. An entry states the documentation of the member, its name in suites and
+/// JSON, its heading in tables, and its value in a run.
 macro_rules! run_figures {
     ($($(#[$doc:meta])* $member:ident = $name:literal, $head:literal, $value:expr;)+) => {
         named! {
@@ -206,13 +207,13 @@ run_figures! {
 }
 
 impl RunFigure {
-    /// The figure called `name` in suites.
+    /// The figure with the key `name` in suites.
     pub(crate) fn by_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|figure| figure.name() == name)
     }
 
-    /// Whether the figure is measured in the null space of the map to the grid, which is computed
-    /// only on request.
+    /// Whether the figure concerns the null space of the map to the grid, which is computed only on
+    /// request.
     pub fn is_of_null_space(self) -> bool {
         matches!(self, Self::NullShare | Self::LargestNullShare)
     }

@@ -1,4 +1,4 @@
-//! Everything that the judgement of a case depends on, and the judgement of its levels.
+//! The inputs that determine the judgement of a case, and the judgement of its levels.
 
 use super::conservation::Conserved;
 use super::convergence::LevelOutcome;
@@ -14,7 +14,7 @@ use super::order::hypothesis::OrderHypothesis;
 use super::order::level::{Axis, Level};
 use super::verdict::judge::{Judgement, judge};
 
-/// All inputs of the judgement of a case, except its levels.
+/// All inputs of the judgement of a case except its levels.
 #[derive(Debug, Clone)]
 pub struct JudgePlan<'a> {
     /// Axis of refinement.
@@ -27,28 +27,28 @@ pub struct JudgePlan<'a> {
     pub of: Quantity,
     /// Divisor of the error, if any.
     pub scale: Option<f64>,
-    /// Scale that makes errors and work comparable with those of other cases.
+    /// Scale that makes errors and work of different cases comparable.
     pub error_scale: ErrorScale,
     /// Whether errors are measured against an exact solution or a reference.
     pub is_compared: bool,
     /// Kind of the steps.
     pub steps: StepKind,
-    /// Whether levels on which particles change their cell are excluded.
+    /// Whether to exclude levels on which particles change their cell.
     pub excludes_crossings: bool,
-    /// Distance (m) of neighbouring positions of a solver in single precision, if its displacement
-    /// is judged and the exact motion is known.
+    /// Distance (m) between neighbouring positions in single precision, if a solver in single
+    /// precision is judged by its displacement and the exact motion is known.
     pub position_spacing: Option<f64>,
-    /// Reference position that is observed (m).
+    /// Observed reference position (m).
     pub observed_at: Option<&'a [f64]>,
-    /// Conserved sums whose drift is shown if the case has no expectation.
+    /// Conserved sums whose drift is reported for a case without expectations.
     pub sums: Vec<Conserved>,
     /// Expectation of the suite, if it states one.
     pub expectation: Option<&'a Expectation>,
-    /// Treatment by the gate of external solvers, if it applies.
+    /// Treatment by the gate for external solvers, if it applies.
     pub gating: Option<&'a Gating>,
 }
 
-/// Sizes of a level.
+/// Resolution of a level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LevelSizes {
     /// Cells along the first axis.
@@ -59,12 +59,12 @@ pub struct LevelSizes {
     pub dt: f64,
     /// Particles per cell; `None` without particles.
     pub ppc: Option<u64>,
-    /// Distance of neighbouring particles (m).
+    /// Distance between neighbouring particles (m).
     pub particle_spacing: f64,
 }
 
 impl JudgePlan<'_> {
-    /// The outcome of a level, from its run.
+    /// Creates the outcome of a level from its run.
     pub fn level(&self, sizes: LevelSizes, run: RunResult) -> LevelOutcome {
         let LevelSizes { cells, h, dt, ppc, particle_spacing } = sizes;
         let is_crossed = run.counters.crossings.is_some_and(|n| n > 0);
@@ -92,7 +92,7 @@ impl JudgePlan<'_> {
         }
     }
 
-    /// The judgement of levels that have run.
+    /// Judges levels that have run.
     pub(super) fn judge_levels(&self, levels: &[LevelOutcome]) -> Judgement {
         let is_sound = levels.iter().all(|level| level.run.failure.is_none());
         if !self.is_compared && is_sound {
@@ -103,13 +103,14 @@ impl JudgePlan<'_> {
         with_exclusions(judgement, levels, self.axis)
     }
 
-    /// The judgement of a series of errors, with the expected bounds of the order, if any.
+    /// Judges a series of errors, with the expected bounds of the order, if any.
     pub(super) fn judge_series(&self, levels: &[Level], expected: Option<Bounds>) -> Judgement {
         let (formal_order, axis) = (self.formal_order, self.axis);
         judge(levels, &OrderHypothesis { formal_order, expected, axis })
     }
 
-    /// Why the gate requires nothing of a case with these levels; `None` if it does.
+    /// Reason why the gate requires nothing of a case with these levels; `None` if it requires
+    /// something.
     pub(super) fn exemption(&self, levels: &[LevelOutcome]) -> Option<String> {
         match self.gating {
             Some(Gating::NotGated(reason)) => Some(reason.clone()),
@@ -119,7 +120,7 @@ impl JudgePlan<'_> {
     }
 }
 
-/// The levels as input of the judge, with marks on those that do not count.
+/// The levels as input of the judge. Excluded levels are marked as unusable.
 pub(super) fn series(levels: &[LevelOutcome]) -> Vec<Level> {
     let marked = |level: &LevelOutcome| {
         let judged = level.to_level();
@@ -128,8 +129,8 @@ pub(super) fn series(levels: &[LevelOutcome]) -> Vec<Level> {
     levels.iter().map(marked).collect()
 }
 
-/// The levels whose errors are compared with a bound: here levels count that rounding or spread
-/// exclude from the order.
+/// The levels as input of a comparison with an error bound. Levels that rounding or spread exclude
+/// from the order count here.
 pub(super) fn usable_series(levels: &[LevelOutcome]) -> Vec<Level> {
     let marked = |level: &LevelOutcome| {
         let judged = level.to_level();

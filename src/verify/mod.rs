@@ -1,29 +1,30 @@
-//! The judge: whether an error falls with the formal order, and how certain this is.
+//! The judge: whether an error decreases with the formal order, and how certain this is.
 //!
 //! | module | content |
 //! |---|---|
 //! | [`quantity`](Quantity), [`norm`](Norms) | the error of one level as a number |
-//! | [`conservation`](ConservationError) | conserved sums of a free motion over a run |
-//! | [`level`](Level), [`hypothesis`](OrderHypothesis) | errors, pairwise orders, order to test |
+//! | [`conservation`](ConservationError) | drift of conserved sums without external forces |
+//! | [`level`](Level), [`hypothesis`](OrderHypothesis) | errors, pairwise orders, tested order |
 //! | [`fit`](Interval), [`t_quantile`](two_sided_95) | order by regression, and its interval |
 //! | `window` | the asymptotic levels |
 //! | `error_trend` | floor, divergence, oscillation |
 //! | [`judge`](judge()) | the decision sequence, and the verdict |
-//! | [`case`](judge_case) | judgement of a case: all that a report shows about its levels |
-//! | [`judge_plan`](JudgePlan), [`rerun`](Reruns) | its inputs, and levels that run again |
+//! | [`case`](judge_case) | judgement of a case: all results that a report shows |
+//! | [`judge_plan`](JudgePlan), [`rerun`](Reruns) | inputs of a judgement, and repeated levels |
 //! | [`floor`](Floor) | the cause of an error floor |
 //! | [`richardson`](Richardson) | order and limit from three values |
 //! | [`limit_estimate`](LimitEstimate) | order and limit of a series, with intervals |
 //! | [`cost`](Ranking) | cost of accuracy, in transfers or seconds |
-//! | [`spectrum`](SpectrumStudy) | phase speed and damping of a wave, measured and predicted |
+//! | [`spectrum`](SpectrumStudy) | measured and predicted phase speed and damping of a wave |
 //! | [`stability`](StabilityStudy) | growth in runs, amplification matrix, limits by bisection |
 //! | [`gradient`](GradientStudy) | derivatives that a solver reports |
 //! | [`expectation`](Expectation), [`limits`](Limits) | expectations of suites |
 //! | [`figure`](CaseFigure) | registry of the figures that suites bound |
 //!
 //! Two principles hold throughout. Comparisons are written so that NaN fails: the code tests the
-//! required condition (`error <= tolerance`), never its opposite. Shapes of a series are recognised
-//! by ratios, never by absolute numbers, so that no unit of error or spacing changes a verdict.
+//! required condition (`error <= tolerance`), never its opposite. The shape of a series is
+//! recognised by ratios, never by absolute numbers, so that units of error and spacing do not
+//! change a verdict.
 
 mod case;
 mod conservation;

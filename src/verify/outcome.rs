@@ -7,31 +7,30 @@ use crate::subject::Profile;
 use std::any::Any;
 use std::sync::Arc;
 
-/// One suite, run.
+/// Results of one suite.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct SuiteOutcome {
     /// Name of the suite.
     pub suite: String,
-    /// Name of the folder of its file.
+    /// Name of the folder of the suite file.
     pub group: String,
     /// Headline.
     pub title: String,
     /// Reference for the problem.
     pub source: String,
-    /// Introduction by the author.
+    /// Introduction by the suite's author.
     pub about: String,
-    /// The problem as rows of name and value: parameters, scene, exact solution, dt rule.
+    /// The problem as rows of name and value: parameters, scene, exact solution, time step.
     pub statement: Vec<(String, String)>,
-    /// Fingerprint of the meaning of the statement, independent of its notation.
+    /// Fingerprint of the statement's meaning, independent of its notation.
     pub meaning: u64,
-    /// One outcome for each case, in the order of the suite.
+    /// One outcome for each case, in suite order.
     pub cases: Vec<CaseOutcome>,
 }
 
 impl SuiteOutcome {
-    /// Appends the cases of `other`, a run of the same suite with another solver, to those of
-    /// `joined`.
+    /// Appends the cases of `other`, a run of the same suite with another solver, to `joined`.
     pub fn join(joined: &mut Option<Self>, other: Self) {
         match joined {
             None => *joined = Some(other),
@@ -46,37 +45,38 @@ impl SuiteOutcome {
 pub struct CaseOutcome {
     /// Name of the case, unique in its suite.
     pub case: String,
-    /// Which subject: `mpm` or `fem`.
+    /// Kind of solver: `mpm` or `fem`.
     pub subject: &'static str,
     /// Settings of the method: basis, transfer, mass matrix, start, kind of reference.
     pub settings: Vec<(String, String)>,
-    /// Cost of a step on the coarsest level, from a subject that has a profile.
+    /// Cost of a step on the coarsest level, if the subject has a profile.
     pub profile: Option<Profile>,
-    /// Expectation, in one line; `None` for an exploring suite, which is not a gate.
+    /// Expectation in one line; `None` for an exploring suite, which is not a gate.
     pub expected: Option<String>,
-    /// The reason for the expectation in the suite; empty if nothing is expected.
+    /// Reason for the expectation, from the suite; empty if nothing is expected.
     pub because: String,
     /// The verdict, as text.
     pub verdict: String,
     /// The figures that led to the verdict.
     pub reason: String,
-    /// Expectations that are not met; empty if the case passed.
+    /// Unmet expectations; empty if the case passed.
     pub unmet: Vec<String>,
     /// Missing capabilities of the solver; empty if the case applies.
     pub lacks: Vec<String>,
-    /// Why `run --gate` requires nothing of the case; `None` if it does.
+    /// Reason why `run --gate` requires nothing of the case; `None` if it requires something.
     pub exemption: Option<Exemption>,
-    /// Results of its kind of study; absent if the case could not be set up, for the reason in
-    /// `reason`.
+    /// Results of the study. `None` if the case could not be set up; `reason` then has the
+    /// explanation.
     pub study: Option<Arc<dyn StudyResults>>,
 }
 
-/// Why `run --gate` requires nothing of a case; the explanation is in [`CaseOutcome::reason`].
+/// Reason why `run --gate` requires nothing of a case. The explanation is in
+/// [`CaseOutcome::reason`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exemption {
     /// The suite cannot test the requirement.
     NotGated,
-    /// The author of the solver excepts the case, which has not run.
+    /// The author of the solver excepts the case, so it has not run.
     Excepted,
 }
 
@@ -86,7 +86,7 @@ impl SuiteOutcome {
         self.cases.iter().all(CaseOutcome::passed)
     }
 
-    /// The results of one kind of study, with the names of their cases.
+    /// Results of one kind of study, with the names of their cases.
     pub fn results<'a, R: StudyResults>(&'a self) -> impl Iterator<Item = (&'a str, &'a R)> {
         let study = |case: &'a CaseOutcome| Some((case.case.as_str(), case.results()?));
         self.cases.iter().filter_map(study)
@@ -94,7 +94,7 @@ impl SuiteOutcome {
 }
 
 impl CaseOutcome {
-    /// A case that has not run, without an expectation.
+    /// A case without an expectation that has not run.
     pub fn new(case: &str, subject: &'static str, settings: Vec<(String, String)>) -> Self {
         Self {
             case: case.to_owned(),
@@ -117,28 +117,27 @@ impl CaseOutcome {
         self.unmet.is_empty()
     }
 
-    /// Whether the case has been tested, and is neither out of the solver's reach nor exempt from
-    /// the gate.
+    /// Whether the case has been tested: it applies to the solver and is not exempt from the gate.
     pub fn is_tested(&self) -> bool {
         self.lacks.is_empty() && self.exemption.is_none()
     }
 
-    /// The setting of its method with this name.
+    /// The method's setting with this name.
     pub fn setting(&self, name: &str) -> Option<&str> {
         self.settings.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
     }
 
-    /// Whether the method fails at the problem, be that expected of it or not.
+    /// Whether the method fails at the problem. The failure may be expected.
     pub fn fails(&self) -> bool {
         self.study.as_deref().is_some_and(StudyResults::fails)
     }
 
-    /// Every value of [`CaseOutcome::result`].
+    /// All values of [`CaseOutcome::result`].
     pub const RESULTS: [&'static str; 6] =
         ["pass", "FAIL", "explored", "n/a", "not gated", "excepted"];
 
-    /// The result in a word: `pass`, `FAIL`, `explored` if nothing is expected, `n/a` if the solver
-    /// lacks a capability; under a gate also `not gated` and `excepted`.
+    /// The result in one word: `pass`, `FAIL`, `explored` if nothing is expected, or `n/a` if the
+    /// solver lacks a capability. With a gate also `not gated` and `excepted`.
     pub fn result(&self) -> &'static str {
         if !self.lacks.is_empty() {
             return "n/a";
@@ -155,8 +154,8 @@ impl CaseOutcome {
         }
     }
 
-    /// This outcome for a case that does not apply to its solver: the missing capabilities, with a
-    /// verb.
+    /// The outcome of a case that does not apply to its solver. `lacks` are the missing
+    /// capabilities; `verb` introduces them in the reason.
     #[must_use]
     pub(crate) fn not_applicable(self, lacks: Vec<String>, verb: &str) -> Self {
         let verdict = "not applicable".to_owned();
@@ -164,7 +163,7 @@ impl CaseOutcome {
         Self { verdict, reason, lacks, ..self }
     }
 
-    /// This outcome for a case that the gate does not judge, for this reason.
+    /// The outcome of a case that the gate does not judge, for this reason.
     #[must_use]
     pub(crate) fn not_gated(self, reason: &str) -> Self {
         let reason = format!("{reason}; {}", self.reason);
@@ -189,7 +188,7 @@ impl CaseOutcome {
         Self { verdict, reason, exemption, expected: None, ..self }
     }
 
-    /// The expectation and its reason, in one line.
+    /// The expectation and its reason in one line.
     pub fn expectation(&self) -> String {
         match &self.expected {
             _ if self.exemption.is_some() => format!("nothing: {}", self.reason),
@@ -203,7 +202,7 @@ impl CaseOutcome {
         self.results()
     }
 
-    /// The results, if they are of this kind of study.
+    /// The results, if the study is of this kind.
     pub fn results<R: StudyResults>(&self) -> Option<&R> {
         let results: &dyn Any = self.study.as_deref()?;
         results.downcast_ref()

@@ -1,11 +1,11 @@
-//! Levels that run again because the verdict depends on it.
+//! Repeats levels with other settings if the verdict depends on the results.
 //!
-//! - The finest level runs again with the spacing of another axis halved, to find the axis whose
-//!   error causes the floor.
-//! - If a suite has one time step on all levels, a solver that is accurate in space shows the error
-//!   of this step: the order falls, or the error stops falling. If an external solver then misses
-//!   the requirement of the gate, its levels run again with shorter steps, and the gate checks
-//!   whether these restore the order.
+//! - To find the cause of a floor, the finest level runs again with half the spacing on another
+//!   axis.
+//! - If a suite has one time step on all levels, this step limits the error of a solver that is
+//!   accurate in space: the order or the error stops decreasing. If an external solver then misses
+//!   the requirement of the gate, its levels run again with shorter steps. The gate checks whether
+//!   these restore the order.
 
 use super::convergence::LevelOutcome;
 use super::expectation::gate::{Acceptance, GateResult, Requirement};
@@ -19,27 +19,29 @@ use std::fmt::Display;
 
 /// Runs levels of a case again.
 pub trait Reruns: Sync {
-    /// Error if a level cannot be run.
+    /// Reason why a level cannot be run.
     type Error: Display + Send;
 
-    /// Whether halving a spacing shows the axis of an error: it does not if the reference is the
-    /// same method, whose own spacings are not halved.
+    /// Whether halving a spacing can reveal the axis of an error. It cannot if the reference is
+    /// computed by the same method, because the spacings of the reference are not halved.
     fn can_halve(&self) -> bool;
 
-    /// The level with the spacing of an axis halved; `None` if it has no such spacing.
+    /// Runs the level with half the spacing on an axis; `None` if the level has no such spacing.
     fn run_halved(
         &self,
         level: &LevelOutcome,
         axis: Axis,
     ) -> Option<Result<LevelOutcome, Self::Error>>;
 
-    /// Runs the level with a time step of `dt` (s), as often as the levels of the case.
+    /// Runs the level with the time step `dt` (s), with as many repetitions as the levels of the
+    /// case.
     ///
     /// # Errors
     /// If the level cannot be set up.
     fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, Self::Error>;
 
-    /// Sizes of the numbers that the solver rounds; `None` if the judged quantity has no size.
+    /// Sizes of the numbers that the solver rounds; `None` if the judged quantity has no natural
+    /// size.
     fn rounding(&self) -> Option<RoundingSizes>;
 }
 
@@ -50,29 +52,31 @@ pub struct RoundingSizes {
     pub value: f64,
     /// Largest number that the judged quantity is computed from.
     pub number: f64,
-    /// Half of the distance of neighbouring floating-point numbers next to one.
+    /// Half of the distance between 1 and the next floating-point number.
     pub unit: f64,
 }
 
-/// Roundings of a value in one step, for the prediction of rounding errors.
+/// Number of roundings of a value per step, for the prediction of rounding errors.
 const ROUNDINGS: f64 = 8.0;
 
-/// Largest share of the judged quantity that is ever explained by rounding.
+/// Maximum share of the judged quantity that is attributed to rounding.
 const MOST_ROUNDING: f64 = 0.01;
 
 /// Maximum number of times that the steps are halved.
 const HALVINGS: i32 = 3;
 
-/// Minimum relative decrease of the finest error by half the step, for which the levels run again.
+/// Minimum relative decrease of the finest error, due to half the time step, for which the levels
+/// run again.
 const LEAST_FALL: f64 = 0.05;
 
-/// The time step follows the cells if it shrinks with at least this power of h.
+/// Minimum exponent of h in the time step for which the step counts as refined with the cells.
 const FOLLOWS: f64 = 0.5;
 
 /// Effect of halving the spacings of the other axes on the error of the finest level that counts.
-/// `None` if it is not needed: the error has not stopped falling, and the suite expects no floor.
+/// `None` if it is not needed: the error has not stopped decreasing, and the suite expects no
+/// floor.
 ///
-/// Runs one to three probes in parallel; the results are in the order of the axes.
+/// Runs one to three probes in parallel. The results are in the order of the axes.
 pub(super) fn floor<R: Reruns>(
     plan: &JudgePlan<'_>,
     judgement: &Judgement,
@@ -117,7 +121,7 @@ pub(super) fn gate<R: Reruns>(
     }
 }
 
-/// How shorter steps meet the requirement, with a remark; `None` if they do not.
+/// Meets the requirement by shorter steps, with a remark; `None` if this is not possible.
 fn shorten<R: Reruns>(
     plan: &JudgePlan<'_>,
     required: &Requirement,
@@ -130,7 +134,7 @@ fn shorten<R: Reruns>(
     for halving in 1..=HALVINGS {
         let share = libm::exp2(-f64::from(halving));
         let shorter = |level: &LevelOutcome| reruns.run_with_step(level, share * level.dt);
-        // The finest level alone shows whether the step contributes to the error.
+        // The finest level alone shows whether the time step contributes to the error.
         let finest = shorter(last).ok()?;
         if !(finest.error <= (1.0 - LEAST_FALL) * before) {
             return None;
@@ -153,7 +157,7 @@ fn shorten<R: Reruns>(
     None
 }
 
-/// Whether the cells are refined and the time step is not, or hardly.
+/// Whether the cells are refined while the time step is constant or nearly constant.
 fn is_step_fixed(plan: &JudgePlan<'_>, levels: &[LevelOutcome]) -> bool {
     let (Some(first), Some(last)) = (levels.first(), levels.last()) else { return false };
     plan.axis == Axis::Space
@@ -161,8 +165,8 @@ fn is_step_fixed(plan: &JudgePlan<'_>, levels: &[LevelOutcome]) -> bool {
         && first.dt < last.dt * libm::pow(first.h / last.h, FOLLOWS)
 }
 
-/// Error due to rounding, in the judged norm and over the judged scale: a random walk of roundings
-/// of the largest number from which the judged quantity is computed.
+/// Error due to rounding, in the judged norm and relative to the judged scale. It is a random walk
+/// with the rounding errors of the largest number in the computation of the judged quantity.
 fn rounding<R: Reruns>(plan: &JudgePlan<'_>, levels: &[LevelOutcome], reruns: &R) -> f64 {
     let Some(RoundingSizes { value, number, unit }) = reruns.rounding() else { return 0.0 };
     let steps = levels.iter().map(|level| level.run.steps).max().unwrap_or(0);

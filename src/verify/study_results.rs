@@ -1,11 +1,11 @@
-//! The interface of results of a kind of study, and the results of an internal-force study.
+//! The interface for the results of a study, and the results of an internal-force study.
 
 use std::any::Any;
 use std::fmt::Debug;
 
-/// Results of one kind of study. What shows them is listed in `report::study`.
+/// Results of one kind of study. `report::study` lists the functions that report them.
 pub trait StudyResults: Any + Debug + Send + Sync {
-    /// Whether the method fails at the problem, be that expected of it or not.
+    /// Whether the method fails at the problem. The failure may be expected.
     fn fails(&self) -> bool {
         false
     }
@@ -20,14 +20,14 @@ pub struct InternalForce {
     pub rows: Vec<ForceRow>,
 }
 
-/// One position of the moving particle in an internal-force study.
+/// Results for one position of the moving particle in an internal-force study.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ForceRow {
     /// Position of the moving particle, in cells from the node.
     pub position: f64,
-    /// Particles in the cell on the left.
+    /// Number of particles in the cell on the left.
     pub left: u64,
-    /// Particles in the cell on the right.
+    /// Number of particles in the cell on the right.
     pub right: u64,
     /// Internal force on the node (N).
     pub force: f64,

@@ -1,4 +1,4 @@
-//! `mpm-verify new`: a suite to begin with.
+//! `mpm-verify new`: creates a suite to start from.
 
 mod template;
 
@@ -58,7 +58,7 @@ pub(super) fn new(args: &NewArgs) -> Result<Status, CommandError> {
 
 fn written(args: &NewArgs) -> Result<PathBuf, CommandError> {
     let path = args.output.clone().unwrap_or_else(|| format!("{}.yaml", args.name).into());
-    // Checked before any question; `save` checks again.
+    // This check precedes all questions; `save` checks again.
     if path.exists() {
         return Err(in_the_way(&path));
     }
@@ -69,7 +69,7 @@ fn written(args: &NewArgs) -> Result<PathBuf, CommandError> {
     Ok(path)
 }
 
-/// All choices: options, and answers or defaults.
+/// All choices: options, answers to questions, and defaults.
 fn choices(args: &NewArgs) -> Result<Choices, CommandError> {
     let law = law(args)?;
     let dimension = setting("dimension", args.dimension.as_ref(), vec!["1", "2", "3"], "1");
@@ -97,7 +97,7 @@ fn setting(
     NamedChoice { value, known }
 }
 
-/// The material, which determines the exact solution.
+/// Chooses the material, which determines the exact solution.
 fn law(args: &NewArgs) -> Result<LawChoice, CommandError> {
     if let (Some(law), Some(truth)) = (args.material, args.truth)
         && law.truth() != truth
@@ -126,8 +126,8 @@ fn law(args: &NewArgs) -> Result<LawChoice, CommandError> {
     LawChoice::from_str(&answer, false).map_err(CommandError::Message)
 }
 
-/// Loads the suite. If an option causes the error, the diagnostic shows the option, not a file that
-/// does not exist.
+/// Loads the suite. If an option causes an error, the diagnostic points to the option, because the
+/// suite file does not exist yet.
 fn load(choices: &Choices, path: &Path, text: &str) -> Result<Suite, Diagnostic> {
     let name = format!("{} (not written)", path.display());
     let loaded = Source::from_text(name, text).and_then(|source| Suite::load(&source));
@@ -152,7 +152,7 @@ fn at_its_option(choices: &Choices, text: &str, diagnostic: &Diagnostic) -> Opti
     Some(moved.with_label(label.unwrap_or_default()).with_help(help.unwrap_or_default()))
 }
 
-/// Writes a new file; a file that was created in the meantime is not changed.
+/// Writes a new file. A file that was created in the meantime is not overwritten.
 fn save(path: &Path, text: &str) -> Result<(), CommandError> {
     let written = File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
     written.map_err(|error| match error.kind() {
@@ -168,18 +168,18 @@ fn in_the_way(path: &Path) -> CommandError {
     ))
 }
 
-/// A choice without an option.
+/// A choice that no option states.
 struct Question<'a> {
     /// Subject of the question.
     what: &'a str,
     choices: &'a [&'a str],
-    /// The choice for an empty answer.
+    /// Choice for an empty answer.
     default: &'a str,
 }
 
 impl Question<'_> {
-    /// The answer on standard input, if it is a terminal; otherwise, or without alternatives, the
-    /// default.
+    /// Returns the answer from standard input if it is a terminal. Otherwise, or without
+    /// alternatives, returns the default.
     fn ask(&self) -> String {
         let input = std::io::stdin();
         if self.choices.len() < 2 || !input.is_terminal() {
@@ -188,7 +188,7 @@ impl Question<'_> {
         self.ask_on(&mut input.lock(), &mut std::io::stderr())
     }
 
-    /// Asks until an answer is one of the choices; an empty line, or the end of input, selects the
+    /// Asks until the answer is one of the choices. An empty line or the end of input selects the
     /// default.
     fn ask_on(&self, input: &mut impl BufRead, out: &mut impl Write) -> String {
         let Self { what, choices, default } = self;

@@ -1,4 +1,4 @@
-//! The text of a new suite: a template for each kind of exact solution, and one for the method.
+//! Text of a new suite, from a template for each kind of exact solution and one for the method.
 
 use clap::ValueEnum;
 use std::path::Path;
@@ -37,7 +37,7 @@ impl LawChoice {
         }
     }
 
-    /// The exact solution that is known for the material.
+    /// Exact solution that is known for the material.
     pub(super) fn truth(self) -> TruthChoice {
         match self {
             Self::LinearElastic => TruthChoice::StandingWave,
@@ -55,7 +55,7 @@ impl TruthChoice {
         }
     }
 
-    /// Materials for which the solution is known, the default first.
+    /// Materials with a known solution of this kind, the default first.
     pub(super) fn laws(self) -> &'static [LawChoice] {
         match self {
             Self::Manufactured => &[LawChoice::NeoHookean, LawChoice::Hencky],
@@ -64,7 +64,7 @@ impl TruthChoice {
     }
 }
 
-/// Choices of a new suite, by their names in suites.
+/// Choices for a new suite, with names as in suites.
 pub(super) struct Choices {
     pub(super) name: String,
     pub(super) dimension: String,
@@ -74,15 +74,15 @@ pub(super) struct Choices {
     pub(super) scheme: NamedChoice,
 }
 
-/// A setting of the method.
+/// Value of a method setting.
 pub(super) struct NamedChoice {
     pub(super) value: String,
-    /// Names that the setting may have.
+    /// Allowed values of the setting.
     pub(super) known: Vec<&'static str>,
 }
 
-/// Variables of the templates that depend on the dimension. Levels run within seconds, in 3-D the
-/// coarse ones only; steps divide the time between instants. The motion has a different phase along
+/// Template variables that depend on the dimension. Levels run within seconds; in 3-D they are
+/// therefore coarse. Steps divide the time between instants. The motion has a different phase along
 /// each axis, so that some parts are stretched while others are compressed.
 const SHAPES: [[(&str, &str); 9]; 3] = [
     [
@@ -126,7 +126,7 @@ const SHAPES: [[(&str, &str); 9]; 3] = [
     ],
 ];
 
-/// The suite, with a comment for each key; `path` is its file.
+/// Text of the suite, with a comment for each key. `path` is the path of its file.
 pub(super) fn text(choices: &Choices, path: &Path) -> String {
     let Choices { name, dimension, law, basis, transfer, scheme } = choices;
     let [bar, square, cube] = &SHAPES;
@@ -157,7 +157,7 @@ pub(super) fn text(choices: &Choices, path: &Path) -> String {
     substitute(&[problem, METHOD].concat(), &[&chosen, shape.as_slice()].concat())
 }
 
-/// The template with the value of each `$variable` inserted. Values may contain `$`.
+/// Replaces each `$variable` of the template by its value. Values may contain `$`.
 fn substitute(template: &str, values: &[(&str, &str)]) -> String {
     let mut parts = template.split('$');
     let mut text = parts.next().unwrap_or_default().to_owned();

@@ -136,7 +136,7 @@ pub(super) struct CaseLabel {
 impl FromStr for CaseLabel {
     type Err = Expected;
 
-    /// Reads `CASE=TEXT`.
+    /// Parses `CASE=TEXT`.
     fn from_str(text: &str) -> Result<Self, Expected> {
         let (case, text) = text
             .split_once('=')

@@ -1,4 +1,4 @@
-//! Files of a run: `--out`, `--html` and `--vtu`.
+//! Writes the files of a run: `--out`, `--html` and `--vtu`.
 
 use super::args::ReportArgs;
 use super::printing::labelled;
@@ -22,7 +22,7 @@ pub(super) fn prepare_out(folder: &Path) -> Result<(), CommandError> {
 }
 
 /// Writes `NAME.txt`, `NAME-table.tex` and the figures of each suite, and `report.json` and
-/// `report.csv` for all.
+/// `report.csv` for all suites.
 pub(super) fn write_out(
     folder: &Path,
     args: &ReportArgs,
@@ -48,7 +48,7 @@ pub(super) fn write_out(
     every_file().map_err(|error| unwritable("--out", folder, &error))
 }
 
-/// Creates the folder of the file of `option` before the run, so that an invalid path fails early.
+/// Creates the folder for the file of `option` before the run, so that an invalid path fails early.
 pub(super) fn prepare_file(option: &str, file: &Path) -> Result<(), CommandError> {
     if file.is_dir() {
         return Err(unwritable(option, file, &"this is a folder"));
@@ -58,7 +58,7 @@ pub(super) fn prepare_file(option: &str, file: &Path) -> Result<(), CommandError
     made.map_err(|error| unwritable(option, file, &error))
 }
 
-/// Writes the results as JUnit XML; untested suites of `required` fail.
+/// Writes the results as JUnit XML. Untested cases of suites in `required` fail.
 pub(super) fn write_junit(
     file: &Path,
     outcomes: &[SuiteOutcome],
@@ -68,8 +68,8 @@ pub(super) fn write_junit(
     fs::write(file, text).map_err(|error| unwritable("--junit", file, &error))
 }
 
-/// Writes the page; suites and outcomes are in the order of their sources, without refused or
-/// skipped ones.
+/// Writes the HTML page. Suites and outcomes are in the order of `sources`, which excludes refused
+/// and skipped suites.
 pub(super) fn write_page(
     file: &Path,
     sources: &[Source],
@@ -95,10 +95,10 @@ pub(super) fn write_page(
     fs::write(file, page::page(&parts, refused)).map_err(|error| unwritable("--html", file, &error))
 }
 
-/// Cases for output, and its folder.
+/// Output of cases as time series into a folder.
 pub(super) struct Series {
     folder: PathBuf,
-    /// Whether all cases of the run are shown, or only unexpected ones.
+    /// Whether all cases of the run are written, instead of only unexpected ones.
     all: bool,
 }
 
@@ -110,7 +110,7 @@ impl Series {
         Ok(Self { folder, all })
     }
 
-    /// Writes the time series of the shown cases of a suite, and prints their paths.
+    /// Writes the time series of the selected cases of a suite, and prints their paths.
     pub(super) fn write(
         &self,
         runner: &Runner<'_>,
@@ -143,7 +143,7 @@ fn save(path: &Path, file: &SeriesFile) -> io::Result<()> {
     fs::write(path, &file.bytes)
 }
 
-/// The error of an `option` whose file or folder cannot be written.
+/// Error about an `option` whose file or folder cannot be written.
 fn unwritable(option: &str, path: &Path, error: &impl Display) -> CommandError {
     CommandError::option(option, path.display(), error)
 }

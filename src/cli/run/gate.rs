@@ -1,4 +1,5 @@
-//! `run --gate` and `--solver-config`: the requirements of a solver, and whether it passes.
+//! `run --gate` and `--solver-config`: requirements on a solver, and the check whether it meets
+//! them.
 
 use super::args::JudgedSolverArgs;
 use crate::cli::{output, select, solver};
@@ -11,7 +12,7 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// A started solver, and its requirements.
+/// A started solver with its gate.
 pub(super) struct JudgedSolver {
     pub(super) program: SolverProgram,
     pub(super) gate: Option<SolverGate>,
@@ -21,13 +22,13 @@ pub(super) struct JudgedSolver {
 pub(super) struct SolverGate {
     /// Suites that the command line names individually.
     named: BTreeSet<String>,
-    /// Whether these may be not applicable.
+    /// Whether individually named suites may be inapplicable.
     allows_not_applicable: bool,
-    /// Suites that no external solver can run.
+    /// Names of suites that external solvers cannot run.
     left_out: Vec<String>,
 }
 
-/// The suites with the solver in place of their methods, and the gate, if any.
+/// Returns the suites with the solver instead of their methods, and the gate, if requested.
 ///
 /// # Errors
 /// The first error in the configuration file.
@@ -53,7 +54,7 @@ impl SolverGate {
         if self.allows_not_applicable { BTreeSet::new() } else { self.named.clone() }
     }
 
-    /// Prints the exceptions, and reasons other than failed cases why the solver does not pass.
+    /// Prints the exceptions, and the reasons other than failed cases why the solver does not pass.
     /// Returns whether there are no such reasons.
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {
         for (suite, case) in cases(outcomes) {
@@ -89,16 +90,16 @@ fn cases(outcomes: &[SuiteOutcome]) -> impl Iterator<Item = (&str, &CaseOutcome)
     outcomes.iter().flat_map(|suite| suite.cases.iter().map(|case| (suite.suite.as_str(), case)))
 }
 
-/// Largest order that a solver may have.
+/// Maximum order that the configuration may state.
 const HIGHEST_ORDER: f64 = 20.0;
 
-/// The file as its author writes it.
+/// Contents of the configuration file.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ConfigSpec {
     /// Formal order of the solver in h.
     formal_order: Option<f64>,
-    /// Terms for suites, by their names, groups or patterns.
+    /// Terms for suites, with names, groups or patterns as keys.
     #[serde(default)]
     suites: Ordered<TermsSpec>,
 }
@@ -106,7 +107,7 @@ struct ConfigSpec {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct TermsSpec {
-    /// Order that is required.
+    /// Required order.
     order: Option<f64>,
     /// Bound on errors that are accepted without an order.
     error_below: Option<f64>,
@@ -116,19 +117,19 @@ struct TermsSpec {
     because: Option<String>,
 }
 
-/// A configuration file that has been checked.
+/// A checked configuration.
 #[derive(Debug, Default)]
 struct SolverConfig {
     formal_order: Option<f64>,
-    /// Names, groups or patterns of suites, with their terms.
+    /// Names, groups or patterns of suites, each with its terms.
     suites: Vec<(String, GateTerms)>,
 }
 
 impl SolverConfig {
-    /// Reads the file, for a run of `suites`.
+    /// Reads and checks the file for a run of `suites`.
     ///
     /// # Errors
-    /// The first error in the file, with its place.
+    /// The first error in the file, with its position.
     fn read(file: &Path, suites: &[Suite]) -> Result<Self, Diagnostic> {
         let source = Source::read(file)?;
         let spec: ConfigSpec = read(&source)?;
@@ -146,7 +147,7 @@ impl SolverConfig {
         Ok(Self { formal_order: spec.formal_order, suites: checked })
     }
 
-    /// The terms for a suite: those of the first entry that matches its name or its group.
+    /// Terms for a suite, from the first entry that matches its name or group.
     fn terms(&self, suite: &Suite) -> GateTerms {
         let in_group = format!("{}/{}", suite.group, suite.name);
         let names = [&suite.name, &suite.group, &in_group];
@@ -224,7 +225,7 @@ fn check_order(source: &Source, path: &[Step], order: f64) -> Result<(), Diagnos
     Err(diagnostic.with_label(&format!("expected a number above 0 and up to {HIGHEST_ORDER}")))
 }
 
-/// Names of all suites and groups that an entry may be for.
+/// Names of all suites and groups that an entry may refer to.
 fn known_names(suites: &[Suite]) -> Vec<String> {
     let mut known = select::suite_names();
     for suite in suites {

@@ -28,7 +28,7 @@ pub(super) fn run(args: &RunArgs) -> Result<Status, CommandError> {
     report(&args.report, |suites| chosen(args, suites))
 }
 
-/// Reports the results of the parts of a run like those of a single run.
+/// Merges the results of a sharded run and reports them like a single run.
 pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
     let parts = ResultCache::of_parts(&args.from)
@@ -36,7 +36,7 @@ pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
     report(&args.report, |suites| Ok((SuiteRuns::of_methods(suites), Judging::of_kept(parts))))
 }
 
-/// The suites that `args` choose, with the cache and the solvers of the run.
+/// Chooses the suites, the cache and the solvers of a run from its arguments.
 fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError> {
     let repeat = repetitions(args)?;
     let kept = args.resume.as_deref().map(open).transpose()?;
@@ -75,8 +75,8 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
     Ok((runs, Judging { kept, solvers, repeat, series, at_interrupt }))
 }
 
-/// Runs suites one after the other, each in parallel. Reports of finished suites are printed, also
-/// if a later file cannot be used.
+/// Runs suites one after the other, each in parallel. Reports of finished suites are printed even
+/// if a later file is invalid.
 fn report(
     args: &ReportArgs,
     choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError>,
@@ -93,7 +93,7 @@ fn report(
     let (runs, judging) = choose(suites)?;
     printing::check(args, &runs)?;
     let suites: Vec<Suite> = runs.iter().map(|runs| runs.suite().clone()).collect();
-    // Suites without a selected case are skipped; the order of the others does not change.
+    // Suites without a selected case are skipped. The order of the others does not change.
     let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);
     let sources = names.into_iter().zip(sources).filter(is_chosen);
     let sources: Vec<Source> = sources.map(|(_, source)| source).collect();
@@ -114,7 +114,7 @@ fn report(
         bar.note_at_interrupt(note.clone());
     }
     let mut shown = Ok(());
-    // Outcomes of each solver, for its gate.
+    // Outcomes of each solver, for the check of its gate.
     let mut of_solvers: Vec<Vec<SuiteOutcome>> = vec![Vec::new(); judging.solvers.len()];
     let mut outcomes: Vec<SuiteOutcome> = Vec::new();
     for suite in &runs {
@@ -155,7 +155,7 @@ fn report(
     let mut passed = outcomes.iter().all(SuiteOutcome::passed);
     let any = of_solvers.iter().any(|outcomes| !outcomes.is_empty());
     for (solver, outcomes) in judging.solvers.iter().zip(&of_solvers) {
-        // `--case` may have chosen cases of other solvers only.
+        // `--case` may have selected only cases of other solvers.
         if outcomes.is_empty() && any {
             continue;
         }
@@ -163,7 +163,7 @@ fn report(
             output::complain("error: no case is applicable to the solver");
             return Ok(Status::Failed);
         }
-        // The gate prints its exceptions in any case.
+        // The gate is checked even if cases have failed, because it prints its exceptions.
         passed &= solver.gate.as_ref().is_none_or(|gate| gate.passes(outcomes));
     }
     Ok(if passed { Status::Passed } else { Status::Failed })
@@ -180,10 +180,10 @@ fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
     pool.build_global().map_err(|error| CommandError::option("--jobs", jobs, error))
 }
 
-/// Number of runs of each level.
+/// Number of repetitions of each level.
 ///
 /// # Errors
-/// `--repeat` has no spread to report, or would mix stored results with new ones.
+/// If `--repeat` would give no spread, or would mix stored results with new ones.
 fn repetitions(args: &RunArgs) -> Result<usize, CommandError> {
     const MOST: usize = 100;
     let Some(repeat) = args.repeat else { return Ok(1) };
@@ -203,33 +203,33 @@ fn extent(args: &ReportArgs) -> Extent {
     if args.full { Extent::Full } else { Extent::Usual }
 }
 
-/// The cache and the solvers of a run.
+/// Cache, solvers and other settings of a run.
 struct Judging {
     kept: Option<ResultCache>,
     solvers: Vec<JudgedSolver>,
     /// Number of runs of each level.
     repeat: usize,
-    /// Cases to be written as files for ParaView.
+    /// Output of cases as files for ParaView.
     series: Option<Series>,
     /// Hint printed on Ctrl-C.
     at_interrupt: Option<String>,
 }
 
 impl Judging {
-    /// Results from the cache.
+    /// Settings for reporting results from the cache.
     fn of_kept(kept: ResultCache) -> Self {
         let (solvers, repeat) = (Vec::new(), 1);
         Self { kept: Some(kept), solvers, repeat, series: None, at_interrupt: None }
     }
 
-    /// Suites whose cases must all be tested by the gate.
+    /// Suites with a gate whose cases must all be tested.
     fn required(&self) -> BTreeSet<String> {
         let gates = self.solvers.iter().filter_map(|solver| solver.gate.as_ref());
         gates.flat_map(SolverGate::required).collect()
     }
 }
 
-/// Runs a suite; `shown` is the first failure to write files that show cases.
+/// Runs a suite. `shown` receives the first failure to write time series.
 fn one(
     part: &SuitePart,
     args: &ReportArgs,
@@ -248,7 +248,8 @@ fn one(
     let warn = |warning: &StepWarning| {
         bar.suspend(|| output::complain(&format!("warning: {}", warning.text)));
     };
-    // A suite may study steps that are too long: then its expectations cover the result.
+    // A suite may deliberately use steps that are too long, and its expectations then cover the
+    // result. So these warnings are printed only for cases that fail.
     let (later, now): (Vec<_>, Vec<_>) =
         runner.warnings().into_iter().partition(|one| one.is_too_long && !suite.explores());
     for warning in &now {
@@ -275,7 +276,7 @@ fn open(folder: &Path) -> Result<ResultCache, CommandError> {
         .map_err(|error| CommandError::option("--resume", folder.display(), error))
 }
 
-/// The first name that two suites have.
+/// The first name that occurs twice among the suites.
 fn twice(suites: &[Suite]) -> Option<&str> {
     let names: Vec<&str> = suites.iter().map(|suite| suite.name.as_str()).collect();
     names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)).map(|(_, name)| *name)

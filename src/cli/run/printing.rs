@@ -1,4 +1,4 @@
-//! Printed text of a run, and the time of printing.
+//! Prints the text of a run.
 
 use super::args::{CaseLabel, ReportArgs, RunFormat};
 use crate::cli::output;
@@ -10,7 +10,7 @@ use mpm_verify::{nearest, report};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Largest number of named suites whose reports are printed.
+/// Maximum number of named suites whose reports are printed.
 const FEW: usize = 5;
 
 /// Extent of the printed text.
@@ -22,7 +22,7 @@ pub(super) enum Printing {
     Csv,
     /// LaTeX tables.
     Latex,
-    /// Every report, then one line for each case.
+    /// All reports, followed by one line for each case.
     Reports,
     /// One line for each case.
     Verdicts,
@@ -33,7 +33,7 @@ pub(super) enum Printing {
 }
 
 impl Printing {
-    /// The extent that the options request, for `suites` suites.
+    /// Extent of the text that the options request for `suites` suites.
     pub(super) fn of(args: &ReportArgs, suites: usize) -> Self {
         let few_are_named = !args.targets.targets.is_empty() && suites <= FEW;
         match args.format {
@@ -47,14 +47,14 @@ impl Printing {
         }
     }
 
-    /// Prints the output for a suite as soon as it has ended.
+    /// Prints the text for a suite as soon as the suite has finished.
     pub(super) fn of_suite(self, outcome: &SuiteOutcome) {
         if self == Self::Reports {
             output::print(&format!("{}\n", report::text(outcome)));
         }
     }
 
-    /// Prints the output at the end.
+    /// Prints the text at the end of the run.
     pub(super) fn of_all(self, args: &ReportArgs, sources: &[Source], outcomes: &[SuiteOutcome]) {
         match self {
             Self::Json => output::print(&report::json(outcomes)),
@@ -71,7 +71,7 @@ impl Printing {
     }
 }
 
-/// The full reports of cases with unexpected results, below the names of their suites.
+/// Complete reports of the cases with unexpected results, below the names of their suites.
 fn unexpected(outcomes: &[SuiteOutcome]) -> String {
     let mut text = String::new();
     for outcome in outcomes.iter().filter(|outcome| !outcome.passed()) {
@@ -83,7 +83,7 @@ fn unexpected(outcomes: &[SuiteOutcome]) -> String {
     text
 }
 
-/// One line with the places of the reports.
+/// One line with the locations of the reports.
 fn place(args: &ReportArgs, sources: &[Source]) -> String {
     if let Some(folder) = &args.out {
         return format!("reports: {}", folder.join("SUITE.txt").display());
@@ -100,8 +100,8 @@ fn place(args: &ReportArgs, sources: &[Source]) -> String {
 /// Checks the labels of the command line against the cases of the run.
 ///
 /// # Errors
-/// A label is for no case, two cases would have the same label, or several suites would have one
-/// title.
+/// If a label matches no case, two cases would have the same label, or several suites would have
+/// the same title.
 pub(super) fn check(args: &ReportArgs, runs: &[SuiteRuns]) -> Result<(), CommandError> {
     if let Some(title) = args.title.as_ref().filter(|_| runs.len() > 1) {
         return Err(CommandError::option("--title", title, "expected one suite"));
@@ -126,7 +126,7 @@ pub(super) fn check(args: &ReportArgs, runs: &[SuiteRuns]) -> Result<(), Command
     Ok(())
 }
 
-/// The outcomes with the texts of the command line.
+/// The outcomes, with titles and labels from the command line.
 pub(super) fn labelled(args: &ReportArgs, outcomes: &[SuiteOutcome]) -> Vec<SuiteOutcome> {
     let mut outcomes = outcomes.to_vec();
     for outcome in &mut outcomes {

@@ -1,5 +1,5 @@
-//! The progress of a run on standard error, if this is a terminal: levels, and the remaining time
-//! by the cost model.
+//! Progress of a run on standard error, if it is a terminal: levels, and the remaining time
+//! predicted by the cost model.
 
 use crate::cli::output;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -9,13 +9,13 @@ use std::borrow::Cow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// Exit status of a program that Ctrl-C ends.
+/// Exit status after Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
-/// Share of the predicted time after which a remaining time is shown.
+/// Share of the predicted time that must have passed before a remaining time is shown.
 const ENOUGH: f64 = 0.02;
 
-/// Progress of the suites of a run, in order.
+/// Progress over the suites of a run.
 pub(super) struct RunProgress {
     bar: ProgressBar,
     state: Mutex<ProgressState>,
@@ -23,16 +23,16 @@ pub(super) struct RunProgress {
 
 struct ProgressState {
     suite: String,
-    /// Predicted seconds of the remaining units of this suite, in decreasing order.
+    /// Predicted seconds of the remaining units of the current suite, in decreasing order.
     units: Vec<f64>,
-    /// Predicted seconds of the units that are done, and of all.
+    /// Predicted seconds of the finished units, and of all units.
     done: f64,
     all: f64,
     start: Instant,
 }
 
 impl RunProgress {
-    /// A bar for all levels of `suites`, hidden in quiet mode.
+    /// Creates a progress bar for all levels of `suites`. It is hidden in quiet mode.
     pub(super) fn over<'a>(
         suites: impl Iterator<Item = &'a Suite> + Clone,
         extent: Extent,
@@ -51,18 +51,18 @@ impl RunProgress {
         Self { bar, state: Mutex::new(state) }
     }
 
-    /// The levels of `suite` are next.
+    /// Starts the levels of `suite`.
     pub(super) fn start(&self, suite: &Suite, extent: Extent) {
         let mut state = self.state();
         state.done += state.units.iter().sum::<f64>();
         suite.name.clone_into(&mut state.suite);
-        // Cases run side by side, each from coarse to fine: the cheapest levels end first.
+        // Cases run in parallel, each from coarse to fine, so the cheapest levels finish first.
         state.units = unit_seconds(suite, extent);
         state.units.sort_by(|a, b| b.total_cmp(a));
         self.bar.set_message(state.message());
     }
 
-    /// A level has ended.
+    /// Counts a finished level.
     pub(super) fn inc(&self) {
         let mut state = self.state();
         state.done += state.units.pop().unwrap_or_default();
@@ -70,17 +70,18 @@ impl RunProgress {
         self.bar.inc(1);
     }
 
-    /// Takes the bar away while something is printed.
+    /// Hides the bar while `print` runs.
     pub(super) fn suspend(&self, print: impl FnOnce()) {
         self.bar.suspend(print);
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(super) fn clear(&self) {
         self.bar.finish_and_clear();
     }
 
-    /// Ctrl-C ends the program with `note`. Without such a handler it ends all the same.
+    /// Makes Ctrl-C print `note` before the program ends. If the handler cannot be set, Ctrl-C only
+    /// ends the program.
     pub(super) fn note_at_interrupt(&self, note: String) {
         let bar = self.bar.clone();
         let _ = ctrlc::set_handler(move || {
@@ -101,8 +102,8 @@ impl ProgressState {
     }
 }
 
-/// The remaining time after `seconds`, in which `done` of `all` predicted seconds were completed;
-/// `None` as long as the estimate is unreliable.
+/// Remaining time after `seconds`, when `done` of `all` predicted seconds are finished. `None`
+/// while the estimate is unreliable.
 fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
     if !(done > ENOUGH * all && seconds > 1.0) {
         return None;
@@ -115,7 +116,7 @@ fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
     })
 }
 
-/// Text on how to resume the run of this command line, with or without stored results.
+/// Text about resuming the run of this command line, with or without stored results.
 pub(super) fn interrupt_note(kept: bool) -> String {
     let words: Vec<String> = std::env::args().skip(1).collect();
     note_of(&words, kept)
@@ -137,7 +138,7 @@ fn note_of(words: &[String], kept: bool) -> String {
     }
 }
 
-/// The argument, quoted for a shell.
+/// The argument with quotes for a shell, if necessary.
 fn quoted(word: &str) -> Cow<'_, str> {
     shlex::try_quote(word).unwrap_or(word.into())
 }

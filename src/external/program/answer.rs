@@ -1,4 +1,4 @@
-//! Answers of a solver, with its capabilities and columns of numbers.
+//! Answers of a solver, including its capabilities and columns of numbers.
 
 use super::error::{ProgramError, plain, printable};
 use super::frame::MessageFrame;
@@ -98,9 +98,9 @@ pub(super) struct State {
     pub(super) min_j: Option<f64>,
 }
 
-/// A request for values.
+/// A request for values of a field.
 pub(super) struct ValueRequest {
-    /// The field that is requested; absent in a request `body_force`.
+    /// Name of the requested field; absent in a `body_force` request.
     pub(super) of: Option<String>,
     /// Time (s).
     pub(super) t: Option<f64>,
@@ -167,7 +167,7 @@ pub(super) enum ColumnText {
 }
 
 impl ColumnText {
-    /// Number of entries that the column announces.
+    /// Number of entries that the column states.
     pub(super) fn count(&self) -> usize {
         match self {
             Self::Numbers(numbers) => numbers.len(),
@@ -175,7 +175,7 @@ impl ColumnText {
         }
     }
 
-    /// The numbers of the column `name`: exactly `count`, all finite.
+    /// Returns the numbers of the column `name`. There must be exactly `count`, all finite.
     pub(super) fn numbers(
         self,
         name: &str,
@@ -209,11 +209,12 @@ impl ColumnText {
 }
 
 impl Answer {
-    /// Reads the answer in a frame.
+    /// Parses the answer in a frame.
     pub(super) fn read(frame: &MessageFrame) -> Result<Self, ProgramError> {
         serde_json::from_slice(&frame.line).map_err(|error| {
             let text = String::from_utf8_lossy(&frame.line);
-            // Texts that Python and other languages write for numbers that JSON cannot represent.
+            // Texts for numbers that JSON cannot represent, as written by Python and other
+            // languages.
             for word in ["NaN", "Infinity"] {
                 if text.contains(word) {
                     return ProgramError::NoNumber(word);
@@ -228,7 +229,7 @@ impl Answer {
         })
     }
 
-    /// Its columns with their names.
+    /// Columns of the answer, with their names.
     pub(super) fn columns(self) -> Vec<(String, ColumnText)> {
         match self {
             Self::Ready { points: Some(points) } => vec![
@@ -247,10 +248,10 @@ impl Answer {
         }
     }
 
-    /// The request for values, if it is one.
+    /// Converts the answer to a request for values.
     ///
     /// # Errors
-    /// The answer itself.
+    /// The answer itself, if it is not a request.
     pub(super) fn request(self) -> Result<ValueRequest, Box<Self>> {
         match self {
             Self::BodyForce { t, reference_position, displacement, body } => {
@@ -263,7 +264,7 @@ impl Answer {
         }
     }
 
-    /// Its type, as messages spell it.
+    /// Type of the answer, as in the protocol.
     pub(super) fn name(&self) -> &'static str {
         match self {
             Self::Hello(_) => "hello",
@@ -278,7 +279,7 @@ impl Answer {
     }
 }
 
-/// The beginning of an untrusted text, sanitised.
+/// Beginning of an untrusted text, sanitised.
 fn excerpt(text: &str) -> String {
     let start = printable(&text.chars().take(60).collect::<String>());
     if text.chars().nth(60).is_some() { format!("{start}...") } else { start }

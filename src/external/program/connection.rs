@@ -1,8 +1,8 @@
-//! A solver's process, within limits of time and memory.
+//! The process of a solver, with limits of time and memory.
 //!
-//! Two threads read the output of the process, and one writes its input: a process that neither
-//! reads nor writes blocks nothing. Each thread ends with its pipe, at the latest when the process
-//! is killed.
+//! Two threads read the output of the process and one writes its input, so a process that neither
+//! reads nor writes does not block the caller. Each thread ends when its pipe closes, at the latest
+//! when the process is killed.
 
 use super::answer::Answer;
 use super::error::{ProgramError, printable};
@@ -15,16 +15,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Maximum length of an answer before a problem is known (bytes).
+/// Maximum length of an answer (bytes) before a problem has been sent.
 const SHORT: usize = 1 << 20;
 
-/// Maximum number of bytes of standard error that are stored.
+/// Number of bytes of standard error that are stored.
 const LAST_BYTES: usize = 2000;
 
-/// Maximum number of lines of standard error in a message.
+/// Maximum number of lines of standard error in an error message.
 const LAST_LINES: usize = 3;
 
-/// Maximum time for a process to end by itself; a shorter response timeout applies here too.
+/// Maximum time for a process to exit on its own. A shorter response timeout applies here too.
 const GRACE: Duration = Duration::from_secs(1);
 
 /// Polling interval for a process that does not respond.
@@ -35,7 +35,7 @@ const GLANCE: Duration = Duration::from_millis(50);
 pub struct ProgramLimits {
     /// Response timeout.
     pub silence: Duration,
-    /// Address space (bytes), on Unix; `None`: limit of the system.
+    /// Maximum address space (bytes), on Unix; `None`: the limit of the system.
     pub memory: Option<u64>,
 }
 
@@ -57,10 +57,10 @@ pub(super) struct Connection {
 }
 
 impl Connection {
-    /// Starts `command`.
+    /// Starts `command` as a process.
     ///
     /// # Errors
-    /// The program does not start.
+    /// If the program does not start.
     pub(super) fn start(command: &[String], limits: ProgramLimits) -> Result<Self, ProgramError> {
         let mut process = limited(command, limits.memory)?;
         process.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -75,7 +75,7 @@ impl Connection {
         let mut errors = child.stderr.take().ok_or(ProgramError::Pipe)?;
         let (requests, to_write) = channel::<Vec<u8>>();
         thread::spawn(move || {
-            // A process that stopped reading is detected by its answers, not here.
+            // If the process has stopped reading, its missing answer reveals this.
             while let Ok(message) = to_write.recv() {
                 if input.write_all(&message).and_then(|()| input.flush()).is_err() {
                     break;
@@ -83,7 +83,7 @@ impl Connection {
             }
         });
         let longest = Arc::new(AtomicUsize::new(SHORT));
-        // A process with unlimited output blocks on its own pipe.
+        // The bounded channel blocks a process with unlimited output on its own pipe.
         let (found, answers) = sync_channel(1);
         let most = Arc::clone(&longest);
         thread::spawn(move || read_all(output, &most, &found));
@@ -103,22 +103,22 @@ impl Connection {
         Ok(Self { child, requests, answers, longest, last_bytes, listener, silence })
     }
 
-    /// Sets the maximum number of bytes of later answers.
+    /// Sets the maximum length of later answers (bytes).
     pub(super) fn expect_up_to(&mut self, bytes: usize) {
         self.longest.store(SHORT.max(bytes), Ordering::Relaxed);
     }
 
-    /// Sends a message. A process that does not read it is detected by the response timeout.
+    /// Sends a message. If the process does not read it, the response timeout applies.
     pub(super) fn send(&mut self, message: Outgoing) {
         if let Some(requests) = &self.requests {
             let _ = requests.send(message.into_bytes());
         }
     }
 
-    /// Waits for the next answer, with its block of bytes.
+    /// Waits for the next answer and its block of bytes.
     ///
     /// # Errors
-    /// The failure; the process is killed then.
+    /// The failure. The process has then been killed.
     pub(super) fn answer(&mut self) -> Result<(Answer, Vec<u8>), ProgramError> {
         let found = match self.heard() {
             Ok(Ok(frame)) => Answer::read(&frame).map(|answer| (answer, frame.bytes)),
@@ -132,8 +132,8 @@ impl Connection {
         })
     }
 
-    /// The next message, if it arrives in time. A process may end while a child process keeps its
-    /// pipe open; so the process itself is polled too.
+    /// The next message, if it arrives in time. A child process may keep the pipe open after the
+    /// process has ended, so the process itself is polled too.
     fn heard(&mut self) -> Result<Result<MessageFrame, ProgramError>, RecvTimeoutError> {
         let start = Instant::now();
         loop {
@@ -149,7 +149,7 @@ impl Connection {
         }
     }
 
-    /// The failure of a process that gives no more answers.
+    /// The failure of a process that sends no more answers.
     fn ended(&mut self) -> ProgramError {
         match self.status() {
             Some(status) => ProgramError::Ended(shown(status)),
@@ -158,11 +158,11 @@ impl Connection {
     }
 
     fn with_standard_error(&self, error: ProgramError) -> ProgramError {
-        // The process is dead, but its last output may not have arrived yet.
+        // The process has ended, but its last output may not have arrived yet.
         patiently(GRACE, || self.listener.is_finished().then_some(()));
         let kept = self.last_bytes.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);
-        // For a Python traceback, these are the place, the source line and the error.
+        // For a Python traceback, these lines are the position, the source line and the error.
         let says = |line: &&str| line.contains(char::is_alphanumeric);
         let mut last: Vec<String> = text
             .lines()
@@ -185,7 +185,7 @@ impl Connection {
         patiently(GRACE.min(self.silence), || self.child.try_wait().ok().flatten())
     }
 
-    /// Says `bye`, and lets the process end.
+    /// Sends `bye` and waits for the process to exit.
     pub(super) fn end(mut self) {
         self.send(Outgoing::new("bye", serde_json::Value::Null, false));
         self.requests = None;
@@ -209,7 +209,7 @@ impl Drop for Connection {
     }
 }
 
-/// The first result of `look` within a time.
+/// The first result of `look` within the time limit.
 fn patiently<T>(most: Duration, mut look: impl FnMut() -> Option<T>) -> Option<T> {
     let start = Instant::now();
     loop {
@@ -221,7 +221,7 @@ fn patiently<T>(most: Duration, mut look: impl FnMut() -> Option<T>) -> Option<T
     }
 }
 
-/// The command, with a limit of its address space (bytes) that it hands on to all that it starts.
+/// The command, with a limit of its address space (bytes) that child processes inherit.
 fn limited(command: &[String], memory: Option<u64>) -> Result<Command, ProgramError> {
     let Some(memory) = memory else {
         let mut process = Command::new(&command[0]);

@@ -1,12 +1,12 @@
-//! Failures of a solver's program, and untrusted text in messages.
+//! Failures of a solver program, and untrusted text in messages.
 
 use crate::external::fields::FieldError;
 use crate::subject::{HIGHEST_ORDER, LONGEST_NAME};
 use std::io;
 use thiserror::Error;
 
-/// A failure of a solver's process, or a breach of the protocol. The text is a predicate whose
-/// subject is the solver.
+/// Failure of a solver process, or violation of the protocol. The text is a predicate with the
+/// solver as its subject.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ProgramError {
@@ -16,7 +16,7 @@ pub enum ProgramError {
     /// The command is empty.
     #[error("is empty: expected a command with its arguments")]
     EmptyCommand,
-    /// The operating system has no limit of memory.
+    /// The operating system does not support a memory limit.
     #[error("no limit of memory can be set on this system")]
     MemoryLimit,
     /// The program does not start.
@@ -24,7 +24,7 @@ pub enum ProgramError {
     Start {
         /// Name of the program.
         program: String,
-        /// The reason.
+        /// Reason reported by the system.
         error: io::Error,
     },
     /// The process has no standard streams.
@@ -36,19 +36,19 @@ pub enum ProgramError {
     /// The process ended without an answer.
     #[error("ended without an answer ({0})")]
     Ended(String),
-    /// The process closed its standard output, and still runs.
+    /// The process closed its standard output but is still running.
     #[error("closed its output and went on")]
     ClosedOutput,
     /// The output of the process cannot be read.
     #[error("cannot be read: {0}")]
     Unreadable(io::Error),
-    /// The output ended within an answer, or within a block of bytes.
+    /// The output ended within an answer or a block of bytes.
     #[error("ended in the middle of {0}")]
     Truncated(&'static str),
-    /// An answer is longer than any answer that the problem needs.
+    /// An answer is longer than any answer that the problem requires.
     #[error("answered with more than {0} bytes")]
     TooLong(usize),
-    /// An answer has a number that JSON does not have.
+    /// An answer contains a number that JSON does not support.
     #[error("answered with {0}, which is no number")]
     NoNumber(&'static str),
     /// A line that is not a message of the protocol.
@@ -59,7 +59,7 @@ pub enum ProgramError {
         /// Beginning of the line.
         excerpt: String,
     },
-    /// A message of a type that does not answer the request.
+    /// The type of the message does not answer the request.
     #[error("answered `{request}` with `{answer}`")]
     UnexpectedAnswer {
         /// Type of the request.
@@ -67,7 +67,7 @@ pub enum ProgramError {
         /// Type of the answer.
         answer: &'static str,
     },
-    /// A version of the protocol that is not supported.
+    /// Unsupported version of the protocol.
     #[error(
         "speaks version {stated} of the protocol; expected version {} or {}",
         .expected[0],
@@ -76,22 +76,22 @@ pub enum ProgramError {
     Version {
         /// Version that the solver stated.
         stated: u64,
-        /// Versions that are supported.
+        /// Supported versions.
         expected: [u64; 2],
     },
-    /// The name of the solver is not a valid name.
+    /// The solver's name is invalid.
     #[error(
         "is called `{0}`: expected up to {max} letters, digits, `-`, `_` or `.`",
         max = LONGEST_NAME
     )]
     Name(String),
-    /// The formal order that the solver states is out of range.
+    /// The solver's formal order is out of range.
     #[error("has the formal order {0}: expected one up to {max}", max = HIGHEST_ORDER)]
     FormalOrder(f64),
-    /// A second process stated another name, version or capability than the first.
+    /// A second process stated a different name, version or capability than the first one.
     #[error("said another hello than the first time")]
     ChangedHello,
-    /// The solver refuses the problem, for this reason.
+    /// The solver refuses the problem for this reason.
     #[error("{0}")]
     Refused(String),
     /// The solver reports a failure.
@@ -100,7 +100,7 @@ pub enum ProgramError {
     /// A required column is missing.
     #[error("gave no column `{0}`")]
     NoColumn(&'static str),
-    /// A column refers to bytes beyond the block of bytes.
+    /// A column refers to bytes beyond the end of the block.
     #[error("gave the column `{name}` as {length} doubles from byte {offset} on, of {bytes} bytes")]
     ColumnBytes {
         /// Name of the column.
@@ -119,7 +119,7 @@ pub enum ProgramError {
         name: String,
         /// Number of entries.
         found: usize,
-        /// Number of entries that the problem needs.
+        /// Required number of entries.
         expected: usize,
     },
     /// A column has an entry that is not finite.
@@ -140,17 +140,17 @@ pub enum ProgramError {
     GradientLength {
         /// Number of entries.
         found: usize,
-        /// Number of entries that were requested.
+        /// Requested number of entries.
         expected: usize,
-        /// Names of the parameters that were requested.
+        /// Names of the requested parameters.
         names: String,
     },
-    /// A gradient has a number that JSON does not have.
+    /// A gradient contains a number that JSON does not support.
     #[error("answered `differentiate` with {word}, which is no number; requested: {names}")]
     GradientNoNumber {
         /// The number.
         word: &'static str,
-        /// Names of the parameters that were requested.
+        /// Names of the requested parameters.
         names: String,
     },
     /// An entry of a gradient, or the value of the functional, is not finite.
@@ -158,16 +158,16 @@ pub enum ProgramError {
     GradientNotFinite {
         /// The number.
         value: f64,
-        /// The entry, with the name of the parameter.
+        /// Name of the entry, with the parameter.
         of: String,
     },
     /// The solver has no points.
     #[error("has no points")]
     NoPoints,
-    /// The points of the solver are not in the bodies of the problem.
+    /// The solver's points are outside the bodies of the problem.
     #[error("gave points: {0}")]
     Points(FieldError),
-    /// A request for values that cannot be answered.
+    /// A request for values cannot be answered.
     #[error("asked for values of `{field}`: {reason}")]
     Request {
         /// Name of the field.
@@ -175,10 +175,10 @@ pub enum ProgramError {
         /// The reason.
         reason: FieldError,
     },
-    /// More requests for values than a solver needs.
+    /// The solver sent more requests for values than necessary.
     #[error("asked for values {0} times")]
     TooManyRequests(u64),
-    /// A failure of a process that wrote to its standard error.
+    /// A failure of a process that had written to its standard error.
     #[error("{error}; its last words: {lines}")]
     WithStandardError {
         /// The failure.
@@ -188,12 +188,12 @@ pub enum ProgramError {
     },
 }
 
-/// Untrusted text in one line, at most 200 characters of it.
+/// Untrusted text as one line of at most 200 characters.
 pub(super) fn printable(text: &str) -> String {
     text.chars().take(200).map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
-/// An error of the JSON library without the names of Rust types.
+/// Text of a JSON error without the names of Rust types.
 pub(super) fn plain(error: &serde_json::Error) -> String {
     const EXPECTED: [(&str, &str); 8] = [
         ("u64", "a whole number, zero or more"),

@@ -1,4 +1,4 @@
-//! Messages of the protocol: writing and reading.
+//! Writes and reads messages of the protocol.
 
 use super::error::ProgramError;
 use serde::Deserialize;
@@ -8,23 +8,23 @@ use std::process::ChildStdout;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::SyncSender;
 
-/// One message that was read: its line, without the newline, and the block of bytes after it.
+/// A received message: its line without the newline, and the subsequent block of bytes.
 #[derive(Debug, Default)]
 pub(super) struct MessageFrame {
     pub(super) line: Vec<u8>,
     pub(super) bytes: Vec<u8>,
 }
 
-/// A message on its way out.
+/// A message to be sent.
 pub(super) struct Outgoing {
     message: Map<String, Value>,
     bytes: Vec<u8>,
-    /// Whether columns may be bytes.
+    /// Whether columns may be sent as bytes.
     binary: bool,
 }
 
 impl Outgoing {
-    /// A message of the type `kind` with the keys of the object `content`.
+    /// Creates a message of type `kind` with the keys of the object `content`.
     pub(super) fn new(kind: &str, content: Value, binary: bool) -> Self {
         let mut message = match content {
             Value::Object(message) => message,
@@ -47,7 +47,7 @@ impl Outgoing {
         }
     }
 
-    /// Sets a column with its numbers.
+    /// Sets a key to a column of numbers.
     pub(super) fn set_numbers(&mut self, key: &str, numbers: &[f64]) {
         let column = self.numbers(numbers);
         self.set(key, column);
@@ -74,15 +74,15 @@ impl Outgoing {
     }
 }
 
-/// Size of the block of bytes that a message announces.
+/// The size of the block of bytes that a message announces.
 #[derive(Deserialize)]
 struct Announced {
     #[serde(default)]
     bytes: usize,
 }
 
-/// Number of bytes that follow a line; zero for a line that is not a message, which the reader of
-/// answers refuses.
+/// Number of bytes that follow a line. Zero if the line is not a message; the reader of answers
+/// then reports an error.
 fn announced(line: &[u8]) -> usize {
     // Lines without the key "bytes" are not parsed here.
     if !line.windows(7).any(|word| word == b"\"bytes\"") {
@@ -91,8 +91,8 @@ fn announced(line: &[u8]) -> usize {
     serde_json::from_slice::<Announced>(line).map_or(0, |announced| announced.bytes)
 }
 
-/// Reads messages until the output ends or a message breaks the protocol. `longest` is the maximum
-/// length of a message (bytes).
+/// Reads messages until the output ends or a message violates the protocol. `longest` is the
+/// maximum length of a message (bytes).
 pub(super) fn read_all(
     output: ChildStdout,
     longest: &AtomicUsize,
@@ -112,13 +112,13 @@ pub(super) fn read_all(
     }
 }
 
-/// The next message; `None` at the end of the output.
+/// Reads the next message; `None` at the end of the output.
 pub(super) fn read_one(
     output: &mut impl BufRead,
     longest: &AtomicUsize,
 ) -> Result<Option<MessageFrame>, ProgramError> {
-    // The limit is read again while a line grows: the first answer arrives before the problem is
-    // known.
+    // The limit can change while a line is read, because the first answer arrives before the
+    // problem is known.
     let check_size = |size: usize| {
         let most = longest.load(Ordering::Relaxed);
         if size > most { Err(ProgramError::TooLong(most)) } else { Ok(()) }

@@ -1,5 +1,5 @@
-//! Values that a solver requests at places and times: body forces, the initial state, loads and
-//! conditions on faces.
+//! Answers a solver's requests for values at places and times: body forces, the initial state,
+//! loads and face conditions.
 
 use super::answer::{ColumnText, ValueRequest};
 use super::error::{ProgramError, printable};
@@ -21,19 +21,19 @@ pub(super) struct Inquiry {
     /// Reference positions (m) and bodies of the particles, or of the solver's own points.
     labels: Vec<f64>,
     bodies: Vec<usize>,
-    /// The body force at `labels`, after the first request.
+    /// The body force evaluated at `labels`; created by the first request.
     placed: Option<PlacedBodyForce>,
-    /// Version of the protocol that the solver speaks.
+    /// Version of the protocol that the solver uses.
     version: u64,
     binary: bool,
-    /// Number of requests so far, and its maximum.
+    /// Number of requests since the last call of `allow`, and its maximum.
     asked: u64,
     most: u64,
 }
 
 impl Inquiry {
-    /// The answers to a solver of `problem` with this `version` of the protocol. Places of a
-    /// request are the particles by default.
+    /// Creates the answers for a solver of `problem` that uses this `version` of the protocol. The
+    /// default places of a request are the particles.
     pub(super) fn new(problem: &LevelProblem, version: u64, binary: bool) -> Self {
         Self {
             dimension: problem.dimension,
@@ -51,11 +51,10 @@ impl Inquiry {
         }
     }
 
-    /// Sets the places that a request without places means to the points of the solver (m, D
-    /// numbers each).
+    /// Sets the default places of requests to the points of the solver (m, D numbers each).
     ///
     /// # Errors
-    /// A point that is outside the body; a solver of version 1 is not checked.
+    /// A point is outside the bodies. Solvers of version 1 are not checked.
     pub(super) fn set_points(&mut self, labels: &[f64]) -> Result<(), ProgramError> {
         self.bodies = self.bodies_of(labels).map_err(ProgramError::Points)?;
         self.labels = labels.to_vec();
@@ -68,15 +67,15 @@ impl Inquiry {
         self.fields.as_ref()?.values(of, 0.0, &at).ok()
     }
 
-    /// Allows `requests` requests from now on.
+    /// Resets the number of requests, and allows at most `requests`.
     pub(super) fn allow(&mut self, requests: u64) {
         (self.asked, self.most) = (0, requests);
     }
 
-    /// The answer to a request with a block of `bytes`.
+    /// Answers a request that has a block of `bytes`.
     ///
     /// # Errors
-    /// One line about a request that has no answer.
+    /// The request cannot be answered.
     pub(super) fn answer(
         &mut self,
         request: ValueRequest,
@@ -118,7 +117,7 @@ impl Inquiry {
         Ok(message)
     }
 
-    /// The places of a request.
+    /// Places of a request.
     fn places(
         &self,
         field: FieldName,
@@ -134,7 +133,7 @@ impl Inquiry {
         let count = labels.len() / self.dimension;
         let bodies = match (field, body) {
             (FieldName::Face(_), _) => vec![0; count],
-            // A quantity that is the same at all places has one value.
+            // A quantity that is equal at all places has a single value.
             (FieldName::Load(_), _) if are_own && labels.len() != self.labels.len() => {
                 vec![0; count]
             }
@@ -159,7 +158,7 @@ impl Inquiry {
         Ok(RequestedPlaces { labels, bodies, displacement, are_own })
     }
 
-    /// The default places of a request.
+    /// Default places of a request for `field`.
     fn default_places(&self, field: FieldName) -> Result<Vec<f64>, FieldError> {
         let (numbers, face) = match field {
             FieldName::Load(load) => {
@@ -189,7 +188,7 @@ impl Inquiry {
         Ok(place)
     }
 
-    /// The body of each place.
+    /// Index of the body at each place.
     fn bodies_of(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
         let places = labels.chunks_exact(self.dimension);
         match &self.fields {
@@ -199,7 +198,7 @@ impl Inquiry {
         }
     }
 
-    /// Body forces (m/s2).
+    /// Body forces (m/s2) at places.
     fn forces(&mut self, t: f64, places: &RequestedPlaces) -> Result<Vec<f64>, FieldError> {
         let d = self.dimension;
         let RequestedPlaces { labels, bodies, displacement, are_own } = places;
@@ -238,7 +237,7 @@ impl Inquiry {
         Err(FieldError::Undefined(format!("a value at t = {t} s is not finite")))
     }
 
-    /// Values of all other fields.
+    /// Values of all fields except the body force.
     fn values(
         &self,
         of: FieldName,
@@ -255,16 +254,16 @@ impl Inquiry {
     }
 }
 
-/// Places of a request, in numbers.
+/// Parsed places of a request.
 struct RequestedPlaces {
     labels: Vec<f64>,
     bodies: Vec<usize>,
     displacement: Option<Vec<f64>>,
-    /// Whether they are the particles or the points.
+    /// Whether the places are the default ones: the particles or the points.
     are_own: bool,
 }
 
-/// The field that a request names.
+/// The field with the name in a request.
 fn field_named(
     name: &str,
     loads: &[ProblemLoad],
@@ -288,7 +287,7 @@ fn field_named(
     }))
 }
 
-/// The time (s) that a request means.
+/// The time (s) of a request, by default 0 for fields of the initial state.
 fn time(field: FieldName, t: Option<f64>) -> Result<f64, FieldError> {
     match t {
         None if field.is_initial() => Ok(0.0),

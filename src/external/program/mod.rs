@@ -1,11 +1,11 @@
-//! A command that speaks the protocol of docs/protocol.md.
+//! Runs a command that implements the protocol of docs/protocol.md.
 //!
 //! ```text
-//! solver       greets the command, and starts it for each level
-//! subject      a level that runs in the process
+//! solver       requests the command's identity, and starts it for each level
+//! subject      a level in a solver process
 //! gradient     a gradient that the process computes
 //! inquiry      answers to the solver's requests for values
-//! connection   the process: requests in, answers out, within limits of time and memory
+//! connection   the process: sends requests, receives answers, limits time and memory
 //! answer       answers of a solver, and columns of numbers
 //! frame        one message: a line of JSON, and a block of bytes
 //! error        failures of the process and of the protocol
@@ -30,8 +30,8 @@ use answer::Answer;
 use std::sync::atomic::AtomicUsize;
 
 #[doc(hidden)]
-/// Reads answers from `bytes` as from a process, with all their columns, up to the first that
-/// breaks the protocol; returns the number of valid answers. For the fuzzer.
+/// Reads answers from `bytes` as from a process, with all their columns, until one violates the
+/// protocol. Returns the number of valid answers. For the fuzzer.
 pub fn read_answers(mut bytes: &[u8]) -> usize {
     let longest = AtomicUsize::new(bytes.len());
     let mut count = 0;

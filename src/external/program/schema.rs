@@ -8,8 +8,8 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-/// The schema of every message of both sides, as indented JSON. Its definitions `answer` and
-/// `request` are the messages of the solver and of the harness.
+/// JSON Schema of all messages in both directions, as indented JSON. The definition `answer` covers
+/// the messages of the solver, `request` those of the harness.
 pub fn protocol_schema() -> String {
     let mut definitions = SchemaSettings::draft2020_12().into_generator();
     let answer = with_bytes(definitions.root_schema_for::<Answer>());
@@ -24,11 +24,11 @@ pub fn protocol_schema() -> String {
         "anyOf": [{"$ref": "#/$defs/request"}, {"$ref": "#/$defs/answer"}],
         "$defs": all,
     });
-    // Names and texts only, so that the conversion to JSON cannot fail.
+    // The schema contains only names and texts, so the conversion to JSON cannot fail.
     serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
 }
 
-/// A message that may announce a block of bytes.
+/// Schema of a message that may announce a block of bytes.
 fn with_bytes(schema: Schema) -> Value {
     let mut schema = schema.to_value();
     if let Value::Object(message) = &mut schema {
@@ -41,7 +41,7 @@ fn with_bytes(schema: Schema) -> Value {
     schema
 }
 
-/// Messages of the harness.
+/// Schema of the messages of the harness.
 fn request(definitions: &mut SchemaGenerator) -> Value {
     let column = definitions.subschema_for::<ColumnText>().to_value();
     let count = json!({"type": "integer", "minimum": 0});
@@ -81,7 +81,7 @@ fn request(definitions: &mut SchemaGenerator) -> Value {
     ]})
 }
 
-/// A functional of the final state.
+/// Schema of a functional of the final state.
 fn functional() -> Value {
     let index = json!({"type": "integer", "minimum": 0});
     let of = |name: &str, keys: &[&str]| {
@@ -100,7 +100,7 @@ fn functional() -> Value {
     ]})
 }
 
-/// A message of a type, with required keys.
+/// Schema of a message with a type and required keys.
 fn message(kind: &str, keys: Value) -> Value {
     let mut properties = Map::from_iter([("type".to_owned(), json!({"const": kind}))]);
     if let Value::Object(keys) = keys {

@@ -1,4 +1,4 @@
-//! A solver program, as a factory of subjects.
+//! A solver program as a factory of subjects.
 
 use super::answer::{Answer, Hello, Points};
 use super::connection::{Connection, ProgramLimits};
@@ -20,28 +20,28 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 /// Version of the protocol.
 pub(super) const PROTOCOL: u64 = 2;
 
-/// Versions that a solver may speak.
+/// Versions that a solver may use.
 pub(super) const VERSIONS: [u64; 2] = [1, PROTOCOL];
 
 /// Maximum number of requests for values before a solver is ready.
 const SETUP_QUESTIONS: u64 = 10_000;
 
-/// A solver that is run by a command.
+/// A solver that a command runs.
 #[derive(Debug, Clone)]
 pub struct SolverProgram {
     command: Vec<String>,
     limits: ProgramLimits,
     hello: Hello,
     identity: u64,
-    /// Name of its cases in place of that in `hello`.
+    /// Name of its cases, if different from the name in `hello`.
     called: Option<String>,
 }
 
 impl SolverProgram {
-    /// Starts `command` (split into arguments like in a shell) and requests its identity.
+    /// Starts `command`, which is split into arguments like in a shell, and requests its identity.
     ///
     /// # Errors
-    /// The command cannot be run, or its answer breaks the protocol.
+    /// The command cannot run, or its answer violates the protocol.
     pub fn greet(command: &str, limits: ProgramLimits) -> Result<Self, ProgramError> {
         let command = shlex::split(command).ok_or(ProgramError::Quotes)?;
         if command.is_empty() {
@@ -53,11 +53,11 @@ impl SolverProgram {
         Ok(Self { command, limits, hello, identity, called: None })
     }
 
-    /// The solver under another name, to distinguish two solvers that run the same program.
-    /// Expectations of a suite for a named solver then refer to `name`.
+    /// Renames the solver, to distinguish two solvers that run the same program. Expectations of a
+    /// suite for a named solver then refer to `name`.
     ///
     /// # Errors
-    /// `name` is not a valid name of a solver.
+    /// `name` is not a valid solver name.
     pub fn called(self, name: &str) -> Result<Self, ProgramError> {
         if !is_solver_name(name) {
             return Err(ProgramError::Name(printable(name)));
@@ -65,7 +65,7 @@ impl SolverProgram {
         Ok(Self { called: Some(name.to_owned()), ..self })
     }
 
-    /// One line for each name in the solver's capabilities that has no meaning.
+    /// Warnings, one line for each unknown name in the solver's capabilities.
     pub fn warnings(&self) -> Vec<String> {
         self.hello.capabilities.known.unknown_names(&self.hello.capabilities.keys)
     }
@@ -75,7 +75,7 @@ impl SolverProgram {
         ProgramSubject::new(connection, inquiry, problem, points, &bytes, &hello)
     }
 
-    /// A process that has accepted `problem`.
+    /// Starts a process that accepts `problem`.
     pub(super) fn ready(&self, problem: &LevelProblem) -> Result<Started, ProgramError> {
         let (mut connection, hello) = connected(&self.command, self.limits)?;
         if hello != self.hello {
@@ -109,24 +109,24 @@ impl SolverProgram {
     }
 }
 
-/// A process that has accepted a problem.
+/// A solver process that has accepted a problem.
 pub(super) struct Started {
     pub(super) connection: Connection,
     pub(super) inquiry: Inquiry,
     pub(super) hello: Hello,
-    /// Places of its states, if they are not the particles.
+    /// Sample points of its states, if they are not the particles.
     pub(super) points: Option<Points>,
-    /// Block of bytes of its answer.
+    /// Block of bytes after its answer.
     pub(super) bytes: Vec<u8>,
 }
 
-/// Hash of the command, of the files that its arguments name, and of the hello message. Other files
-/// that the program reads, such as modules, are represented by the version in this message.
+/// Hash of the command, of the files among its arguments, and of the hello message. Other files
+/// that the program reads, such as modules, are represented only by the version in this message.
 fn identity(command: &[String], hello: &Hello) -> u64 {
     let mut all = DefaultHasher::new();
     (command, format!("{hello:?}")).hash(&mut all);
     for word in command {
-        // A folder or a device is not a program.
+        // Folders and devices are not programs.
         let is_file = fs::metadata(word).is_ok_and(|found| found.is_file());
         is_file.then(|| fs::read(word).ok()).flatten().hash(&mut all);
     }
@@ -188,7 +188,7 @@ impl SolverFactory for SolverProgram {
     fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = self.hello.capabilities.known.lacking(needs);
         if self.hello.protocol == 1 {
-            // A capability that is also missing for another reason is reported once.
+            // A capability that is also missing for another reason is reported only once.
             let stated = needs.beyond_version_1().into_iter();
             let stated = stated.filter(|need| !lacking.iter().any(|known| known.starts_with(need)));
             let new: Vec<String> = stated
@@ -219,7 +219,7 @@ impl SolverFactory for SolverProgram {
     }
 }
 
-/// A solver that failed before its first step.
+/// Subject of a solver that failed before its first step.
 struct Broken(String);
 
 impl Subject for Broken {
@@ -237,11 +237,11 @@ impl Subject for Broken {
 }
 
 impl SolverProgram {
-    /// The value of a functional after all steps of `problem`, and its gradient, from a new
-    /// process.
+    /// Starts a new process and requests the value of a functional after all steps of `problem`,
+    /// with its gradient.
     ///
     /// # Errors
-    /// [`ProgramError::Refused`] if the solver answers `cannot`; any other if it breaks.
+    /// [`ProgramError::Refused`] if the solver answers `cannot`; another error if it fails.
     pub(super) fn differentiate(
         &self,
         problem: &LevelProblem,
@@ -259,7 +259,7 @@ impl SolverProgram {
         inquiry.allow(problem.steps.saturating_mul(QUESTIONS_PER_STEP));
         let names = || names(request).join(", ");
         let answer = conclude(&mut connection, &mut inquiry).map_err(|error| match error {
-            // JSON has no such number, so the entry is unknown.
+            // JSON has no such number, so the position of the entry is unknown.
             ProgramError::NoNumber(word) => ProgramError::GradientNoNumber { word, names: names() },
             error => error,
         });
@@ -278,7 +278,7 @@ impl SolverProgram {
     }
 }
 
-/// The answer to `request`, if it has as many finite numbers as parameters.
+/// The answer to `request`, after checking that it has one finite number for each parameter.
 fn checked(
     request: &GradientRequest,
     value: f64,

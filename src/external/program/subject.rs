@@ -1,4 +1,4 @@
-//! A level on its way in another process.
+//! A level that runs in a solver process.
 
 use super::answer::{Answer, Hello, Points, State};
 use super::connection::Connection;
@@ -10,17 +10,17 @@ use crate::external::problem::LevelProblem;
 use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use serde_json::json;
 
-/// Maximum number of requests for values between two instants, for each step.
+/// Maximum number of requests for values between two instants, per step.
 pub(super) const QUESTIONS_PER_STEP: u64 = 1000;
 
-/// Maximum length (bytes) of an answer to `problem`: every column, in decimal text, for three times
-/// as many points as particles.
+/// Maximum length (bytes) of an answer to `problem`. It allows all columns as decimal text for
+/// three times as many points as particles.
 pub(super) fn longest_answer(problem: &LevelProblem) -> usize {
     let (d, points) = (problem.dimension, 1000 + 3 * problem.particles.len());
     32 * points * (3 * d + 2 * d * d + 2)
 }
 
-/// Answers requests for values, and returns the first answer that is not such a request.
+/// Answers requests for values until another answer arrives, and returns that answer.
 pub(super) fn conclude(
     connection: &mut Connection,
     inquiry: &mut Inquiry,
@@ -34,32 +34,34 @@ pub(super) fn conclude(
     }
 }
 
-/// A subject in a solver process. Steps are requested in one message up to each instant, because
-/// the state between instants is not used.
+/// A subject in a solver process. One message requests all steps up to the next instant, because
+/// states between instants are not used.
 pub(super) struct ProgramSubject {
     connection: Connection,
     dimension: usize,
     dt: f64,
-    /// Steps after which the state is requested, from the next one on.
+    /// Remaining numbers of steps after which the state is requested.
     instants: std::vec::IntoIter<u64>,
     next: Option<u64>,
-    /// Number of steps that the caller has made, and that the process was asked for.
+    /// Number of steps that the caller has made, and number of steps that were requested from the
+    /// process.
     called: u64,
     taken: u64,
     inquiry: Inquiry,
-    /// Masses of the points (kg): those of the particles, or the weights of sample points times the
-    /// reference density. `None` for sample points in bodies of several materials or of a density
-    /// that varies.
+    /// Masses of the points (kg): the particle masses, or the weights of sample points times the
+    /// reference density. `None` for sample points in bodies with several materials or a varying
+    /// density.
     mass: Option<Vec<f64>>,
     samples: Samples,
     counters: RunCounters,
 }
 
 impl ProgramSubject {
-    /// The subject in the initial state of `problem`, with the sample points `points`, if any.
+    /// Creates the subject in the initial state of `problem`, with the sample points `points`, if
+    /// any.
     ///
     /// # Errors
-    /// The points are not usable.
+    /// The points are invalid.
     pub(super) fn new(
         connection: Connection,
         mut inquiry: Inquiry,
@@ -126,7 +128,7 @@ impl ProgramSubject {
         })
     }
 
-    /// Takes all steps that were called for, in the process.
+    /// Requests all steps that the caller has made so far from the process.
     fn advance(&mut self) -> Result<(), ProgramError> {
         let steps = self.called - self.taken;
         let from = self.taken as f64 * self.dt;
@@ -146,7 +148,7 @@ impl ProgramSubject {
         }
     }
 
-    /// Takes over a state.
+    /// Stores a state of the solver.
     fn look(&mut self, state: State, bytes: &[u8]) -> Result<(), ProgramError> {
         let (d, n) = (self.dimension, self.samples.len());
         let State { mut columns, crossings, left_domain, min_j } = state;

@@ -1,4 +1,4 @@
-//! Columns of the tables of cost: the work of methods for an error.
+//! Columns of the cost tables: work of the methods for target errors.
 
 use super::{Cell, TableColumn, decimals, json_object, short};
 use crate::report::columns::number;
@@ -6,7 +6,7 @@ use crate::verify::{Agreement, End, Exponent, Model, Ranked, Ranking, Reach};
 
 type MethodColumn<'a> = TableColumn<'a, Ranked>;
 
-/// The table of work for each target error.
+/// Table of the work for each target error.
 pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     let mut columns = vec![name("cheapest for")];
     for (k, target) in ranking.targets.iter().enumerate() {
@@ -49,7 +49,7 @@ fn name<'a>(heading: &'static str) -> MethodColumn<'a> {
         .flush_left()
 }
 
-/// The table of exponents, if they are known.
+/// Table of the exponents, for methods with a known exponent.
 pub(crate) fn exponents<'a>() -> Vec<MethodColumn<'a>> {
     let columns = exponent().map(|column| column.within(|row: &Ranked| row.exponent.as_ref()));
     std::iter::once(name("work ~ error^k")).chain(columns).collect()
@@ -98,7 +98,7 @@ pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     columns
 }
 
-/// Where a target is reached, and its work over the least work of all methods.
+/// Where the error reaches a target, and the ratio of the work to the minimum over all methods.
 type Reached = (Reach, Option<f64>);
 
 fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
@@ -115,7 +115,7 @@ fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
     ]
 }
 
-/// The terms of the cost model.
+/// Coefficients of the cost model.
 pub(crate) fn model<'a>() -> [TableColumn<'a, Model>; 4] {
     let column = |k: usize, heading: &'static str, key: &'static str| {
         TableColumn::<Model>::new(heading, key, "cost (ns, in JSON s)", move |model| {
@@ -132,10 +132,11 @@ pub(crate) fn model<'a>() -> [TableColumn<'a, Model>; 4] {
     ]
 }
 
-/// The model of a case, and its relative error on the finest level before that runs.
+/// Name of a case, its model, and the model's relative error on the finest level before this level
+/// ran.
 pub(crate) type FittedModel = (String, Model, Option<f64>);
 
-/// The table of cost models.
+/// Table of cost models.
 pub(crate) fn models<'a>() -> Vec<TableColumn<'a, FittedModel>> {
     let name =
         TableColumn::<FittedModel>::text("cost model, ns", "case", |(name, ..)| name.clone());
@@ -147,7 +148,7 @@ pub(crate) fn models<'a>() -> Vec<TableColumn<'a, FittedModel>> {
     std::iter::once(name.flush_left()).chain(terms).chain([finest]).collect()
 }
 
-/// Text on the agreement with theory, or on the main difference.
+/// Text about the agreement with theory, or about the main difference.
 fn agreement(found: &Exponent) -> String {
     match found.agreement() {
         Agreement::Agrees => "agrees".to_owned(),
@@ -162,13 +163,13 @@ fn agreement(found: &Exponent) -> String {
     }
 }
 
-/// Observed and expected number, with as many decimals as distinguish them.
+/// Observed and expected number, with enough decimals to distinguish them.
 fn differing(name: &str, observed: f64, expected: f64) -> String {
     let decimals = if (observed - expected).abs() < 0.015 { 4 } else { 2 };
     format!("{name} {observed:.decimals$}, not {expected:.decimals$}")
 }
 
-/// The work as text; an upper bound if the coarsest level is accurate enough.
+/// Text of the work; an upper bound if the coarsest level is accurate enough.
 pub(crate) fn reach_text(reach: Reach) -> String {
     match reach {
         Reach::At { work, .. } => short(work),
@@ -177,7 +178,7 @@ pub(crate) fn reach_text(reach: Reach) -> String {
     }
 }
 
-/// A ratio with two decimals: further digits are noise.
+/// A ratio with two decimals. Further digits would be noise.
 fn ratio(times: f64) -> String {
     if times < 1000.0 { format!("{times:.2}") } else { short(times) }
 }

@@ -1,9 +1,9 @@
-//! Columns of an internal-force study.
+//! Columns of an internal-force study, with one row for each position of the moving particle.
 
 use super::{Cell, TableColumn, decimals, scientific};
 use crate::verify::ForceRow;
 
-/// One row for each position of the moving particle.
+/// All columns.
 pub(crate) fn columns<'a>() -> [TableColumn<'a, ForceRow>; 6] {
     [
         TableColumn::<ForceRow>::new(

@@ -5,10 +5,11 @@ use crate::report::columns::number;
 use crate::verify::{GradientLevel, GradientStudy, Perturbed, SweepPoint};
 use serde_json::{Value, json};
 
-/// One level of refinement, with the order from the level before.
+/// One level, with the order relative to the previous level.
 pub(crate) type GradientLevelRow = (GradientLevel, Option<f64>);
 
-/// One perturbation: the remainder, the order from the one before, and the central difference.
+/// One perturbation: the remainder, the order relative to the previous perturbation, and the
+/// central difference.
 pub(crate) struct TaylorRow {
     perturbed: Perturbed,
     remainder: f64,
@@ -34,7 +35,7 @@ pub(crate) fn taylor_rows(study: &GradientStudy) -> Vec<TaylorRow> {
     all.zip(taylor.differences()).map(row).collect()
 }
 
-/// One row for each level.
+/// Columns of the levels.
 pub(crate) fn levels<'a>() -> Vec<TableColumn<'a, GradientLevelRow>> {
     type GradientLevelColumn<'a> = TableColumn<'a, GradientLevelRow>;
     let of = |key, about, value: fn(&GradientLevel) -> f64| {
@@ -56,7 +57,7 @@ pub(crate) fn levels<'a>() -> Vec<TableColumn<'a, GradientLevelRow>> {
     ]
 }
 
-/// One row for each perturbation.
+/// Columns of the perturbations.
 pub(crate) fn taylor<'a>() -> Vec<TableColumn<'a, TaylorRow>> {
     type TaylorColumn<'a> = TableColumn<'a, TaylorRow>;
     vec![
@@ -75,7 +76,7 @@ pub(crate) fn taylor<'a>() -> Vec<TableColumn<'a, TaylorRow>> {
     ]
 }
 
-/// One row for each point of a sweep, in JSON only.
+/// Columns of the points of a sweep, in JSON only.
 pub(crate) fn points<'a>() -> Vec<TableColumn<'a, SweepPoint>> {
     type SweepColumn<'a> = TableColumn<'a, SweepPoint>;
     vec![
@@ -87,7 +88,7 @@ pub(crate) fn points<'a>() -> Vec<TableColumn<'a, SweepPoint>> {
     ]
 }
 
-/// The sweep of a study in JSON.
+/// The sweep of a study as JSON.
 pub(crate) fn sweep(study: &GradientStudy) -> Option<Value> {
     let sweep = study.sweep.as_ref()?;
     let jumps: Vec<Value> = sweep.jumps.iter().map(|jump| number(*jump)).collect();

@@ -17,7 +17,7 @@ pub(crate) struct LevelRow<'a> {
 
 pub(crate) type LevelColumn<'a> = TableColumn<'a, LevelRow<'a>>;
 
-/// The name of a case and its study.
+/// Name of a case and its study.
 pub(crate) type NamedStudy<'a> = (&'a str, &'a Convergence);
 
 /// The levels of a study, coarse to fine.
@@ -40,7 +40,7 @@ fn ppc<'a>() -> LevelColumn<'a> {
     LevelColumn::new("ppc", "ppc", "particles per cell (MPM)", |row| Cell::plain(row.level.ppc))
 }
 
-/// The spacing of the refined axis, which names a level in tables.
+/// Spacing of the refined axis, which identifies a level in tables.
 pub(crate) fn name<'a>(axis: Axis) -> LevelColumn<'a> {
     match axis {
         Axis::Space => cells(),
@@ -65,13 +65,13 @@ pub(crate) fn judged<'a>() -> LevelColumn<'a> {
     })
 }
 
-/// The order from level to level.
+/// Order between consecutive levels.
 pub(crate) fn order<'a>() -> LevelColumn<'a> {
     let about = "order between the next coarser level and this one";
     LevelColumn::new("order", "order", about, |row| Cell::number(row.level.order, decimals(2)))
 }
 
-/// Norms of the error at the end, of the displacement (m).
+/// Norms of the displacement error (m) at the end.
 fn norms<'a>() -> [LevelColumn<'a>; 5] {
     let column = |key: &'static str, about: &'static str, norm: fn(&RunErrors) -> f64| {
         LevelColumn::json(key, about, move |row| {
@@ -87,7 +87,7 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
     ]
 }
 
-/// The largest error at the end and its order, if another norm is judged.
+/// Largest error at the end and its order, if another norm is judged.
 pub(crate) fn largest_error<'a>() -> [LevelColumn<'a>; 2] {
     let about = "order of linf between the next coarser level and this one";
     [
@@ -105,7 +105,7 @@ pub(crate) fn largest_error<'a>() -> [LevelColumn<'a>; 2] {
     ]
 }
 
-/// The largest difference between repeated runs.
+/// Largest difference between repeated runs.
 pub(crate) fn spread<'a>() -> LevelColumn<'a> {
     let about = "largest difference between repeated runs, in the norm and over the scale of the \
                  error";
@@ -116,7 +116,7 @@ pub(crate) fn spread<'a>() -> LevelColumn<'a> {
     })
 }
 
-/// The error of the observed velocity.
+/// Error of the observed velocity.
 pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
     let about = "error of the observed velocity, divided by its largest exact value";
     LevelColumn::text("velocity", about, |row| {
@@ -125,7 +125,7 @@ pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
     })
 }
 
-/// Columns of the work, and of figures that explain the error of a level.
+/// Columns of the work and of figures that explain the error of a level.
 pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
     vec![
         LevelColumn::new("particles", "particles", "particles (MPM)", |row| {
@@ -133,7 +133,7 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
         }),
         LevelColumn::new("steps", "steps", "steps taken", |row| Cell::plain(row.level.run.steps)),
         LevelColumn::new("transfers", "transfers", "particle-node pairs of P2G and G2P", |row| {
-            // An external solver does not count them.
+            // External solvers do not count transfers.
             let transfers = row.level.run.counters.transfers;
             Cell { json: transfers.into(), ..Cell::text(Some(transfers).filter(|n| *n > 0)) }
         }),
@@ -187,7 +187,7 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
     ]
 }
 
-/// The relative drift of a conserved sum.
+/// Relative drift of a conserved sum.
 pub(crate) fn drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     let about = "largest relative change of the sum since t = 0";
     LevelColumn::new(sum.words(), sum.name(), about, move |row| {
@@ -195,7 +195,7 @@ pub(crate) fn drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     })
 }
 
-/// The relative drift of a conserved sum, the largest of all levels.
+/// Largest relative drift of a conserved sum over all levels.
 pub(crate) fn largest_drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     LevelColumn::text(sum.words(), "largest drift of any level", move |row| {
         let of_level = |row: &LevelRow<'_>| row.level.run.drift.map_or(0.0, |drift| drift.of(sum));
@@ -204,7 +204,7 @@ pub(crate) fn largest_drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     })
 }
 
-/// The rate of the energy, d ln E/dt (1/s).
+/// Energy rate, d ln E/dt (1/s).
 pub(crate) fn energy_rate<'a>() -> [LevelColumn<'a>; 3] {
     let column = |heading: &'static str, about: &'static str, end: fn(Interval) -> f64| {
         LevelColumn::new(heading, "", about, move |row| {
@@ -263,13 +263,13 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
 }
 
 impl LevelRow<'_> {
-    /// An error, if there is a solution to compare with.
+    /// An error, if there is a reference solution.
     fn error(&self, error: f64) -> Cell {
         let error = self.study.compared.then_some(error);
         Cell::number(error, scientific).or_failed(self.level.run.failure.as_ref())
     }
 
-    /// The largest error at the end, for the primary unknown of the study.
+    /// Largest error at the end, for the primary unknown of the study.
     fn linf(&self) -> f64 {
         let run = &self.level.run;
         let errors =
@@ -277,7 +277,7 @@ impl LevelRow<'_> {
         errors.at_end.linf
     }
 
-    /// A figure printed with one digit; a dash if the level failed and has none.
+    /// A figure with one digit. A dash if the level has no figure; `failed` if the level failed.
     fn unless_failed(&self, figure: Option<f64>) -> Cell {
         let cell = Cell::number(figure, |value| format!("{value:.0e}"));
         cell.or_failed(figure.and(self.level.run.failure.as_ref()))

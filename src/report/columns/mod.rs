@@ -1,7 +1,7 @@
-//! Columns of tables. Each is declared once with its heading, JSON key, meaning, and value.
+//! Columns of tables. Each is declared once, with its heading, JSON key, meaning and value.
 //!
-//! Text, JSON, Markdown and `docs/columns.md` read the same lists. To add a column is to add an
-//! entry to a list.
+//! Text, JSON, Markdown and `docs/columns.md` use the same lists. To add a column, add an entry to
+//! a list.
 
 use crate::verify::Interval;
 use serde_json::{Map, Value, json};
@@ -25,33 +25,33 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
-    /// Forms that differ.
+    /// A value with different text and JSON.
     pub(crate) fn new(text: impl Text, json: impl Into<Value>) -> Self {
         Self { text: text.text(), json: json.into() }
     }
 
-    /// A value of text only.
+    /// A value in text only.
     pub(crate) fn text(text: impl Text) -> Self {
         Self::new(text, Value::Null)
     }
 
-    /// A value of JSON only.
+    /// A value in JSON only.
     pub(crate) fn json(json: impl Into<Value>) -> Self {
         Self::new(None::<String>, json)
     }
 
-    /// A name or a count, the same in both forms.
+    /// A name or a count, equal in text and JSON.
     pub(crate) fn plain(value: impl Text + Clone + Into<Value>) -> Self {
         Self::new(value.clone(), value)
     }
 
-    /// A number, with its text by `format`.
+    /// A number, with its text formatted by `format`.
     pub(crate) fn number(value: impl Into<Option<f64>>, format: impl Fn(f64) -> String) -> Self {
         let value = value.into();
         Self::new(value.map(format), value.map(number))
     }
 
-    /// This cell with the text `failed`, if there is a failure.
+    /// The cell with the text `failed` if there is a failure.
     pub(crate) fn or_failed(self, failure: Option<&String>) -> Self {
         if failure.is_some() { Self { text: "failed".to_owned(), ..self } } else { self }
     }
@@ -84,16 +84,16 @@ pub(crate) fn decimals(count: usize) -> impl Fn(f64) -> String {
     move |value| format!("{value:.count$}")
 }
 
-/// An error or a length: four significant digits, exponent of two digits.
+/// An error or a length with four significant digits and a two-digit exponent.
 pub(crate) fn scientific(value: f64) -> String {
     if !value.is_finite() {
         return if value.is_nan() { "nan".to_owned() } else { "inf".to_owned() };
     }
-    // No minus before a zero.
+    // Adding zero prevents the text `-0`.
     two_digit_exponent(&format!("{:.3e}", value + 0.0))
 }
 
-/// Three significant digits, exponent of two.
+/// A number with three significant digits and a two-digit exponent.
 pub(crate) fn short(value: f64) -> String {
     two_digit_exponent(&format!("{value:.2e}"))
 }
@@ -108,18 +108,18 @@ fn two_digit_exponent(text: &str) -> String {
 pub(crate) struct TableColumn<'a, R: ?Sized> {
     /// Heading in text and Markdown.
     pub(crate) heading: Cow<'a, str>,
-    /// Key in the JSON object of a row: `errors.rms` is the key `rms` of the object `errors`; empty
-    /// for a column of text only.
+    /// Key in the JSON object of a row; empty for a column in text only. `errors.rms` is the key
+    /// `rms` of the object `errors`.
     pub(crate) key: &'static str,
     /// Meaning, with the unit.
     pub(crate) about: &'static str,
-    /// Whether text is aligned to the left; numbers are aligned to the right.
+    /// Whether text is aligned to the left, as for names; numbers are aligned to the right.
     pub(crate) flush_left: bool,
     cell: Box<dyn Fn(&R) -> Cell + 'a>,
 }
 
 impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
-    /// A column of text and JSON.
+    /// A column in text and JSON.
     pub(crate) fn new(
         heading: impl Into<Cow<'a, str>>,
         key: &'static str,
@@ -129,7 +129,7 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self { heading: heading.into(), key, about, flush_left: false, cell: Box::new(cell) }
     }
 
-    /// A column of text only.
+    /// A column in text only.
     pub(crate) fn text<V: Text>(
         heading: impl Into<Cow<'a, str>>,
         about: &'static str,
@@ -138,7 +138,7 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self::new(heading, "", about, move |row| Cell::text(text(row)))
     }
 
-    /// A column of JSON only.
+    /// A column in JSON only.
     pub(crate) fn json<V: Into<Value>>(
         key: &'static str,
         about: &'static str,
@@ -147,12 +147,12 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self::new("", key, about, move |row| Cell::json(json(row)))
     }
 
-    /// This column, aligned to the left.
+    /// The column, aligned to the left.
     pub(crate) fn flush_left(self) -> Self {
         Self { flush_left: true, ..self }
     }
 
-    /// This column for a table whose rows contain an optional `R`; dashes in rows without it.
+    /// The column for a table whose rows contain an optional `R`, with dashes in rows without it.
     pub(crate) fn within<S: 'a>(self, part: impl Fn(&S) -> Option<&R> + 'a) -> TableColumn<'a, S> {
         let Self { heading, key, about, flush_left, cell } = self;
         let cell = move |row: &S| part(row).map_or_else(|| Cell::json(Value::Null), &cell);
@@ -165,7 +165,7 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
     }
 }
 
-/// The JSON object of a row.
+/// The row as a JSON object.
 pub(crate) fn json_object<R: ?Sized>(columns: &[TableColumn<'_, R>], row: &R) -> Value {
     let mut object = Map::new();
     for column in columns.iter().filter(|column| !column.key.is_empty()) {
@@ -181,7 +181,7 @@ pub(crate) fn json_object<R: ?Sized>(columns: &[TableColumn<'_, R>], row: &R) ->
     object.into()
 }
 
-/// The number, or one of the strings `"nan"`, `"inf"`, `"-inf"`.
+/// The number, or `"nan"`, `"inf"` or `"-inf"`.
 pub(crate) fn number(value: f64) -> Value {
     match value {
         v if v.is_nan() => json!("nan"),
@@ -196,7 +196,7 @@ pub(crate) fn interval(estimate: Interval) -> Value {
     json!({"value": number(value), "low": number(low), "high": number(high)})
 }
 
-/// Values by their keys.
+/// Values grouped by key, in order of first occurrence.
 pub(crate) fn grouped<K: PartialEq, V>(
     pairs: impl IntoIterator<Item = (K, V)>,
 ) -> Vec<(K, Vec<V>)> {

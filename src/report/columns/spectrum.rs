@@ -5,7 +5,7 @@ use crate::verify::{SpectrumRow, WaveFigures};
 
 type WaveColumn<'a> = TableColumn<'a, SpectrumRow>;
 
-/// A number of a row, with its text by `format`.
+/// A number of a row, with its text formatted by `format`.
 fn figure<'a>(
     heading: &'static str,
     key: &'static str,
@@ -53,7 +53,7 @@ fn courant<'a>() -> WaveColumn<'a> {
     )
 }
 
-/// One row for each wave.
+/// Columns of the waves.
 pub(crate) fn waves<'a>() -> Vec<WaveColumn<'a>> {
     vec![
         cells(),
@@ -90,7 +90,7 @@ pub(crate) fn waves<'a>() -> Vec<WaveColumn<'a>> {
     ]
 }
 
-/// One row for each Courant number: figures of the closed form that no run confirms.
+/// Columns of the Courant numbers: closed-form figures that no run confirms.
 pub(crate) fn curves<'a>() -> Vec<WaveColumn<'a>> {
     vec![
         courant(),

@@ -1,4 +1,4 @@
-//! `docs/columns.md` lists every column that is declared, and no other.
+//! Checks that `docs/columns.md` lists all declared columns and no others.
 
 use super::{
     TableColumn, cost, distinct, force, grouped, level, number, scientific, spectrum, stability,
@@ -9,7 +9,7 @@ use rstest::rstest;
 
 const DOCUMENT: &str = include_str!("../../../docs/columns.md");
 
-/// A section of the document: one row for each column, without duplicates from several tables.
+/// A section of the document: one row for each column, without duplicates between tables.
 fn section<R>(title: &str, tables: Vec<Vec<TableColumn<'_, R>>>) -> String {
     let mut rows = vec!["| column | JSON key | meaning |".to_owned(), "|---|---|---|".to_owned()];
     for column in tables.into_iter().flatten() {

@@ -1,4 +1,4 @@
-//! Columns of the levels of a suite that has been timed.
+//! Columns of the levels of a timed suite.
 
 use super::{Cell, TableColumn, short};
 use crate::report::columns::number;
@@ -6,11 +6,11 @@ use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, LevelOutcome, TimedSuite, Timing, Workload};
 use serde_json::{Value, json};
 
-/// A level of a case, with its work and time.
+/// A level of a case with its work and time.
 pub(crate) struct TimedLevel<'a> {
     case: &'a CaseOutcome,
     level: &'a LevelOutcome,
-    /// Size of the solution, which errors are divided by.
+    /// Size of the solution, the divisor of errors.
     size: f64,
     load: &'a Workload,
     timing: Option<Timing>,
@@ -18,7 +18,7 @@ pub(crate) struct TimedLevel<'a> {
 
 type TimedColumn<'a> = TableColumn<'a, TimedLevel<'a>>;
 
-/// The levels of the case with this index, coarse to fine.
+/// Levels of the case with this index, coarse to fine.
 pub(crate) fn rows(suite: &TimedSuite, case: usize) -> impl Iterator<Item = TimedLevel<'_>> {
     let outcome = &suite.outcome.cases[case];
     let levels = outcome
@@ -34,7 +34,7 @@ pub(crate) fn rows(suite: &TimedSuite, case: usize) -> impl Iterator<Item = Time
     })
 }
 
-/// The table of levels.
+/// Table of levels.
 pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
     [
         TimedColumn::text("case", "case", |row| row.case.case.clone()).flush_left(),
@@ -91,13 +91,13 @@ pub(crate) fn json_columns<'a>() -> Vec<TimedColumn<'a>> {
     list
 }
 
-/// Median and quartiles (s).
+/// Median and quartiles (s) as JSON.
 pub(crate) fn timing(timing: Timing) -> Value {
     let Timing { median, low, high, repeats } = timing;
     json!({"median": number(median), "low": number(low), "high": number(high), "repeats": repeats})
 }
 
-/// Bytes that every particle has.
+/// Number of bytes that every particle has.
 fn bytes_of_a_particle(profile: &Profile) -> usize {
     let whole = |column: &&ColumnSize| {
         column.holder == Holder::Particle && column.entries == profile.particles

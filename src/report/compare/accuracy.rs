@@ -1,4 +1,4 @@
-//! Errors and work of two series of levels, level by level.
+//! Compares errors and work of two series of levels, level by level.
 
 use super::changes::{ErrorMove, ratio_moved};
 use super::document::JsonNumber;
@@ -7,22 +7,22 @@ use super::equal_error::ErrorAndWork;
 use super::snapshots::FINEST;
 use crate::verify::Quantity;
 
-/// Largest relative difference of two spacings that are the same.
+/// Maximum relative difference between spacings that count as equal.
 const SAME_SPACING: f64 = 1e-6;
 
-/// Maximum error that counts as rounding, as a share of the size of the judged quantity, for a case
-/// without an order: changes of such errors are not compared.
+/// Maximum error that counts as rounding for a case without an order, as a share of the size of the
+/// judged quantity. Changes of such errors are not compared.
 const ROUNDING: f64 = 1e-11;
 
-/// Verdict of the gate on errors that rounding explains.
+/// Verdict of the gate on errors that are due to rounding.
 const AT_ROUNDING: &str = "at rounding";
 
-/// A level of the old run with the same level of the new one.
+/// A level of the old run with the corresponding level of the new run.
 pub(super) type LevelPair<'a> = (&'a LevelDocument, &'a LevelDocument);
 
 /// Levels that both runs have, coarse to fine.
 pub(super) fn common<'a>(old: &'a CaseDocument, new: &'a CaseDocument) -> Vec<LevelPair<'a>> {
-    // Each level has at most one counterpart, also if a plan has a spacing twice.
+    // Each level has at most one counterpart, even if a plan contains a spacing twice.
     let mut left: Vec<&LevelDocument> = old.levels.iter().collect();
     let counterpart = |level: &'a LevelDocument| {
         let at = left.iter().position(|old| same(old, level))?;
@@ -37,18 +37,18 @@ fn same(a: &LevelDocument, b: &LevelDocument) -> bool {
     a.cells == b.cells && a.ppc == b.ppc && spacing
 }
 
-/// Whether both runs show rounding only, and are the same therefore.
+/// Whether the errors of both runs are due to rounding, so that they count as equal.
 pub(super) fn is_rounding(old: &CaseDocument, new: &CaseDocument) -> bool {
     let tiny = |case: &CaseDocument| {
         let small = |level: &LevelDocument| relative(case.judge.as_ref(), level) < ROUNDING;
-        // Rounding errors may have an order by chance, which the gate does not accept as one.
+        // Rounding errors may have an order by chance, which the gate does not accept.
         let has_no_order = case.observed_order.is_none() || case.verdict == AT_ROUNDING;
         has_no_order && case.levels.iter().all(small)
     };
     tiny(old) && tiny(new)
 }
 
-/// The error over the natural size of the judged quantity; NaN if the size is unknown.
+/// Error relative to the natural size of the judged quantity; NaN if the size is unknown.
 fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     let Some(error) = level.error() else { return f64::NAN };
     let (JsonNumber(h), length) = (level.h, level.cells as f64);
@@ -62,8 +62,9 @@ fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     }
 }
 
-/// Change of the error: on the finest level that newly fails or no longer fails, otherwise on the
-/// finest level, otherwise on the level with the largest change. `None` without a change.
+/// Change of the error on the finest level that newly fails or no longer fails. Otherwise the
+/// change on the finest level, or else the change on the level with the largest change. `None`
+/// without a change.
 pub(super) fn error(
     pairs: &[LevelPair<'_>],
     axis: Option<&str>,
@@ -72,7 +73,7 @@ pub(super) fn error(
     let counts = |level: &LevelDocument| level.counts.unwrap_or(true);
     let counting: Vec<LevelPair<'_>> =
         pairs.iter().filter(|(old, new)| counts(old) || counts(new)).copied().collect();
-    // If no level counts, as on a floor, all levels are compared.
+    // If no level counts, as for a floor, all levels are compared.
     let pairs = if counting.is_empty() { pairs } else { &counting };
     let moves: Vec<ErrorMove> =
         pairs.iter().filter_map(|pair| error_of(*pair, axis, tolerance)).collect();
@@ -96,8 +97,8 @@ fn error_of((old, new): LevelPair<'_>, axis: Option<&str>, tolerance: f64) -> Op
     }
 }
 
-/// Transfers of the new run over those of the old run: on the finest level, or else on the level
-/// with the largest change.
+/// Ratio of the transfers of the new run to those of the old run, on the finest level, or on the
+/// level with the largest change if the finest one has none.
 pub(super) fn work(pairs: &[LevelPair<'_>], tolerance: f64) -> Option<f64> {
     let ratio = |(old, new): &LevelPair<'_>| match (old.transfers, new.transfers) {
         (a, b) if a == b => 1.0,
@@ -117,7 +118,7 @@ pub(super) fn points(case: &CaseDocument) -> Vec<ErrorAndWork> {
     case.levels.iter().map(point).collect()
 }
 
-/// Name of the level in its study.
+/// Name of a level in its study.
 fn name(level: &LevelDocument, axis: Option<&str>) -> String {
     let JsonNumber(spacing) = level.spacing;
     match (axis, level.ppc) {

@@ -3,37 +3,37 @@
 use super::equal_error::EqualError;
 use super::shared_words::SharedWord;
 
-/// Kind of a change, the most important first.
+/// Kinds of changes of a case, the most important first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rank {
-    /// It met its expectations and no longer does.
+    /// The case no longer meets its expectations.
     Broken,
-    /// Its verdict is a worse one, which its suite expects or expected before.
+    /// The verdict is worse, and the suite expects it, or expected it before.
     WorseVerdict,
-    /// Its verdict is another one, neither better nor worse.
+    /// The verdict is different, but neither better nor worse.
     OtherVerdict,
-    /// Its verdict is better, or it meets its expectations again.
+    /// The verdict is better, or the case meets its expectations again.
     BetterVerdict,
-    /// An error is larger, or a level has begun to fail.
+    /// An error is larger, or a level newly fails.
     LessAccurate,
     /// A stability limit is lower.
     LessStable,
-    /// An equal error takes more transfers; if this cannot be compared, a level takes more.
+    /// A given error requires more transfers or, if this cannot be compared, a level does.
     MoreExpensive,
-    /// It is more accurate, more stable or cheaper.
+    /// The case is more accurate, more stable or cheaper.
     Better,
-    /// Its problem has changed, so that a change of its figures says nothing about the method.
+    /// The problem has changed, so changes of the figures give no information about the method.
     OtherProblem,
-    /// Its judged quantity or its refinement has changed, so that there is nothing to compare.
+    /// The judged quantity or the refinement has changed, so the figures cannot be compared.
     Otherwise,
-    /// It is new.
+    /// The case is new.
     New,
-    /// It was removed.
+    /// The case was removed.
     Gone,
 }
 
 impl Rank {
-    /// Every rank, in order.
+    /// All kinds, in order.
     pub const ALL: [Self; 12] = [
         Self::Broken,
         Self::WorseVerdict,
@@ -67,7 +67,7 @@ impl Rank {
         }
     }
 
-    /// Whether that is for the worse.
+    /// Whether the change is for the worse.
     pub const fn is_worse(self) -> bool {
         matches!(
             self,
@@ -80,68 +80,68 @@ impl Rank {
     }
 }
 
-/// Two runs side by side.
+/// Comparison of two runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportComparison {
     /// Suites whose problem has changed.
     pub(super) problems: Vec<ProblemMove>,
     /// Cases that changed, the most important first.
     pub(super) moved: Vec<Moved>,
-    /// Words in the names of worse cases that other cases do not have.
+    /// Parts of the names of worse cases that no other cases have in common.
     pub(super) shared_words: Vec<SharedWord>,
-    /// Target errors whose least work moved, the more expensive first.
+    /// Target errors with a changed minimum work, the more expensive ones first.
     pub(super) cheapest: Vec<CheapestMove>,
-    /// Number of cases without a change.
+    /// Number of unchanged cases.
     pub(super) unchanged: usize,
-    /// Largest relative change of a figure that counts as no change.
+    /// Maximum relative difference of a figure that counts as unchanged.
     pub(super) tolerance: f64,
 }
 
-/// A suite whose problem has changed: its figures say nothing about a solver.
+/// A suite whose problem has changed. Changes of its figures give no information about a solver.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ProblemMove {
     pub(super) suite: String,
-    /// Rows that differ: name, old and new value.
+    /// Rows that differ: name, old value and new value.
     pub(super) rows: Vec<[String; 3]>,
 }
 
-/// A case that moved.
+/// A case that has changed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Moved {
     /// `SUITE::CASE`.
     pub(super) name: String,
     pub(super) rank: Rank,
-    /// Verdicts, old and new.
+    /// Old and new verdict.
     pub(super) verdict: [Option<String>; 2],
-    /// Observed orders.
+    /// Old and new observed order.
     pub(super) order: [Option<f64>; 2],
     pub(super) error: Option<ErrorMove>,
-    /// Transfers on the same level, new over old.
+    /// Ratio of the new to the old transfers on the same level.
     pub(super) work: Option<f64>,
     /// Transfers for the same error.
     pub(super) equal: Option<EqualError>,
-    /// Remarks in addition to the columns.
+    /// Remarks that the columns do not contain.
     pub(super) notes: Vec<String>,
     /// Sort key within a rank, in decreasing order.
     pub(super) weight: f64,
 }
 
-/// An error that moved.
+/// An error that has changed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ErrorMove {
-    /// `None` if the level failed.
+    /// Old error; `None` if the level failed.
     pub(super) old: Option<f64>,
-    /// `None` if the level fails.
+    /// New error; `None` if the level fails.
     pub(super) new: Option<f64>,
     pub(super) worse: bool,
-    /// The level.
+    /// Name of the level.
     pub(super) level: String,
 }
 
 /// Change of the minimum work for a target error.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CheapestMove {
-    /// The suite, and its problem if it has several.
+    /// Name of the suite, and of its problem if it has several.
     pub(super) place: String,
     pub(super) target: f64,
     /// Minimum work in the old run, and its method; `None` if no method reaches the target.
@@ -150,8 +150,8 @@ pub(super) struct CheapestMove {
 }
 
 impl CheapestMove {
-    /// New work over old work; infinite if the target is no longer reached, zero if only the new
-    /// run reaches it.
+    /// Ratio of the new to the old work. Infinite if the target is no longer reached, zero if only
+    /// the new run reaches it.
     pub(super) fn ratio(&self) -> f64 {
         match (&self.old, &self.new) {
             (Some((old, _)), Some((new, _))) => new / old,
@@ -162,40 +162,41 @@ impl CheapestMove {
 }
 
 impl ErrorMove {
-    /// New over old.
+    /// Ratio of the new to the old error.
     pub(super) fn ratio(&self) -> Option<f64> {
         Some(self.new? / self.old?)
     }
 
-    /// Size of the change, in either direction; infinite if a level newly fails.
+    /// Size of the change in either direction; infinite if the level newly fails.
     pub(super) fn weight(&self) -> f64 {
         self.ratio().map_or(f64::INFINITY, |ratio| libm::log(ratio).abs())
     }
 }
 
 impl ReportComparison {
-    /// Cases with this rank.
+    /// Number of cases with this kind of change.
     pub fn count(&self, rank: Rank) -> usize {
         self.of(rank).count()
     }
 
-    /// Cases that are the same in both runs.
+    /// Number of cases that are equal in both runs.
     pub fn unchanged(&self) -> usize {
         self.unchanged
     }
 
-    /// Whether anything got worse.
+    /// Whether anything has become worse.
     pub fn is_worse(&self) -> bool {
         let is_worse = self.cheapest.iter().any(|target| !(target.ratio() < 1.0));
         is_worse || self.moved.iter().any(|moved| moved.rank.is_worse())
     }
 
-    /// Changes of this rank.
+    /// Changes of this kind.
     pub(super) fn of(&self, rank: Rank) -> impl Iterator<Item = &Moved> {
         self.moved.iter().filter(move |moved| moved.rank == rank)
     }
 
-    /// Words in common of the cases that got worse, with the share of the cases that have them.
+    /// Common parts of the names of worse cases, each with the share of worse cases among all with
+    /// this part.
     pub(super) fn in_common(&self) -> Option<String> {
         let part = |SharedWord { word, worse, all }: &SharedWord| {
             format!("{worse} of all {all} cases with `{word}` in their names")
@@ -222,8 +223,7 @@ impl ReportComparison {
     }
 }
 
-/// Whether a ratio differs from one by more than the tolerance, whichever side is the larger. NaN
-/// does.
+/// Whether a ratio differs from one by more than the tolerance in either direction; true for NaN.
 pub(super) fn ratio_moved(ratio: f64, tolerance: f64) -> bool {
     !(ratio <= 1.0 + tolerance && 1.0 / ratio <= 1.0 + tolerance)
 }

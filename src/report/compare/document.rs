@@ -1,24 +1,24 @@
-//! Parsed form of a document that [`json()`](crate::report::json()) has written.
+//! Parsed form of a document written by [`json()`](crate::report::json()).
 //!
-//! Unknown keys are ignored: documents of later versions have more keys. Keys that were added after
-//! the first version may be missing.
+//! Unknown keys are ignored, because later versions have more keys. Keys that were added after the
+//! first version may be missing.
 
 use serde::{Deserialize, Deserializer, de};
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// The compared part of the results of a run.
+/// The part of a run's results that is compared.
 #[derive(Debug, Clone, Deserialize)]
 pub struct ReportDocument {
     pub(super) suites: Vec<SuiteDocument>,
 }
 
-/// Why a text is not such a document, and the place.
+/// Reason why a text is not such a document, with its position.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unreadable {
     /// Description.
     pub message: String,
-    /// Line and column, both from one; `None` without a place.
+    /// Line and column, counted from one; `None` if the position is unknown.
     pub place: Option<(usize, usize)>,
 }
 
@@ -26,7 +26,7 @@ pub struct Unreadable {
 pub(super) struct SuiteDocument {
     #[serde(rename = "suite")]
     pub(super) name: String,
-    /// Rows of name and value that state the problem.
+    /// Rows of name and value that describe the problem.
     #[serde(default)]
     pub(super) statement: Vec<(String, String)>,
     pub(super) cases: Vec<CaseDocument>,
@@ -38,7 +38,7 @@ pub(super) struct SuiteDocument {
 #[derive(Debug, Clone, Deserialize)]
 pub(super) struct RankingDocument {
     pub(super) problem: String,
-    /// The unit of work.
+    /// Unit of the work.
     pub(super) work: String,
     pub(super) targets: Vec<JsonNumber>,
     pub(super) methods: Vec<MethodDocument>,
@@ -48,7 +48,7 @@ pub(super) struct RankingDocument {
 pub(super) struct MethodDocument {
     #[serde(rename = "case")]
     pub(super) name: String,
-    /// One entry per target; `None` if the target is not reached.
+    /// One entry for each target; `None` if the method does not reach it.
     pub(super) reached: Vec<Option<ReachedDocument>>,
 }
 
@@ -72,7 +72,7 @@ pub(super) struct CaseDocument {
     pub(super) stability: Option<StabilityDocument>,
 }
 
-/// Judged quantity and norm: errors of different ones are not compared.
+/// Judged quantity and norm. Errors are compared only if both are equal.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(super) struct JudgeDocument {
     pub(super) of: String,
@@ -93,7 +93,7 @@ pub(super) struct LevelDocument {
     pub(super) ppc: Option<u64>,
     pub(super) transfers: u64,
     pub(super) judged: Option<JsonNumber>,
-    /// Whether it counts for the verdict.
+    /// Whether the level counts for the verdict.
     pub(super) counts: Option<bool>,
     pub(super) failure: Option<String>,
 }
@@ -127,11 +127,11 @@ pub(super) enum LimitDocument {
 }
 
 impl ReportDocument {
-    /// Reads a document.
+    /// Parses a document.
     ///
     /// # Errors
-    /// If the text is not JSON, if a key is missing or has another type, or if a case occurs twice,
-    /// so that the comparison would be ambiguous.
+    /// If the text is not JSON, if a key is missing or has the wrong type, or if a case occurs
+    /// twice, which would make the comparison ambiguous.
     pub fn read(text: &str) -> Result<Self, Unreadable> {
         let document: Self = serde_json::from_str(text).map_err(|error| {
             let (line, column) = (error.line(), error.column());
@@ -154,7 +154,7 @@ impl ReportDocument {
         }
     }
 
-    /// Every case with its suite.
+    /// All cases with their suites.
     pub(super) fn cases(&self) -> impl Iterator<Item = (&SuiteDocument, &CaseDocument)> {
         self.suites.iter().flat_map(|suite| suite.cases.iter().map(move |case| (suite, case)))
     }
@@ -172,7 +172,7 @@ impl LevelDocument {
         (self.failure.is_none() && error.is_finite()).then_some(error)
     }
 
-    /// Whether the level has broken, or its error is not finite.
+    /// Whether the level failed or its error is not finite.
     pub(super) fn is_broken(&self) -> bool {
         self.failure.is_some() || self.judged.is_some_and(|JsonNumber(error)| !error.is_finite())
     }

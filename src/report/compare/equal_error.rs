@@ -1,27 +1,27 @@
-//! Work for the same error in two runs.
+//! Compares the work for the same error in two runs.
 //!
-//! Methods and versions reach different errors on the same grid; the relevant cost is the work for
-//! a target error. Between two levels of a converging series, ln(work) is interpolated linearly in
-//! ln(error), which is exact for `error = C h^p` and `work = c h^-q`. There is no extrapolation:
-//! beyond the last level a series may have a floor.
+//! Methods and versions reach different errors on the same grid, so the relevant cost is the work
+//! for a target error. Between two levels of a converging series, ln(work) is interpolated linearly
+//! in ln(error). This is exact for `error = C h^p` and `work = c h^-q`. Nothing is extrapolated,
+//! because a series may have a floor beyond its last level.
 
 /// Error and work of a level.
 pub(super) type ErrorAndWork = (f64, f64);
 
-/// Minimum number of consecutive levels with falling error that count as convergence.
+/// Minimum number of consecutive levels with decreasing error that count as convergence.
 const LEAST_LEVELS: usize = 3;
 
-/// An error that both runs reach, and the ratio of work for it.
+/// An error that both runs reach, and the ratio of their work for this error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct EqualError {
     /// The error: 1, 2 or 5 times a power of ten.
     pub(super) target: f64,
-    /// Work in the new run over that in the old.
+    /// Ratio of the new to the old work.
     pub(super) ratio: f64,
 }
 
-/// Work of `new` over that of `old` at the smallest round error (1, 2 or 5 times a power of ten)
-/// that the converging parts of both contain; `None` if there is none.
+/// Ratio of the work of `new` to that of `old` at the smallest round error (1, 2 or 5 times a power
+/// of ten) within the converging parts of both; `None` if there is none.
 pub(super) fn compare(old: &[ErrorAndWork], new: &[ErrorAndWork]) -> Option<EqualError> {
     let (old, new) = (converging(old)?, converging(new)?);
     let lowest = f64::max(old.last()?.0, new.last()?.0);
@@ -31,8 +31,8 @@ pub(super) fn compare(old: &[ErrorAndWork], new: &[ErrorAndWork]) -> Option<Equa
     Some(EqualError { target, ratio })
 }
 
-/// The longest run of levels with falling error and growing work; the coarser of two equally long
-/// ones.
+/// The longest sequence of levels with decreasing error and increasing work; the coarser of two
+/// equally long ones.
 fn converging(points: &[ErrorAndWork]) -> Option<&[ErrorAndWork]> {
     let usable = |(error, work): ErrorAndWork| error > 0.0 && work > 0.0;
     let goes_on =
@@ -41,19 +41,19 @@ fn converging(points: &[ErrorAndWork]) -> Option<&[ErrorAndWork]> {
     runs.reduce(|longest, run| if run.len() > longest.len() { run } else { longest })
 }
 
-/// The smallest of 1, 2 and 5 times a power of ten that is not below `x`.
+/// The smallest number not below `x` that is 1, 2 or 5 times a power of ten.
 fn round_above(x: f64) -> Option<f64> {
     if !(x > 0.0 && x.is_finite()) {
         return None;
     }
     let power = libm::floor(libm::log10(x)) as i32;
     let ladder = [(1, power), (2, power), (5, power), (1, power + 1)];
-    // Parsed from the decimal text, so that the target is the printed number.
+    // Parsing the decimal text makes the target equal to the printed number.
     let rungs = ladder.iter().filter_map(|(k, power)| format!("{k}e{power}").parse().ok());
     rungs.into_iter().find(|rung| *rung >= x)
 }
 
-/// The work for an error between those of two neighbouring levels.
+/// Work for an error between the errors of two neighbouring levels.
 fn work(run: &[ErrorAndWork], target: f64) -> Option<f64> {
     let (a, b) = run.windows(2).map(|pair| (pair[0], pair[1])).find(|(_, b)| b.0 <= target)?;
     let share = libm::log(a.0 / target) / libm::log(a.0 / b.0);
@@ -66,7 +66,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Levels of `error = c h^2` and `work = w h^-3`.
+    /// Levels with `error = c h^2` and `work = w h^-3`.
     fn series(c: f64, w: f64, levels: i32) -> Vec<ErrorAndWork> {
         (0..levels)
             .map(|k| libm::exp2(-f64::from(k)))
@@ -74,7 +74,7 @@ mod tests {
             .collect()
     }
 
-    /// Four times the error is eight times the work at equal error: (c'/c)^(3/2).
+    /// Four times the error means eight times the work at equal error: (c'/c)^(3/2).
     #[rstest]
     #[case::itself(1.0, 1.0, 1.0)]
     #[case::twice_the_work(1.0, 2.0, 2.0)]
@@ -98,7 +98,7 @@ mod tests {
         assert_eq!(converging(points).map(<[ErrorAndWork]>::len), levels);
     }
 
-    /// Both series converge, but have no common error: nothing is extrapolated.
+    /// Both series converge but have no common error, and nothing is extrapolated.
     #[test]
     fn series_that_do_not_meet_are_not_compared() {
         assert_eq!(compare(&series(1.0, 1.0, 4), &series(1e-4, 1.0, 4)), None);

@@ -1,12 +1,12 @@
-//! Comparison of two runs: the changes between two JSON documents, the most important first.
+//! Compares two runs: the changes between two JSON documents, the most important first.
 //!
-//! It shows whether a pull request makes a method less accurate, less stable or more expensive.
-//! Cases are paired by suite and name, levels by cells, spacing and particles per cell. Cases and
-//! levels without counterpart are listed, but not judged. Work is counted in transfers between
-//! particles and nodes, which are the same on every machine. It is compared at equal error if the
-//! errors of both runs have a common range (`equal_error`).
+//! The comparison shows whether a pull request makes a method less accurate, less stable or more
+//! expensive. Cases are paired by suite and name, levels by cells, spacing and particles per cell.
+//! Cases and levels without a counterpart are listed but not judged. Work is counted in transfers
+//! between particles and nodes, which are equal on all machines. It is compared at equal error if
+//! the errors of both runs have a common range (`equal_error`).
 //!
-//! Cases with bounds on drifts only have no error to compare, only a verdict.
+//! Cases with bounds on drifts only have no errors; only their verdicts are compared.
 
 mod accuracy;
 mod changes;
@@ -25,11 +25,11 @@ pub use changes::{Rank, ReportComparison};
 pub use document::{ReportDocument, Unreadable};
 pub use output::{json, markdown, text};
 
-/// Default of the largest relative change of a figure that counts as no change, as in the [drift
+/// Default of the maximum relative change of a figure that counts as unchanged, as in the [drift
 /// gate](super::text::drift).
 pub const TOLERANCE: f64 = super::text::drift::RELATIVE;
 
-/// Changes from `old` to `new` by more than the relative `tolerance`.
+/// Compares `old` with `new`. Changes by at most the relative `tolerance` are ignored.
 pub fn compare(old: &ReportDocument, new: &ReportDocument, tolerance: f64) -> ReportComparison {
     pairs::compare(old, new, tolerance)
 }

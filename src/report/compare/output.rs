@@ -1,11 +1,11 @@
-//! A comparison as aligned text, Markdown and JSON.
+//! Prints a comparison as aligned text, Markdown and JSON.
 
 use super::changes::{CheapestMove, ErrorMove, Moved, ProblemMove, Rank, ReportComparison};
 use crate::report::columns::{TableColumn, number};
 use crate::report::text::table::{Table, printable};
 use serde_json::{Value, json};
 
-/// A comparison as aligned text: a summary line, then a table for each rank.
+/// A comparison as aligned text: a summary line, and a table for each kind of change.
 pub fn text(comparison: &ReportComparison) -> String {
     let head = if comparison.is_worse() { "worse" } else { "nothing worse" };
     let mut lines = vec![format!("{head}: {}", comparison.headline())];
@@ -43,13 +43,13 @@ pub fn text(comparison: &ReportComparison) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Maximum number of rows of a Markdown table: a comment may have 65536 characters.
+/// Maximum number of rows of a Markdown table. A comment is limited to 65536 characters.
 const MAX_ROWS: usize = 40;
 
 /// A comparison as Markdown, for a comment on a pull request.
 ///
-/// The first line is a summary. Tables of worse results are unfolded, the others are folded. Every
-/// text from a file is escaped: it cannot contain markup, mention a user or end a table.
+/// The first line is a summary. Tables of worse results are unfolded, the others folded. All text
+/// from files is escaped, so that it cannot contain markup, mention a user or end a table.
 pub fn markdown(comparison: &ReportComparison) -> String {
     let head = if comparison.is_worse() { "Worse" } else { "Nothing worse" };
     let mut page = format!("**mpm-verify: {head}**: {}\n", comparison.headline());
@@ -85,7 +85,7 @@ pub fn markdown(comparison: &ReportComparison) -> String {
     )
 }
 
-/// Changed cases; columns with dashes only are dropped.
+/// Table of changed cases, without columns that contain only dashes.
 fn changes(moved: &[&Moved]) -> String {
     let mut columns: Vec<_> = cases().into();
     let joined = |moved: &Moved| Some(notes(moved).join("; ")).filter(|notes| !notes.is_empty());
@@ -97,7 +97,7 @@ fn changes(moved: &[&Moved]) -> String {
     table(&columns, moved)
 }
 
-/// Table of the least work for target errors, unfolded if an error takes more work.
+/// Table of the minimum work for target errors, unfolded if an error requires more work.
 fn cheapest(comparison: &ReportComparison) -> String {
     let moved: Vec<&CheapestMove> = comparison.cheapest.iter().collect();
     let Some(first) = moved.first() else { return String::new() };
@@ -109,7 +109,7 @@ fn cheapest(comparison: &ReportComparison) -> String {
     }
 }
 
-/// A table whose first column is code.
+/// A Markdown table whose first column is formatted as code.
 fn table<R>(columns: &[TableColumn<'_, R>], rows: &[&R]) -> String {
     let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
     let rule =
@@ -127,8 +127,8 @@ fn table<R>(columns: &[TableColumn<'_, R>], rows: &[&R]) -> String {
     table
 }
 
-/// A comparison as one JSON document: suites whose problem is another one; cases that moved, the
-/// most important first; and targets whose least work moved.
+/// A comparison as one JSON document: suites with a changed problem; changed cases, the most
+/// important first; and target errors with a changed minimum work.
 pub fn json(comparison: &ReportComparison) -> String {
     let document = json!({
         "worse": comparison.is_worse(),
@@ -178,10 +178,10 @@ fn cheapest_json(target: &CheapestMove) -> Value {
     })
 }
 
-/// Maximum number of notes shown for a case; the others are counted.
+/// Maximum number of printed notes of a case. Only the number of the others is printed.
 const MAX_NOTES: usize = 3;
 
-/// Changes of a case; dashes without a change or a value.
+/// Columns for changes of a case, with dashes if there is no change or value.
 pub(super) fn cases<'a>() -> [TableColumn<'a, Moved>; 8] {
     [
         TableColumn::<Moved>::text("case", "suite and case", |moved| moved.name.clone())
@@ -216,7 +216,7 @@ fn errors(error: &ErrorMove) -> String {
     format!("{} -> {}", text(error.old), text(error.new))
 }
 
-/// Columns of the least work for target errors.
+/// Columns of the minimum work for target errors.
 pub(super) fn targets<'a>() -> [TableColumn<'a, CheapestMove>; 5] {
     [
         TableColumn::<CheapestMove>::text("suite", "suite, and its problem", |moved| {
@@ -247,7 +247,7 @@ fn both(moved: &CheapestMove, part: impl Fn(&(f64, String)) -> String) -> String
     [old, new].map(|side| side.unwrap_or_else(|| "not reached".to_owned())).join(" -> ")
 }
 
-/// The first notes of a case.
+/// The first notes of a case, and the number of the others.
 pub(super) fn notes(moved: &Moved) -> Vec<String> {
     let mut notes: Vec<String> = moved.notes.iter().take(MAX_NOTES).cloned().collect();
     if let more @ 1.. = moved.notes.len().saturating_sub(MAX_NOTES) {
@@ -256,7 +256,7 @@ pub(super) fn notes(moved: &Moved) -> Vec<String> {
     notes
 }
 
-/// `old -> new`, or the common value; for a case in one run only, its value there.
+/// `old -> new`, or the common value. For a case in only one run, its value in that run.
 fn change(moved: &Moved, [old, new]: [Option<String>; 2]) -> String {
     match (moved.rank, old, new) {
         (Rank::New, _, only) | (Rank::Gone, only, _) => only.unwrap_or_else(dash),
@@ -271,7 +271,7 @@ fn dash() -> String {
     "-".to_owned()
 }
 
-/// A ratio: `1.80 x`, or `1.004 x` close to one.
+/// A ratio: `1.80 x`, or `1.004 x` if it is close to one.
 fn times(ratio: f64) -> String {
     match ratio {
         r if !r.is_finite() => "-".to_owned(),
@@ -281,7 +281,7 @@ fn times(ratio: f64) -> String {
     }
 }
 
-/// A code span, in which only its own end and the bar of a table are escaped.
+/// A code span. Only backticks, table bars and control characters are replaced.
 pub(super) fn code(text: &str) -> String {
     let plain = |c: char| match c {
         '`' => "'".to_owned(),
@@ -292,7 +292,7 @@ pub(super) fn code(text: &str) -> String {
     format!("`{}`", text.chars().map(plain).collect::<String>())
 }
 
-/// Escaped text without markup, also as an attribute; the arrow of a change is kept.
+/// Text with all markup escaped, also valid in an attribute. The arrow of a change is not escaped.
 pub(super) fn prose(text: &str) -> String {
     let plain = |c: char| match c {
         c if c.is_control() => "\u{fffd}".to_owned(),

@@ -1,4 +1,4 @@
-//! Cases of two runs, paired, ranked and sorted.
+//! Pairs the cases of two runs, and ranks and sorts the changes.
 
 use super::changes::{CheapestMove, Moved, ProblemMove, Rank, ReportComparison, ratio_moved};
 use super::document::{
@@ -50,7 +50,7 @@ pub(super) fn compare(
     ReportComparison { problems, moved, shared_words, cheapest, unchanged, tolerance }
 }
 
-/// A case whose problem is another one: only whether it meets its expectations can be compared.
+/// A case with a changed problem. Only whether it meets its expectations can be compared.
 fn of_another_problem(name: String, old: &CaseDocument, new: &CaseDocument) -> Moved {
     let is_broken = old.passed && !new.passed;
     Moved {
@@ -61,7 +61,7 @@ fn of_another_problem(name: String, old: &CaseDocument, new: &CaseDocument) -> M
     }
 }
 
-/// A case of one run only.
+/// A case that is in only one run.
 fn lone(name: String, rank: Rank, case: &CaseDocument) -> Moved {
     let word = Some(shown(case));
     let order = case.observed_order.map(|order| order.value.0);
@@ -82,7 +82,7 @@ fn lone(name: String, rank: Rank, case: &CaseDocument) -> Moved {
     }
 }
 
-/// The verdict, with a mark if it is not the expected one.
+/// The verdict, with a mark if the case does not meet its expectations.
 fn shown(case: &CaseDocument) -> String {
     if case.passed { case.verdict.clone() } else { format!("{} (FAIL)", case.verdict) }
 }
@@ -128,7 +128,7 @@ fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) ->
     Some(found)
 }
 
-/// Differences of the problem itself, as text.
+/// Descriptions of differences in the judged quantity, the levels and the rows.
 fn otherwise(
     old: &CaseDocument,
     new: &CaseDocument,
@@ -157,7 +157,7 @@ fn otherwise(
     notes
 }
 
-/// The rank of a verdict that changed.
+/// Kind of change if the verdict has changed.
 fn verdict_rank(
     old: &CaseDocument,
     new: &CaseDocument,
@@ -190,7 +190,7 @@ fn severity(verdict: &str) -> u8 {
     }
 }
 
-/// The rank of changed figures with an unchanged verdict, and the size of the change.
+/// Kind of change if only figures have changed, with the size of the change.
 fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(Rank, f64)> {
     let error = found.error.as_ref();
     let work = found.equal.map(|equal| equal.ratio).or(found.work);
@@ -207,11 +207,11 @@ fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(R
     }
 }
 
-/// Rows of a statement about levels and figures, which are compared separately.
+/// Rows of a statement about levels and figures. These are compared separately.
 const OF_LEVELS: [&str; 7] =
     ["cells", "dt", "instants", "particles", "--full adds", "judged", "crossing levels"];
 
-/// The suites of both runs whose statements differ.
+/// Suites of both runs with different statements.
 fn problem_moves(old: &ReportDocument, new: &ReportDocument) -> Vec<ProblemMove> {
     let moved = |suite: &SuiteDocument| {
         let before = old.suites.iter().find(|known| known.name == suite.name)?;
@@ -221,7 +221,7 @@ fn problem_moves(old: &ReportDocument, new: &ReportDocument) -> Vec<ProblemMove>
     new.suites.iter().filter_map(moved).collect()
 }
 
-/// Rows that differ between two statements; empty if one of the two was not stored.
+/// Rows that differ between two statements; empty if one of the statements was not stored.
 fn differing(old: &[(String, String)], new: &[(String, String)]) -> Vec<[String; 3]> {
     if old.is_empty() || new.is_empty() {
         return Vec::new();
@@ -242,7 +242,7 @@ fn differing(old: &[(String, String)], new: &[(String, String)]) -> Vec<[String;
     moved.map(row).collect()
 }
 
-/// The values that differ, of two lists of `name = value`.
+/// The values that differ between two lists of `name = value`.
 fn shortened(old: &str, new: &str) -> Option<[String; 2]> {
     let [old, new] = [old, new].map(|list| list.split(", ").collect::<Vec<&str>>());
     if old.len() != new.len() {
@@ -254,11 +254,11 @@ fn shortened(old: &str, new: &str) -> Option<[String; 2]> {
     is_list.then(|| [old.join(", "), new.join(", ")])
 }
 
-/// Target errors with a changed minimum work, sorted by decreasing ratio; targets that no method
-/// reaches any more come first. Suites with a changed problem are excluded.
+/// Target errors with a changed minimum work, sorted by decreasing ratio. Targets that no method
+/// reaches any longer come first. Suites with a changed problem are excluded.
 ///
-/// Documents list under `cost` the work of each method for each target of its problem. Documents
-/// without this key are not compared in this respect.
+/// The key `cost` of a document lists the work of each method for each target of its problem. The
+/// work of documents without this key is not compared.
 fn cheapest_moves(
     old: &ReportDocument,
     new: &ReportDocument,
@@ -305,7 +305,7 @@ fn target_moves(
         .collect()
 }
 
-/// The least work for the target with this index, and the method that needs no more.
+/// Minimum work for the target with this index, and the first method that needs only this work.
 fn least_work(ranking: &RankingDocument, target: usize) -> Option<(f64, String)> {
     let reached = ranking.methods.iter().filter_map(|method| {
         let reached = method.reached.get(target)?.as_ref()?;

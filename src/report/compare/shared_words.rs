@@ -1,10 +1,10 @@
-//! Common words in the names of worse cases, as a hint to the cause.
+//! Finds common words in the names of worse cases, as a hint to the cause.
 
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
-/// Minimum share of worse cases among the cases with a word, and minimum share of the worse cases
-/// that have a shared word.
+/// Two minimum shares: worse cases among all cases with a word, and worse cases with a shared word
+/// among all worse cases.
 const MOST: f64 = 0.5;
 
 /// Minimum number of worse cases with a shared word.
@@ -18,9 +18,10 @@ pub(super) struct SharedWord {
     pub(super) all: usize,
 }
 
-/// Words shared by worse cases, sorted by the number of worse cases with the word, then by fewer
-/// other cases. A case counts only for the first of its words. Empty if at most half of the worse
-/// cases have a shared word. `cases` are pairs of `SUITE::CASE` and whether the case got worse.
+/// Finds words shared by several worse cases. Words in more worse cases come first, and of these,
+/// words in fewer cases overall. A case counts only for the first of its words. Empty if at most
+/// half of the worse cases have a shared word. `cases` are pairs of `SUITE::CASE` and whether the
+/// case became worse.
 pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
     let words = |name: &str| -> BTreeSet<String> {
         let case = name.rsplit("::").next().unwrap_or_default();
@@ -39,7 +40,7 @@ pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
             all: cases.iter().filter(|(words, _)| words.contains(word)).count(),
         };
         let tells = |shared: &SharedWord| {
-            // A word of all cases does not distinguish any.
+            // A word that all cases have does not distinguish any.
             shared.all < cases.len()
                 && shared.worse >= FEWEST
                 && shared.worse as f64 > MOST * shared.all as f64

@@ -1,15 +1,15 @@
-//! The results of a run from its snapshots: the overview of all cases, and the reports of the
-//! suites for the problems.
+//! Reads the results of a run from its snapshots: the overview of all cases, and the problems in
+//! the reports of the suites.
 
 use super::document::JsonNumber;
 use super::document::{CaseDocument, LevelDocument, OrderDocument, ReportDocument, SuiteDocument};
 
-/// Axis of a study with a known finest level only.
+/// Axis name for studies whose finest level only is known.
 pub(super) const FINEST: &str = "finest";
 
 impl ReportDocument {
-    /// Reads the overview of all suites. `report` returns the text of the report of a suite by its
-    /// group and name, if it exists.
+    /// Reads the overview of all suites. `report` returns the report of a suite, given its group
+    /// and name, if the report exists.
     pub fn of_snapshots(overview: &str, report: impl Fn(&str, &str) -> Option<String>) -> Self {
         let mut suites: Vec<SuiteDocument> = Vec::new();
         let (mut group, mut headings) = ("", Vec::new());
@@ -47,7 +47,7 @@ impl ReportDocument {
     }
 }
 
-/// The cells of a line of a table, which are separated by at least two spaces.
+/// Cells of a table line. They are separated by at least two spaces.
 fn cells(line: &str) -> Vec<&str> {
     line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect()
 }
@@ -79,7 +79,7 @@ fn case<'a>(name: &str, value: impl Fn(&str) -> Option<&'a str>) -> CaseDocument
     }
 }
 
-/// The rows of a report that state the problem, the parts of a paragraph each for itself.
+/// The rows of a report that describe the problem. The parts of a paragraph become separate rows.
 fn statement(report: &str) -> Vec<(String, String)> {
     let mut rows: Vec<(String, String)> = Vec::new();
     for line in report.lines().skip_while(|line| !line.starts_with("  source ")) {

@@ -1,4 +1,4 @@
-//! Stability studies of two runs, row by row.
+//! Compares the stability studies of two runs, row by row.
 
 use super::changes::ratio_moved;
 use super::document::JsonNumber;
@@ -7,21 +7,21 @@ use super::document::{LimitDocument, StabilityDocument, StabilityRowDocument};
 /// Changes of a stability study.
 #[derive(Debug, Default)]
 pub(super) struct StabilityMove {
-    /// Rows whose verdict changed, each as text.
+    /// Descriptions of rows with a changed verdict.
     pub(super) verdicts: Vec<String>,
-    /// Whether one of these is worse, and whether one is better.
+    /// Whether any of these verdicts is worse, and whether any is better.
     pub(super) verdict: [bool; 2],
-    /// Rows whose limit changed, each as text.
+    /// Descriptions of rows with a changed limit.
     pub(super) limits: Vec<String>,
-    /// Whether one of these is lower, and whether one is higher.
+    /// Whether any of these limits is lower, and whether any is higher.
     pub(super) limit: [bool; 2],
-    /// Largest logarithm of a ratio of limits.
+    /// Largest magnitude of the logarithm of a ratio of limits.
     pub(super) weight: f64,
-    /// Rows of one run only.
+    /// Number of rows that are in only one run.
     pub(super) lone: usize,
 }
 
-/// Rows with the same value of the parameter that is swept are the same row.
+/// Compares rows with the same value of the swept parameter.
 pub(super) fn compare(
     old: &StabilityDocument,
     new: &StabilityDocument,
@@ -84,13 +84,13 @@ impl StabilityMove {
     }
 }
 
-/// The larger, the worse.
+/// Severity of a verdict; larger is worse.
 fn severity(word: &str) -> usize {
     let known = ["stable", "bounded_growth", "unstable", "failed", "refused"];
     known.iter().position(|known| *known == word).unwrap_or(known.len())
 }
 
-/// Sort key of a limit: `None` is the worst.
+/// Sort key of a limit. `None` is the worst limit.
 fn bound(limit: Option<LimitDocument>) -> f64 {
     match limit {
         None => 0.0,

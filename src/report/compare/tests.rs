@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use rstest::rstest;
 use serde_json::{Value, json};
 
-/// A case that converges over four levels of `error = c h^2`, `transfers = w/h^2`.
+/// A case that converges over four levels, with `error = c h^2` and `transfers = w/h^2`.
 fn case(name: &str, c: f64, w: f64) -> Value {
     let level = |cells: u32| {
         let h = 1.0 / f64::from(cells);
@@ -17,7 +17,7 @@ fn case(name: &str, c: f64, w: f64) -> Value {
         "unmet": [], "stability": null, "forces": null})
 }
 
-/// A case of a stability study: verdicts, or limits, for two values.
+/// A case of a stability study, with verdicts or limits for two values.
 fn sweep(runs: &[Value; 2], predicted: &[Value; 2]) -> Value {
     let row = |k: usize, value: f64| {
         json!({"value": value, "run": runs[k],
@@ -33,7 +33,7 @@ fn document(cases: &[Value]) -> ReportDocument {
     ReportDocument::read(&text).expect("a document")
 }
 
-/// A document with `case` in a suite whose parameters are `young`.
+/// A document with `case` in a suite with the parameters `young`.
 fn stating(young: &str, case: &Value) -> ReportDocument {
     let statement = json!([["parameters", young], ["dt", "h"]]);
     let suite = json!({"suite": "bar", "statement": statement, "cases": [case]});
@@ -98,7 +98,7 @@ fn run(verdict: &str) -> Value {
     json!({ "verdict": verdict })
 }
 
-/// The only case, before and after `change`.
+/// Compares the only case with itself after `change`.
 fn after(before: &Value, change: impl Fn(&mut Value)) -> ReportComparison {
     let mut case = before.clone();
     change(&mut case);
@@ -138,15 +138,15 @@ fn one_change(#[case] path: &str, #[case] value: Value, #[case] expected: Option
     assert_eq!(found.is_worse(), expected.is_some_and(Rank::is_worse));
 }
 
-/// A small ratio is printed with the digits that show it.
+/// A ratio close to one is printed with enough digits to distinguish it from one.
 #[test]
 fn a_small_change_is_seen() {
     let found = after(&case("a", 1.0, 1.0), set("/levels/3/transfers", json!(6426)));
-    // Between the two finest levels only a share of the change applies: 1.004^0.82.
+    // The change affects only a share of the interval between the two finest levels: 1.004^0.82.
     assert!(text(&found).contains("  1.004 x     1.003 x at 2e-4"), "{}", text(&found));
 }
 
-/// NaN before and after is the same failure; a number instead of NaN is an improvement.
+/// NaN before and after is the same failure. A number after NaN is an improvement.
 #[test]
 fn what_failed_before_is_not_worse_now() {
     let broken = {
@@ -185,7 +185,7 @@ fn work_is_compared_at_equal_error(
         compare(&document(&[case("a", 1.0, 1.0)]), &document(&[case("a", c, w)]), TOLERANCE);
     let page = text(&found);
     assert!(page.contains(shown), "{page}");
-    // More accurate on the same grid, but more expensive for the same error.
+    // The method is more accurate on the same grid, but more expensive for the same error.
     let expected = if shown.starts_with("2.00 x at 2e-4") { Rank::MoreExpensive } else { expected };
     assert_eq!(rank(&found), Some(expected), "{page}");
 }
@@ -210,7 +210,8 @@ fn other_grids_are_compared_at_equal_error() {
     assert!(text(&found).contains("3.00 x at 2e-4"), "{}", text(&found));
 }
 
-/// A rigid translation is exact to rounding; a change of rounding errors is no change of accuracy.
+/// A rigid translation is exact up to rounding. A change of rounding errors is not a change of
+/// accuracy.
 #[rstest]
 #[case::rounding(1e-13, 3e-13, None)]
 #[case::rounding_is_lost(1e-13, 1e-9, Some(Rank::LessAccurate))]
@@ -232,7 +233,7 @@ fn a_small_error_with_an_order_counts() {
     assert_eq!(rank(&found), Some(Rank::LessAccurate));
 }
 
-/// Roundings that have an order by chance.
+/// Rounding errors may have an order by chance.
 #[test]
 fn an_order_of_roundings_is_none() {
     let mut before = case("a", 1e-12, 1.0);
@@ -271,7 +272,8 @@ fn limits_of_a_sweep(#[case] old: Value, #[case] new: Value, #[case] expected: O
     assert_eq!(rank(&after(&study(&old), |case| *case = new.clone())), expected);
 }
 
-/// The most important change is first, for any order of the suites; within a rank, the largest.
+/// The most important change comes first, in any order of the suites. Within one kind, the largest
+/// change comes first.
 #[test]
 fn what_moved_is_sorted_by_importance() {
     let names = ["gone", "cheap", "costly", "costlier", "worse", "worst", "verdict", "unmet"];
@@ -298,7 +300,7 @@ fn what_moved_is_sorted_by_importance() {
     assert!(page.contains("    bar::unmet: an order of 2 was expected"), "{page}");
 }
 
-/// A document whose only suite ranks two methods at errors of 1e-2 and 1e-3.
+/// A document with one suite that ranks two methods at errors of 1e-2 and 1e-3.
 fn ranked(first: [Option<f64>; 2], second: [Option<f64>; 2]) -> ReportDocument {
     let method = |name: &str, work: [Option<f64>; 2]| {
         let reached =
@@ -365,7 +367,7 @@ fn a_case_that_is_there_twice_is_refused() {
     assert_eq!(error.message, "the case `bar::a` is there twice");
 }
 
-/// Names and verdicts come from a file: they must not add markup, end a table or mention a user.
+/// Names and verdicts come from a file. They must not add markup, end a table or mention a user.
 #[test]
 fn markdown_is_escaped() {
     let hostile = "a|b`c`\n<img src=x onerror=alert(1)> @someone ![x](http://y) **bold**";
@@ -373,7 +375,7 @@ fn markdown_is_escaped() {
     let found = after(&before, set("/verdict", json!(hostile)));
     let page = markdown(&found);
     let row = page.lines().find(|line| line.starts_with("| `")).expect("a row");
-    // In the code span only the bar and the backtick could do harm.
+    // Within the code span only the bar and the backtick are unsafe.
     let (name, rest) = row[3..].split_once('`').expect("the end of the span");
     assert_eq!(
         name,
@@ -389,7 +391,7 @@ fn markdown_is_escaped() {
     assert!(!text(&after(&before, set("/passed", json!(false)))).contains('\u{1b}'));
 }
 
-/// A comment may have 65536 characters.
+/// A comment is limited to 65536 characters.
 #[test]
 fn a_long_list_is_cut() {
     let cases = |c: f64| -> Vec<Value> {
@@ -461,7 +463,7 @@ proptest! {
         prop_assert!(!found.is_worse());
     }
 
-    /// Swapping the runs swaps new and removed, better and worse; nothing panics.
+    /// Swapping the runs swaps new and removed, and better and worse. Nothing panics.
     #[test]
     fn the_other_way_round_is_the_opposite(a in any_case(), b in any_case()) {
         let (a, b) = (document(&[a]), document(&[b, case("b", 1.0, 1.0)]));

@@ -1,4 +1,4 @@
-//! Colours of numbers, from dark to light in steps of equal lightness, so that they are
+//! Colours for numbers, from dark to light in steps of equal lightness, so that they remain
 //! distinguishable in grey print.
 
 use super::plot::scale::{Pad, Scale};
@@ -6,16 +6,16 @@ use super::plot::style::INK;
 use super::plot::svg::{Pt, SvgElement};
 use super::plot::ticks::{self, Tick};
 
-/// Height of the bar of colours, with its labels.
+/// Height of the colour bar, without its labels.
 const BAR: f64 = 12.0;
-/// Width of the bar of colours.
+/// Width of the colour bar.
 pub(super) const BAR_WIDTH: f64 = 240.0;
-/// Steps of the bar.
+/// Number of shades in the colour bar.
 const SHADES: u32 = 48;
-/// Positive values that span more have colours by their logarithms.
+/// Minimum ratio of the largest to the smallest value for a logarithmic scale.
 const SPAN: f64 = 1e3;
 
-/// Colours of values.
+/// Scale that assigns colours to values.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ColourScale(Scale);
 
@@ -31,12 +31,13 @@ impl ColourScale {
         Self(if is_logarithmic { Scale::log(ends, none) } else { Scale::linear(ends, none) })
     }
 
-    /// The share of the way from dark to light.
+    /// Position of a value between dark (0) and light (1).
     pub(super) fn share(self, value: f64) -> f64 {
         self.0.fraction(value)
     }
 
-    /// A colour bar with numbers below, its upper left corner at `corner`, and `label` on its left.
+    /// A colour bar with its upper left corner at `corner`, numbers below it, and `label` on its
+    /// left.
     pub(super) fn bar(self, corner: Pt, label: &str) -> SvgElement {
         let (x, y) = corner;
         let mut group = SvgElement::new("g");
@@ -45,7 +46,7 @@ impl ColourScale {
             let (fill, _) = colour((f64::from(k) + 0.5) / f64::from(SHADES));
             let at = x + step * f64::from(k);
             let shade = SvgElement::new("rect").at("x", at).at("y", y);
-            // Wider than its place, so that there is no gap between neighbours.
+            // Each shade is wider than its step, so that there are no gaps.
             let wide = if k + 1 < SHADES { step + 0.6 } else { step };
             group.add(&shade.at("width", wide).at("height", BAR).set("fill", &fill));
         }
@@ -66,8 +67,8 @@ impl ColourScale {
     }
 }
 
-/// Text colours on dark and on light fields. They are not colours of the palette: fields, and so
-/// their texts, have the same colours on dark paper.
+/// Text colours on dark and on light fields. They do not belong to the palette, because fields and
+/// their texts have the same colours in the dark theme.
 const OVER_DARK: &str = "#fff";
 const OVER_LIGHT: &str = "#222";
 
@@ -81,7 +82,7 @@ const COLOURS: [[f64; 3]; 6] = [
     [253.0, 234.0, 69.0],
 ];
 
-/// The colour at `share` between dark and light, and that of a text on it.
+/// The colour at `share` between dark and light, and the colour of text on it.
 pub(super) fn colour(share: f64) -> (String, &'static str) {
     let last = COLOURS.len() - 1;
     let place = share.clamp(0.0, 1.0) * last as f64;

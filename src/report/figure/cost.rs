@@ -5,14 +5,14 @@ use super::{LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::verify::{Ranked, Ranking, Sample, SuiteOutcome, pareto_front};
 use std::ops::Range;
 
-/// Maximum number of lines with a colour and a name: a reader cannot distinguish more.
+/// Maximum number of lines with a colour and a name, because a reader cannot distinguish more.
 const MOST_NAMED: usize = 7;
 
-/// Maximum relative difference of points of two methods that are drawn as one line.
+/// Maximum relative difference between points of two methods that are drawn as one line.
 const SAME: f64 = 0.02;
 
-/// The diagram of each ranking of a suite; `work` labels the horizontal axis, `unit` is part of the
-/// file name.
+/// Creates a diagram for each ranking of a suite. `work` labels the horizontal axis; `unit` is part
+/// of the file name.
 pub fn cost_figures(
     outcome: &SuiteOutcome,
     rankings: &[Ranking],
@@ -20,7 +20,7 @@ pub fn cost_figures(
     unit: &str,
 ) -> Vec<Figure> {
     let SuiteOutcome { suite, title, cases, .. } = outcome;
-    // Methods that vary a setting come after the cases of the suite.
+    // Variants of methods follow the cases of the suite.
     let rows = rankings.iter().flat_map(|ranking| &ranking.rows);
     let mut methods: Vec<&str> = cases.iter().map(|case| case.case.as_str()).collect();
     for row in rows {
@@ -49,7 +49,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
             None => groups.push((row, 0)),
         }
     }
-    // Methods on the Pareto front first, then by rank.
+    // Methods on the Pareto front come first; the others follow by rank.
     let mut named = groups;
     named.sort_by_key(|(row, _)| row.front.is_empty());
     let others = named.split_off(named.len().min(MOST_NAMED));
@@ -75,11 +75,11 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
     }
 }
 
-/// Whether one line would cover the other.
+/// Whether the lines of two methods would coincide.
 fn coincide(a: &Ranked, b: &Ranked) -> bool {
     let (a, b) = (&a.method.samples, &b.method.samples);
     let near = |x: f64, y: f64| (x / y - 1.0).abs() <= SAME;
-    // Levels that do not count may differ.
+    // Levels that do not count may be different.
     let same = |(a, b): (&Sample, &Sample)| {
         let counts = a.counts() || b.counts();
         !counts || (near(a.work, b.work) && near(a.error, b.error))
@@ -87,8 +87,8 @@ fn coincide(a: &Ranked, b: &Ranked) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(same)
 }
 
-/// The points of the levels. Levels in the window of a divergent series are not marked like those
-/// of a converging one.
+/// Points of the levels. Levels in the window of a divergent series do not get the mark of a
+/// converging one.
 fn points(row: &Ranked) -> Vec<PlotPoint> {
     let levels = row.method.samples.iter().enumerate();
     levels.map(|(level, one)| point(&row.part.levels, level, one)).collect()

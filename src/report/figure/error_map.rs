@@ -1,5 +1,5 @@
-//! The error of each part of the body, with a panel for each case: all panels share the scales of
-//! lengths and colours, so that cases are comparable by eye.
+//! The error in each part of the body, with a panel for each case. All panels share the scales of
+//! length and colour, so that cases can be compared visually.
 
 use super::colour_scale::{ColourScale, colour};
 use super::plot::canvas::{Heading, canvas, shorten, wrap};
@@ -11,17 +11,17 @@ use std::fmt::Write;
 
 const LEFT: f64 = 14.0;
 const GAP: f64 = 16.0;
-/// Number of panels in a row, for plane bodies.
+/// Number of panels per row for plane bodies.
 const PLANES: usize = 2;
-/// Maximum height of the panel of a plane body.
+/// Maximum height of a panel for a plane body.
 const HIGHEST: f64 = 260.0;
-/// Height of the panel of a bar.
+/// Height of a panel for a bar.
 const LINE: f64 = 14.0;
 /// Maximum number of lines of a name.
 const LINES: usize = 2;
-/// Height of a line of a name.
+/// Height of one line of a name.
 const LEADING: f64 = 14.0;
-/// Number of distinct shades: a part is drawn in the nearest one.
+/// Number of distinct shades. Each part is drawn in the nearest shade.
 const SHADES: f64 = 24.0;
 
 /// Errors over the bodies of several cases.
@@ -29,23 +29,23 @@ const SHADES: f64 = 24.0;
 pub struct ErrorMap {
     /// Title above the panels.
     pub title: String,
-    /// Label of the colours: the quantity and its unit.
+    /// Label of the colour bar: the quantity with its unit.
     pub label: String,
     /// Name and errors of each case.
     pub panels: Vec<(String, ErrorField)>,
 }
 
-/// Place of the bodies in their panels.
+/// Scale and position of the bodies in their panels.
 struct BodyWindow {
     low: [f64; 2],
     high: [f64; 2],
-    /// Pixels of a metre.
+    /// Pixels per metre.
     zoom: f64,
     width: f64,
     height: f64,
-    /// Distance between a panel and the one below it.
+    /// Vertical distance between panels.
     gap: f64,
-    /// Number of panels in a row.
+    /// Number of panels per row.
     columns: usize,
 }
 
@@ -105,7 +105,7 @@ impl ErrorMap {
     }
 }
 
-/// A path of squares for each shade; crosses where an error is not finite.
+/// Draws one path of squares for each shade, and crosses where an error is not finite.
 fn drawn(panel: &mut SvgElement, field: &ErrorField, window: &BodyWindow, scale: ColourScale) {
     let BodyWindow { low, high, zoom, width, height, .. } = window;
     let mut paths: BTreeMap<i64, String> = BTreeMap::new();
@@ -115,7 +115,7 @@ fn drawn(panel: &mut SvgElement, field: &ErrorField, window: &BodyWindow, scale:
         let across = libm::round((x - low[0]) * zoom - 0.5 * side);
         let down = if field.is_plane { (high[1] - y) * zoom - 0.5 * side } else { 0.0 };
         let down = libm::round(down);
-        // An error of zero has the darkest shade; an error that is not finite has none.
+        // A zero error has the darkest shade. An error that is not finite has no shade.
         let share = if *error > 0.0 { scale.share(*error) } else { 0.0 };
         let shade = if error.is_finite() { libm::round(share * SHADES) as i64 } else { -1 };
         let path = paths.entry(shade).or_default();
@@ -162,7 +162,7 @@ mod tests {
         assert!(svg.contains("v14h-"), "{svg}");
     }
 
-    /// Next to another panel there is space for the name of a case; a note after the name continues
+    /// Next to another panel the name of a case has limited space. A note after the name continues
     /// on the next line.
     #[test]
     fn what_is_said_behind_a_long_name_is_seen() {
@@ -173,7 +173,7 @@ mod tests {
         assert!(svg.contains(">where it broke<") && svg.contains(">short<"), "{svg}");
     }
 
-    /// No coordinate is NaN.
+    /// The figure contains no NaN as a coordinate.
     #[test]
     fn nothing_to_see_is_no_nan() {
         for parts in [vec![[0.0, 0.0, 0.0]], vec![[0.0, 0.0, f64::NAN]]] {

@@ -17,34 +17,34 @@ pub struct HistoryPlot {
     pub x_label: String,
     /// Label of the vertical axis with its unit.
     pub y_label: String,
-    /// The curves, later ones over earlier ones.
+    /// The curves. Later ones cover earlier ones.
     pub curves: Vec<Curve>,
 }
 
 /// One curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// Name in the legend; a curve without a name has no entry.
+    /// Name in the legend. A curve without a name has no legend entry.
     pub name: String,
-    /// Index of its colour, equal for a method in all figures of a suite. The exact solution has a
-    /// separate colour.
+    /// Index of the colour, which is the same for a method in all figures of a suite. The exact
+    /// solution has a separate colour.
     pub look: usize,
-    /// The points in drawing order; one which is not finite interrupts the curve.
+    /// The points in drawing order. A point that is not finite interrupts the curve.
     pub points: Vec<(f64, f64)>,
-    /// Whether this is the exact solution, drawn as a thick light line.
+    /// Whether this is the exact solution, which is drawn as a thick light line.
     pub exact: bool,
-    /// Whether points have markers, as long as these do not overlap.
+    /// Whether points have markers, except where these would overlap.
     pub markers: bool,
 }
 
-/// A curve in pixels, with its appearance.
+/// A curve in pixels, with its style.
 struct CurveLine<'a> {
     curve: &'a Curve,
     look: Look,
     runs: Vec<Vec<Pt>>,
 }
 
-/// Distance between the centres of markers on a curve.
+/// Minimum distance between the centres of markers on a curve.
 const MARKER_DISTANCE: f64 = 2.4 * RADIUS;
 
 impl HistoryPlot {
@@ -53,7 +53,7 @@ impl HistoryPlot {
         self.to_svg_among(std::slice::from_ref(self))
     }
 
-    /// The figure with axes that contain all of `figures`, including this one.
+    /// The figure as SVG, with axes that contain all data of `figures`, including this figure.
     pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
         let plot = self.plot(figures);
         let lines: Vec<CurveLine> = self
@@ -77,7 +77,7 @@ impl HistoryPlot {
         plot.document(&layers, &Legend::new(entries.collect()), &[])
     }
 
-    /// Length of the vertical axis that the curves need.
+    /// Length of the vertical axis that the curves require.
     pub(crate) fn rise(&self) -> f64 {
         let finite = self.points().map(|point| point.1);
         let (low, high) = finite
@@ -102,7 +102,7 @@ fn is_finite(point: Pt) -> bool {
     point.0.is_finite() && point.1.is_finite()
 }
 
-/// The uninterrupted parts of a curve in pixels.
+/// Parts of a curve between interruptions, in pixels.
 fn runs(points: &[Pt], plot: &Plot) -> Vec<Vec<Pt>> {
     points
         .split(|&p| !is_finite(p))
@@ -148,7 +148,7 @@ impl CurveLine<'_> {
         }
     }
 
-    /// A point between two interruptions, which no line would show.
+    /// A dot for a point between two interruptions, where a line would not be visible.
     fn dot(&self, at: Pt) -> SvgElement {
         SvgElement::new("circle")
             .at("cx", at.0)
@@ -175,11 +175,11 @@ impl CurveLine<'_> {
     }
 }
 
-/// Maximum number of points of a curve that is drawn without thinning.
+/// Maximum number of points for which a curve is drawn without thinning.
 const MAX_POINTS: usize = 1500;
 
-/// Keeps the first, the lowest, the highest and the last of each sequence of points within one
-/// pixel column: together they cover the same pixels, so that no peak is lost.
+/// Reduces each sequence of points within one pixel column to its first, lowest, highest and last
+/// point. These cover the same pixels, so no peak is lost.
 fn thin(points: &[Pt]) -> Vec<Pt> {
     points
         .chunk_by(|a, b| libm::floor(a.0) as i64 == libm::floor(b.0) as i64)

@@ -10,7 +10,7 @@ use super::plot::triangle::TriangleRow;
 use super::series;
 use super::series::{PlotSeries, SeriesLine};
 
-/// A log-log plot of errors. The legend is below the frame, slope triangles are in the lower right
+/// A log-log plot of errors. The legend is below the frame; slope triangles are in the lower right
 /// corner of the frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LogLogPlot {
@@ -20,17 +20,18 @@ pub struct LogLogPlot {
     pub x_label: String,
     /// Label of the vertical axis with its unit.
     pub y_label: String,
-    /// One line each.
+    /// Methods with their own line and name.
     pub series: Vec<PlotSeries>,
-    /// Further methods, as thin grey lines without names.
+    /// Other methods, drawn as thin grey lines without names.
     pub others: Vec<PlotSeries>,
-    /// Pareto front (work, error) in ascending order of work: a broad band below the lines.
+    /// Pareto front (work, error) in ascending order of work, drawn as a broad band behind the
+    /// lines.
     pub front: Vec<(f64, f64)>,
-    /// Orders shown as slope triangles; orders that are not positive are ignored.
+    /// Orders of the slope triangles. Orders that are not positive are ignored.
     pub reference_orders: Vec<f64>,
 }
 
-/// Free share of an axis at both ends.
+/// Free share of an axis at each end.
 const MARGIN: f64 = 0.06;
 
 /// Width of the band of the Pareto front (px).
@@ -42,7 +43,7 @@ impl LogLogPlot {
         self.to_svg_among(std::slice::from_ref(self))
     }
 
-    /// The figure, with axes that contain all of `figures`. `figures` contains this figure.
+    /// The figure as SVG, with axes that contain all data of `figures`, including this figure.
     pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
         let plot = self.plot(figures);
         let lines = self.lines();
@@ -66,8 +67,8 @@ impl LogLogPlot {
         self.others.iter().map(SeriesLine::in_grey).chain(named).collect()
     }
 
-    /// The frame whose axes contain all of `figures`, with a free strip below the data if slope
-    /// triangles need one.
+    /// The frame with axes that contain all data of `figures`. A strip below the data remains free
+    /// if slope triangles need it.
     fn plot(&self, figures: &[Self]) -> Plot<'_> {
         let all: Vec<Vec<SeriesLine>> = figures.iter().map(Self::lines).collect();
         let lines = || all.iter().flatten();
@@ -88,7 +89,7 @@ impl LogLogPlot {
         if foot > MARGIN { frame(foot) } else { draft }
     }
 
-    /// The slope triangles; none if there are no data to compare with.
+    /// Slope triangles; none if there is no data to compare with.
     fn triangles(&self, lines: &[SeriesLine], plot: &Plot) -> TriangleRow {
         let positive = |order: &f64| order.is_finite() && *order > 0.0;
         let has_data = lines.iter().any(|line| line.count() > 0);
@@ -102,14 +103,14 @@ impl LogLogPlot {
             |point: &&Pt| [point.0, point.1].iter().all(|value| value.is_finite() && *value > 0.0);
         let mut points: Vec<Pt> =
             self.front.iter().filter(has_place).map(|point| plot.place(*point)).collect();
-        // A line of zero length has round ends, and is visible.
+        // A line of zero length has round ends, so it is visible.
         if let [only] = points[..] {
             points.push(only);
         }
         if points.is_empty() { SvgElement::new("g") } else { band(&points) }
     }
 
-    /// Legend entries: the named lines, the front, the other lines, and the marks that occur.
+    /// Legend entries: named lines, the front, other lines, and the marks that occur.
     fn entries(&self, lines: &[SeriesLine]) -> Vec<LegendEntry> {
         let mut entries = series::names(lines);
         if !self.front.is_empty() {
@@ -125,7 +126,7 @@ impl LogLogPlot {
         entries
     }
 
-    /// A note on the points that have no place on logarithmic axes.
+    /// Note about points that cannot be drawn on logarithmic axes.
     fn omissions(&self, lines: &[SeriesLine]) -> Vec<String> {
         let points = self.series.iter().chain(&self.others).map(|one| one.points.len());
         let count = points.sum::<usize>() - lines.iter().map(SeriesLine::count).sum::<usize>();

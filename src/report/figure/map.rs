@@ -1,8 +1,8 @@
-//! The map: a table of numbers over coloured fields, a row for each case.
+//! The map: a table of numbers over coloured fields, with one row for each case.
 //!
-//! Numbers are printed in the fields, so that colours are only a guide; they run from dark to light
-//! in steps of equal lightness and are distinguishable in grey print. A gap separates rows whose
-//! names have different beginnings.
+//! The numbers are printed in the fields, and colours are only a guide. Colours run from dark to
+//! light in steps of equal lightness and remain distinguishable in grey print. A gap separates rows
+//! whose names begin with different words.
 
 use super::colour_scale::{BAR_WIDTH, ColourScale, colour};
 use super::plot::canvas::{Heading, canvas, text_width};
@@ -19,29 +19,29 @@ pub struct Map {
     pub x_label: String,
     /// Label of the numbers.
     pub z_label: String,
-    /// Head of each column.
+    /// Heading of each column.
     pub columns: Vec<String>,
     /// Name and fields of each row.
     pub rows: Vec<(String, Vec<MapField>)>,
 }
 
-/// One field.
+/// One field of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapField {
     /// Value that determines the colour; white for `None` or a value that is not finite.
     pub value: Option<f64>,
-    /// Text printed in it.
+    /// Text printed in the field.
     pub text: String,
 }
 
 const LEFT: f64 = 14.0;
 const ROW: f64 = 17.0;
-/// Minimum width of a field; a longer column name makes it wider.
+/// Minimum width of a field. Longer column names widen it.
 const FIELD: f64 = 62.0;
-/// Distance between rows whose names begin with different words.
+/// Gap between rows whose names begin with different words.
 const GAP: f64 = 5.0;
 
-/// A swept value as the head of a column, rounded to five digits.
+/// A swept value as a column heading, rounded to five digits.
 pub(crate) fn column_head(value: f64) -> String {
     rounded(value, 5).to_string()
 }
@@ -77,7 +77,7 @@ impl Map {
         svg.render() + "\n"
     }
 
-    /// Positions of the rows from `y` on, and their end.
+    /// Positions of the rows, starting at `y`, and the position after the last row.
     fn places(&self, mut y: f64) -> (Vec<f64>, f64) {
         let mut places = Vec::new();
         let mut group = None;
@@ -94,7 +94,7 @@ impl Map {
     }
 }
 
-/// Place of a row of fields on the canvas (px).
+/// Position of a row of fields on the canvas (px).
 #[derive(Clone, Copy)]
 struct RowPlace {
     left: f64,
@@ -121,8 +121,8 @@ fn row(name: &str, fields: &[MapField], place: RowPlace, scale: ColourScale) -> 
     group
 }
 
-/// Removes the first word of the names if all rows share it. Merges neighbouring rows with equal
-/// fields whose names differ only in the last word: `flip-usf/musl`.
+/// Removes the first word of the names if all rows have it in common. Merges neighbouring rows with
+/// equal fields and names that differ only in the last word: `flip-usf/musl`.
 pub(crate) fn merged_fields(rows: Vec<(String, Vec<MapField>)>) -> Vec<(String, Vec<MapField>)> {
     let first =
         |name: &str| name.split_once('-').map_or(String::new(), |(word, _)| word.to_owned());

@@ -2,12 +2,11 @@
 //!
 //! There are four kinds: the [`LogLogPlot`] (error against cell size, time step or work), the
 //! [`HistoryPlot`] (curves over linear axes), the [`Map`] (numbers over colours) and the
-//! [`ErrorMap`] (errors over bodies). All are pure functions of their input, so that figures can be
-//! compared byte by byte: coordinates have two decimals, and transcendental functions come from
-//! `libm`.
+//! [`ErrorMap`] (errors over bodies). All are pure functions of their input and can be compared
+//! byte by byte: coordinates have two decimals, and transcendental functions come from `libm`.
 //!
-//! No input can make a figure fail. A value without a position on its axis is marked as failed,
-//! interrupts its curve, or is counted in a note under the figure.
+//! Figures accept any input. A value that cannot be placed on its axis is marked as failed,
+//! interrupts its curve, or is counted in a note below the figure.
 //!
 //! ```
 //! use mpm_verify::report::figure::{Curve, HistoryPlot};
@@ -54,12 +53,12 @@ pub struct Figure {
     pub file: String,
     /// The SVG document.
     pub svg: String,
-    /// This figure as a LaTeX document that uses the package PGFPlots.
+    /// The figure as a LaTeX document that uses the package PGFPlots.
     pub pgfplots: String,
 }
 
 impl Figure {
-    /// Name of the file of the LaTeX document, without a folder.
+    /// File name of the LaTeX document, without a folder.
     pub fn pgfplots_file(&self) -> String {
         format!("{}.tex", self.file.strip_suffix(".svg").unwrap_or(&self.file))
     }

@@ -1,23 +1,22 @@
-//! Figures as source for the LaTeX package PGFPlots, with their data.
+//! Writes figures and their data as source for the LaTeX package PGFPlots.
 //!
-//! Each document compiles on its own (class `standalone`). In a paper its `tikzpicture` can be
-//! copied, or the file can be included with the package `standalone`.
+//! Each document compiles on its own (class `standalone`). For a paper, copy its `tikzpicture`, or
+//! include the file with the package `standalone`.
 
 use super::plot::style::{CONTEXT, EXACT, MarkerShape, NEUTRAL, look};
 use super::{ErrorMap, HistoryPlot, LogLogPlot, Map, Mark, PlotPoint, PlotSeries};
 use crate::report::latex::escaped;
 
-/// Maximum number of points of a curve: TeX is slow, and a page is not wider in pixels.
+/// Maximum number of points of a curve, because TeX is slow and a page has no higher resolution.
 const MOST_POINTS: usize = 400;
 
-/// Place of the legend.
+/// Position and alignment of the legend.
 const LEGEND: &str = "legend pos=outer north east, legend cell align=left";
 
-/// Number of decades of a logarithmic axis below which it has labels at 1, 2 and 5 times powers of
-/// ten.
+/// Number of decades below which a logarithmic axis has labels at 1, 2 and 5 times powers of ten.
 const SHORT: f64 = 2.0;
 
-/// Panels of an error map that are next to each other.
+/// Number of panels per row of an error map.
 const PANELS: usize = 4;
 
 /// A document under construction.
@@ -43,13 +42,13 @@ impl PgfDocument {
         self.text.push('\n');
     }
 
-    /// Sets the colour `#rrggbb` for the following elements.
+    /// Defines the colour `name` as `#rrggbb`.
     fn colour(&mut self, name: &str, colour: &str) {
         let digits = colour.trim_start_matches('#').to_uppercase();
         self.line(&format!("\\definecolor{{{name}}}{{HTML}}{{{digits}}}"));
     }
 
-    /// One curve with its data.
+    /// Adds one curve with its data.
     fn plot(&mut self, options: &str, points: impl Iterator<Item = (f64, f64)>) {
         self.line(&format!("\\addplot[{options}] table {{"));
         self.line("x y");
@@ -59,8 +58,7 @@ impl PgfDocument {
         self.line("};");
     }
 
-    /// An entry of the legend, with a line or marker of this style; it does not depend on whether
-    /// the curve has points.
+    /// Adds a legend entry with a line or marker of this style, even if the curve has no points.
     fn legend(&mut self, style: &str, name: &str) {
         self.line(&format!("\\addlegendimage{{{style}}}"));
         self.line(&format!("\\addlegendentry{{{name}}}"));
@@ -74,13 +72,13 @@ impl PgfDocument {
     }
 }
 
-/// A number as PGFPlots reads it.
+/// A number in PGFPlots notation.
 fn number(value: f64) -> String {
     if value.is_finite() { format!("{value:e}") } else { "nan".to_owned() }
 }
 
-/// The option for the labels of a short logarithmic axis with these values, for which powers of ten
-/// alone would be too few.
+/// Option for the labels of a short logarithmic axis with these values, where powers of ten alone
+/// would be too few. Empty for longer axes.
 fn log_ticks(axis: &str, values: impl Iterator<Item = f64> + Clone) -> String {
     let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(0.0, f64::max));
     if !(low > 0.0 && libm::log10(high / low) < SHORT) {
@@ -103,7 +101,7 @@ fn log_ticks(axis: &str, values: impl Iterator<Item = f64> + Clone) -> String {
     format!(", {axis}tick={{{}}}, {axis}ticklabels={{{}}}", ticks.join(","), labels.join(","))
 }
 
-/// Title and labels as options of an axis.
+/// Title and labels as axis options.
 fn titles(title: &str, x_label: &str, y_label: &str) -> String {
     format!(
         "title={{{}}}, xlabel={{{}}}, ylabel={{{}}}",
@@ -113,7 +111,7 @@ fn titles(title: &str, x_label: &str, y_label: &str) -> String {
     )
 }
 
-/// Outline of a marker, filled or hollow.
+/// Options for a marker, filled or hollow.
 fn mark(shape: MarkerShape, is_filled: bool) -> String {
     let (mark, rotation) = match shape {
         MarkerShape::Circle => ("*", 0),
@@ -136,9 +134,9 @@ fn is_drawn(point: &PlotPoint) -> bool {
 }
 
 impl LogLogPlot {
-    /// The figure as a LaTeX document: a solid line with filled markers through the levels of the
-    /// asymptotic window, a thin dashed one with hollow markers through all levels, and a grey line
-    /// for each reference order.
+    /// The figure as a LaTeX document. A solid line with filled markers connects the levels of the
+    /// asymptotic window, a thin dashed line with hollow markers connects all levels, and each
+    /// reference order has a dotted grey line.
     pub fn to_pgfplots(&self) -> String {
         let mut document = PgfDocument::new();
         let titles = titles(&self.title, &self.x_label, &self.y_label);
@@ -175,7 +173,8 @@ impl LogLogPlot {
         document.finished("loglogaxis")
     }
 
-    /// Lines of the reference orders, a factor of two below the least error of the coarsest level.
+    /// Draws the reference orders as lines through half of the smallest error on the coarsest
+    /// level.
     fn reference_lines(&self, document: &mut PgfDocument) {
         let all: Vec<(f64, f64)> =
             self.series.iter().flat_map(|series| sorted(series, |_| true)).collect();
@@ -202,7 +201,7 @@ fn rounded(order: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The levels with a mark that `is_chosen`, by their spacing or work.
+/// The points with a mark that `is_chosen` accepts, sorted by spacing or work.
 fn sorted(series: &PlotSeries, is_chosen: impl Fn(Mark) -> bool) -> Vec<(f64, f64)> {
     let drawn =
         series.points.iter().filter(|point| is_drawn(point)).filter(|point| is_chosen(point.mark));
@@ -212,8 +211,8 @@ fn sorted(series: &PlotSeries, is_chosen: impl Fn(Mark) -> bool) -> Vec<(f64, f6
 }
 
 impl HistoryPlot {
-    /// The figure as a LaTeX document. Of a curve with more than 400 points evenly chosen ones are
-    /// drawn.
+    /// The figure as a LaTeX document. Curves with more than 400 points are drawn through evenly
+    /// chosen ones.
     pub fn to_pgfplots(&self) -> String {
         let mut document = PgfDocument::new();
         let titles = titles(&self.title, &self.x_label, &self.y_label);
@@ -245,7 +244,7 @@ impl HistoryPlot {
 }
 
 impl Map {
-    /// The figure as a LaTeX document: a field for each number, with its text.
+    /// The figure as a LaTeX document with a field for each number, including its text.
     pub fn to_pgfplots(&self) -> String {
         let mut document = PgfDocument::new();
         let titles = titles(&self.title, &self.x_label, "");
@@ -291,9 +290,9 @@ impl Map {
 }
 
 impl ErrorMap {
-    /// The figure as a LaTeX document. Bodies in the plane have a panel for each case, with a
-    /// square for each part, coloured by the decimal logarithm of its error; bars have one plot of
-    /// the errors over the position, with a curve for each case.
+    /// The figure as a LaTeX document. Plane bodies have a panel for each case, with a square for
+    /// each part, coloured by the decimal logarithm of its error. Bars have one plot of the errors
+    /// over the position, with a curve for each case.
     pub fn to_pgfplots(&self) -> String {
         if self.panels.iter().any(|(_, field)| field.is_plane) {
             self.panels_to_pgfplots()

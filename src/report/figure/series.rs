@@ -7,12 +7,13 @@ use super::plot::marker::Fill;
 use super::plot::style::{CONTEXT, FRAME_HEIGHT, Look, MarkerShape, NEUTRAL, look};
 use super::plot::svg::{Pt, SvgElement};
 
-/// The error at one level.
+/// Error on one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlotPoint {
     /// Cell size, time step or work.
     pub x: f64,
-    /// Error; one that is not finite is drawn as failed, zero is noted below the figure.
+    /// The error. An error that is not finite is drawn as failed; a zero error is mentioned below
+    /// the figure.
     pub error: f64,
     /// Role of the level.
     pub mark: Mark,
@@ -21,40 +22,40 @@ pub struct PlotPoint {
 /// Role of a level in the judgement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// In the asymptotic window: filled, joined by a solid line.
+    /// In the asymptotic window: filled marker, solid line.
     Window,
-    /// Measured but not judged: drawn as in the window, without an entry in the legend.
+    /// Measured but not judged: drawn as in the window, without a legend entry.
     Measured,
-    /// Outside the window: hollow, joined by a thin dashed line.
+    /// Outside the window: hollow marker, thin dashed line.
     OutsideWindow,
-    /// Particles changed cell: hollow with a cross.
+    /// Particles changed their cell: hollow marker with a cross.
     Crossing,
-    /// No finite error: an arrow at the upper edge of the frame.
+    /// No finite error: arrow at the upper edge of the frame.
     Failed,
 }
 
-/// The errors of one quantity over all levels.
+/// Errors of one method over all levels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlotSeries {
     /// Name in the legend.
     pub name: String,
-    /// Number of its colour and marker: the same for a method in all figures of a suite.
+    /// Index of its colour and marker, which are the same for a method in all figures of a suite.
     pub look: usize,
-    /// The levels in any order.
+    /// Levels in any order.
     pub points: Vec<PlotPoint>,
 }
 
-/// A point with its pixel position.
+/// A level as it is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PlotLevel {
     x: f64,
-    /// The error, unless the level failed.
+    /// Error; `None` if the level failed.
     error: Option<f64>,
-    /// The mark; [`Mark::Failed`] exactly if there is no error.
+    /// Mark of the level: [`Mark::Failed`] if and only if there is no error.
     mark: Mark,
 }
 
-/// The points that can be drawn, in ascending order of `x`.
+/// Drawable levels in ascending order of `x`.
 fn levels(points: &[PlotPoint]) -> Vec<PlotLevel> {
     let mut levels: Vec<PlotLevel> = points.iter().filter_map(level).collect();
     levels.sort_by(|a, b| a.x.total_cmp(&b.x));
@@ -71,7 +72,7 @@ fn level(&PlotPoint { x, error, mark }: &PlotPoint) -> Option<PlotLevel> {
     })
 }
 
-/// A series with its appearance.
+/// A series with its style.
 pub(super) struct SeriesLine<'a> {
     name: &'a str,
     look: Look,
@@ -80,13 +81,13 @@ pub(super) struct SeriesLine<'a> {
 }
 
 impl<'a> SeriesLine<'a> {
-    /// A series in its own colour.
+    /// Creates a series with its own colour.
     pub(super) fn new(series: &'a PlotSeries) -> Self {
         let look = look(series.look);
         Self { name: &series.name, look, grey: false, levels: levels(&series.points) }
     }
 
-    /// A series for comparison: a thin line without markers.
+    /// Creates a series for comparison: a thin line without markers.
     pub(super) fn in_grey(series: &'a PlotSeries) -> Self {
         let look = Look { colour: CONTEXT, ..look(0) };
         Self { name: &series.name, look, grey: true, levels: levels(&series.points) }
@@ -97,22 +98,22 @@ impl<'a> SeriesLine<'a> {
         !self.grey
     }
 
-    /// Number of levels that are drawn.
+    /// Number of drawn levels.
     pub(super) fn count(&self) -> usize {
         self.levels.len()
     }
 
-    /// The `x` of all levels.
+    /// Values of `x` of all levels.
     pub(super) fn xs(&self) -> impl Iterator<Item = f64> {
         self.levels.iter().map(|level| level.x)
     }
 
-    /// All errors of levels that have one.
+    /// Errors of all levels that have one.
     pub(super) fn errors(&self) -> impl Iterator<Item = f64> {
         self.levels.iter().filter_map(|level| level.error)
     }
 
-    /// The pixels of the errors.
+    /// Pixels of the errors.
     pub(super) fn path(&self, plot: &Plot) -> Vec<Pt> {
         self.marked_path(plot).into_iter().map(|(at, _)| at).collect()
     }
@@ -122,7 +123,7 @@ impl<'a> SeriesLine<'a> {
         levels.filter_map(|l| Some((plot.place((l.x, l.error?)), l.mark))).collect()
     }
 
-    /// Line and markers; failed levels are drawn apart.
+    /// Draws line and markers. Failed levels are drawn separately.
     pub(super) fn draw(&self, plot: &Plot) -> SvgElement {
         let path = self.marked_path(plot);
         let mut group = SvgElement::new("g");
@@ -165,7 +166,7 @@ impl<'a> SeriesLine<'a> {
     }
 }
 
-/// Every mark with its text in the legend, in the order of the legend.
+/// All marks with a legend text, in legend order.
 const MARKS: [(Mark, &str); 4] = [
     (Mark::Window, "in the asymptotic window"),
     (Mark::OutsideWindow, "outside the window"),
@@ -178,8 +179,8 @@ pub(super) fn names(lines: &[SeriesLine]) -> Vec<LegendEntry> {
     lines.iter().filter(|line| line.is_named()).map(SeriesLine::entry).collect()
 }
 
-/// Legend entries of the marks that are drawn. Series without a name have no markers, but their
-/// failed levels are drawn.
+/// Legend entries of the marks that occur. Series without a name have no markers, except for failed
+/// levels.
 pub(super) fn marks(lines: &[SeriesLine]) -> Vec<LegendEntry> {
     let occurs = |mark| {
         let drawn = lines.iter().filter(|line| line.is_named() || mark == Mark::Failed);
@@ -208,11 +209,11 @@ fn fill(mark: Mark) -> Fill {
     }
 }
 
-/// A failed level with its place below the upper edge.
+/// A failed level with its position below the upper edge.
 pub(super) struct FailedLevel {
     x: f64,
     look: Look,
-    /// Number of failures of other series above it at the same `x`.
+    /// Number of failures of other series above it, at the same `x`.
     rank: usize,
 }
 
@@ -220,10 +221,10 @@ pub(super) struct FailedLevel {
 const ARROW: f64 = 13.0;
 const FAILED_ROW: f64 = 13.0;
 
-/// Maximum share of the frame for failed levels.
+/// Maximum share of the frame that is reserved for failed levels.
 const LARGEST_HEAD: f64 = 0.4;
 
-/// The failed levels; failed levels of several series at the same `x` form a column.
+/// Failed levels. If several series fail at the same `x`, their markers form a column.
 pub(super) fn failures(lines: &[SeriesLine]) -> Vec<FailedLevel> {
     let mut failures: Vec<FailedLevel> = Vec::new();
     for line in lines {
@@ -236,14 +237,14 @@ pub(super) fn failures(lines: &[SeriesLine]) -> Vec<FailedLevel> {
     failures
 }
 
-/// The part of the frame above the errors that is reserved for failed levels.
+/// Share of the frame that is reserved above the errors for failed levels.
 pub(super) fn headroom(failures: &[FailedLevel]) -> f64 {
     let rows = failures.iter().map(|failure| failure.rank + 1).max();
     rows.map_or(0.0, |rows| (ARROW + FAILED_ROW * rows as f64) / FRAME_HEIGHT).min(LARGEST_HEAD)
 }
 
 impl FailedLevel {
-    /// The marker, below an arrow in the first row.
+    /// Draws the marker, and an arrow above the first row.
     pub(super) fn draw(&self, plot: &Plot) -> SvgElement {
         let top = plot.frame.y;
         let below = ARROW + 7.0 + FAILED_ROW * self.rank as f64;

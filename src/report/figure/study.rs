@@ -9,17 +9,17 @@ use crate::verify::{
     Axis, Convergence, ErrorField, InternalForce, LevelOutcome, SuiteOutcome, Verdict,
 };
 
-/// Maximum number of curves in one plot: a reader cannot distinguish more.
+/// Maximum number of curves in one plot, because a reader cannot distinguish more.
 const MOST_SERIES: usize = 6;
 
-/// Maximum number of panels in one figure of errors over bodies.
+/// Maximum number of panels in one error map.
 const MOST_PANELS: usize = 24;
 
-/// Maximum ratio of the highest to the lowest curve for a shared axis.
+/// Maximum ratio of the highest to the lowest curve for which plots share an axis.
 const MOST_ALIKE: f64 = 3.0;
 
-/// Convergence plots, split to stay readable; maps of the errors; the velocity histories of cases
-/// with an observed point; the requested energies.
+/// Convergence plots, split to remain readable; error maps; velocity histories of cases with an
+/// observed point; energies if requested.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures = convergence(outcome);
     figures.extend(error_maps(outcome));
@@ -34,8 +34,8 @@ fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &Convergence)> {
     studies.filter(|(_, study)| study.compared).collect()
 }
 
-/// The errors over the spacings, all on the same axes. A single level shows no order: it has a
-/// number in the table.
+/// Plots of errors over spacings, all with the same axes. Cases with a single level are excluded,
+/// because they have no order; a table has their numbers.
 fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut studies = studies(outcome);
     studies.retain(|(_, study)| study.levels.len() > 1);
@@ -53,7 +53,7 @@ fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
 /// Width and height of a thumbnail (px).
 const THUMBNAIL: (f64, f64) = (96.0, 40.0);
 
-/// The lines of all convergence plots of a suite, without axes and texts; `None` if there is
+/// The lines of all convergence plots of a suite, without axes and texts. `None` if there is
 /// nothing to draw.
 pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
     let line = |(name, study): &(&str, &Convergence)| {
@@ -90,7 +90,7 @@ pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
     Some(svg.render())
 }
 
-/// Index of a case in its suite, which determines its colour in all figures.
+/// Index of a case in its suite. It determines the colour of the case in all figures.
 fn look(outcome: &SuiteOutcome, case: &str) -> usize {
     outcome.cases.iter().position(|known| known.case == case).unwrap_or(0)
 }
@@ -116,7 +116,7 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> LogLogPlot 
     }
 }
 
-/// Label of the axis of spacings.
+/// Label of the spacing axis.
 fn spacing(axis: Axis) -> &'static str {
     match axis {
         Axis::Space => "cell size h (m)",
@@ -125,7 +125,7 @@ fn spacing(axis: Axis) -> &'static str {
     }
 }
 
-/// Maps of the error of each case on the finest level.
+/// Maps of the error of each case on its finest level.
 fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
     let field = |(name, study): (&str, &Convergence)| {
         let level = study.levels.last()?;
@@ -151,7 +151,7 @@ fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
     parts.map(figure).collect()
 }
 
-/// Observed order of a converging series, which is drawn as a reference slope.
+/// Observed order of a converging series, for a reference slope.
 fn order(study: &Convergence) -> Option<f64> {
     let order = study.judgement.order.filter(|_| study.verdict() == Verdict::Converging)?;
     Some(order.value)
@@ -180,7 +180,8 @@ fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> PlotPoint {
     PlotPoint { x: level.spacing, error, mark }
 }
 
-/// Exact and computed velocity at the observed label, on a coarse, the middle and the finest level.
+/// Exact and computed velocity at the observed label, on the coarsest, the middle and the finest
+/// level.
 fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
     let figure = |(name, study): (&str, &Convergence)| {
         let seen: Vec<_> = study
@@ -217,7 +218,7 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
     };
     let (files, plots): (Vec<String>, Vec<HistoryPlot>) =
         studies(outcome).into_iter().filter_map(figure).unzip();
-    // On a shared axis with a diverging method, the other curves would be flat.
+    // On an axis shared with a diverging method, other curves would look flat.
     let rises = || plots.iter().map(HistoryPlot::rise);
     let least = rises().fold(f64::INFINITY, f64::min);
     let alike = rises().fold(0.0, f64::max) <= MOST_ALIKE * least;
@@ -231,8 +232,8 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
     files.into_iter().zip(&plots).map(figure).collect()
 }
 
-/// The energy over time, relative to its initial value, on the finest level of every case whose
-/// energy rate is reported.
+/// Energy over time, relative to its initial value, on the finest level of each case with a
+/// reported energy rate.
 fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
     let curve = |(name, study): (&str, &Convergence)| {
         let account = &study.levels.last().filter(|_| study.rated)?.run.account;
@@ -253,7 +254,7 @@ fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
     Some(Figure { file, svg: plot.to_svg(), pgfplots: plot.to_pgfplots() })
 }
 
-/// The forces of an internal-force study.
+/// Plot of the forces of an internal-force study.
 pub(crate) fn forces(outcome: &SuiteOutcome) -> Option<Figure> {
     let mut curves = Vec::new();
     for case in &outcome.cases {

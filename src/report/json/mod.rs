@@ -1,4 +1,4 @@
-//! The report as JSON: an interface for programs.
+//! Reports as JSON, an interface for programs.
 
 pub(crate) mod schema;
 use crate::report::columns::cost::{json_columns as cost_columns, model, models};
@@ -10,7 +10,7 @@ use crate::verify::{
 };
 use serde_json::{Value, json};
 
-/// One entry for each problem; `work` is its unit.
+/// Rankings as JSON, one entry for each problem. `work` is the unit of work.
 pub(crate) fn rankings(rankings: &[Ranking], work: &str) -> Value {
     let ranking = |ranking: &Ranking| {
         let columns = cost_columns(ranking);
@@ -25,9 +25,9 @@ pub(crate) fn rankings(rankings: &[Ranking], work: &str) -> Value {
     rankings.iter().map(ranking).collect()
 }
 
-/// The diagnosis of one case: the paragraph of the text, and its runs.
+/// Diagnosis of one case as JSON: the paragraph of the text report, and the runs.
 pub fn diagnosis_json(found: &Diagnosis) -> Value {
-    // The ratio to an error that is not finite is undefined.
+    // If the reference error is not finite, the ratio to it is undefined.
     let finite = |ratio: f64| Some(ratio).filter(|ratio| ratio.is_finite());
     let run = |run: &ChangedRun| {
         json!({
@@ -58,8 +58,8 @@ pub fn diagnosis_json(found: &Diagnosis) -> Value {
     })
 }
 
-/// The document, indented, with a newline at its end. A suite has either been timed or searched for
-/// its best candidate.
+/// The JSON document, indented and with a final newline. Each suite has either been timed or
+/// searched for its best candidate.
 pub fn timed_json(timed: &[TimedSuite], best: &[(String, BestCandidate)]) -> String {
     let suites = timed.iter().map(suite).chain(best.iter().map(|(name, found)| {
         json!({"suite": name, "machine": null, "cases": [], "cost": [], "best_candidate": candidate(found)})

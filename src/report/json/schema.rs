@@ -1,4 +1,4 @@
-//! JSON Schema (draft 2020-12) of the document that `run --format json` prints. The keys and
+//! JSON Schema (draft 2020-12) of the document that `run --format json` prints. Keys and
 //! descriptions of rows come from their columns; tests compare the rest with documents.
 
 use crate::report::columns::{TableColumn, cost, force, gradient, level, spectrum, stability};
@@ -47,7 +47,7 @@ fn case() -> Value {
     let levels = row(&level::json_columns());
     let forces = row(&force::columns());
     let axes: Vec<&str> = Axis::ALL.iter().map(|axis| axis.name()).collect();
-    // Other studies, and cases that are not applicable, have results of their own.
+    // Other studies and cases that do not apply have other verdicts.
     let verdicts = json!({"anyOf": [{"enum": Verdict::ALL.map(Verdict::name)}, text()]});
     object([
         ("case", text(), "name of the case"),
@@ -169,7 +169,8 @@ fn ranking() -> Value {
     ])
 }
 
-/// A row of a table: the keys of its columns, `errors.rms` being the key `rms` of `errors`.
+/// Schema of a table row with the keys of its columns. `errors.rms` becomes the key `rms` of
+/// `errors`.
 fn row<R>(columns: &[TableColumn<'_, R>]) -> Value {
     let mut properties = Map::new();
     for column in columns.iter().filter(|column| !column.key.is_empty()) {
@@ -187,7 +188,7 @@ fn row<R>(columns: &[TableColumn<'_, R>]) -> Value {
     closed(properties)
 }
 
-/// An object with these keys, each with its schema and its meaning.
+/// Schema of an object with these keys, each with its schema and meaning.
 fn object<const N: usize>(keys: [(&str, Value, &str); N]) -> Value {
     let property = |(key, mut schema, about): (&str, Value, &str)| {
         schema["description"] = about.into();
@@ -196,7 +197,7 @@ fn object<const N: usize>(keys: [(&str, Value, &str); N]) -> Value {
     closed(keys.into_iter().map(property).collect())
 }
 
-/// An object with all of these keys, and no other.
+/// Schema of an object with all of these keys and no others.
 fn closed(properties: Map<String, Value>) -> Value {
     let keys: Vec<&String> = properties.keys().collect();
     let object = json!({"type": "object", "required": keys, "additionalProperties": false});

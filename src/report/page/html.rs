@@ -1,4 +1,4 @@
-//! HTML by construction: text enters escaped, tags are balanced because they are functions.
+//! Generates HTML that is correct by construction: text is escaped, and functions balance the tags.
 
 /// A part of a page with balanced tags and escaped text.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -28,7 +28,7 @@ impl Html {
         Self(format!("<{name}{open}>\n{inside}\n</{name}>"))
     }
 
-    /// An element that has no content.
+    /// A void element, which has no content.
     pub(super) fn void(name: &str, attributes: &[(&str, &str)]) -> Self {
         Self(format!("<{name}{}>", self::attributes(attributes)))
     }
@@ -68,7 +68,7 @@ fn attributes(attributes: &[(&str, &str)]) -> String {
     attributes.iter().map(attribute).collect()
 }
 
-/// Without markup; characters that HTML does not allow become the replacement character.
+/// Escapes markup. Characters that HTML does not allow become the replacement character.
 fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,12 +1,12 @@
-//! One HTML page for a run: everything that was found, in one file that needs no network.
+//! One HTML page for a run: the complete results in one file that works offline.
 //!
-//! It is readable without JavaScript; a small script only sorts and filters tables and unfolds the
-//! target of a link. Figures are inline SVG and share one style sheet for dark colours. The page
-//! does not depend on the time or the machine, except for the commit that a CI service names: equal
-//! runs give equal bytes.
+//! The page is readable without JavaScript. A small script only sorts and filters tables, and
+//! unfolds the target of a link. Figures are inline SVG and have a common style sheet for dark
+//! colours. The page does not depend on the time or the machine, except for the commit that a CI
+//! service states: equal runs give equal bytes.
 //!
-//! A section shows all that a suite reports: every figure of [`svg()`](super::svg()) and the whole
-//! of [`text()`](super::text()). What is added to either is on the page.
+//! A section contains everything that a suite reports: every figure of [`svg()`](super::svg()) and
+//! the complete [`text()`](super::text()). Additions to either also appear on the page.
 
 mod html;
 mod section;
@@ -27,12 +27,12 @@ use html::Html;
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
-/// Content security policy: the page may not fetch anything, also if a suite contains HTML.
+/// Content security policy: the page cannot load anything, even if a suite contains HTML.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
-/// The page, including the number of suites that could not be run. Names of suites must differ:
-/// they become the ids of sections.
+/// Creates the page, which states the number of suites that could not run. Names of suites must be
+/// unique, because they are used as ids of sections.
 pub fn page(sources: &[SuiteSource<'_>], refused: usize) -> String {
     let mut body = vec![
         head(sources, refused),
@@ -66,14 +66,14 @@ fn meta() -> Vec<Html> {
         Html::void("meta", &policy),
         meta("viewport", "width=device-width, initial-scale=1"),
         meta("color-scheme", "light dark"),
-        // Without this, browsers request an icon.
+        // Without this element, browsers request an icon.
         Html::void("link", &[("rel", "icon"), ("href", "data:,")]),
         Html::tag("title", &[], "MPM verification"),
         Html::tag("style", &[], Html::trusted(style_sheet() + STYLE)),
     ]
 }
 
-/// Headline: whether everything is as expected, and if not, the cases that are not.
+/// Headline: whether all results are as expected, and otherwise a list of the unexpected ones.
 fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
     let cases = || sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |c| (s, c)));
     let (all, failed) = (cases().count(), cases().filter(|(_, case)| !case.passed()).count());

@@ -1,4 +1,4 @@
-//! Section of a suite: text, verdicts, figures, the whole report, and the file itself.
+//! Section of a suite: text, verdicts, figures, the complete report, and the suite file.
 
 use super::html::Html;
 use super::tables::SuiteSource;
@@ -41,7 +41,7 @@ fn links(source: &SuiteSource<'_>) -> Html {
     Html::tag("p", &[("class", "links")], parts)
 }
 
-/// One row for each case; neighbours with the same expectation share its text.
+/// Table with one row for each case. Neighbouring rows with equal expectations share its cell.
 fn cases(outcome: &SuiteOutcome) -> Html {
     let judged = outcome.cases.iter().filter_map(CaseOutcome::convergence).find(|s| s.compared);
     let measured = outcome.cases.iter().any(|case| case.convergence().is_some());
@@ -92,7 +92,7 @@ fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Ht
     group.iter().enumerate().map(row).collect()
 }
 
-/// The text report, whole.
+/// The complete text report.
 fn report(outcome: &SuiteOutcome) -> Html {
     let text = Html::text(&text(outcome));
     folded(
@@ -108,17 +108,17 @@ fn file(source: &SuiteSource<'_>) -> Html {
     folded(&id, source.file, &format!("File {}", source.file), source.yaml.into())
 }
 
-/// Preformatted text that is folded at first.
+/// Preformatted text that is initially folded.
 fn folded(id: &str, words: &str, label: &str, text: Html) -> Html {
     let summary = Html::tag("summary", &[], words);
     let text = scrolled(label, Html::tag("pre", &[], text));
     Html::tag("details", &[("id", id)], vec![summary, text])
 }
 
-/// Smallest size of a text on the screen (px).
+/// Minimum text size on the screen (px).
 const LEGIBLE: f64 = 9.0;
 
-/// All figures, the scene first; `None` without figures.
+/// All figures, starting with the scene; `None` without figures.
 fn figures(source: &SuiteSource<'_>) -> Option<Html> {
     let outcome = source.outcome;
     let scene = source.sketch.map(|svg| {
@@ -134,7 +134,7 @@ fn figures(source: &SuiteSource<'_>) -> Option<Html> {
     (!figures.is_empty()).then(|| Html::block("div", &[("class", "figures")], &figures))
 }
 
-/// A figure; a wide one scrolls if its texts would become too small.
+/// A figure. Wide figures scroll if their texts would otherwise be too small.
 fn figure(id: &str, svg: &str, name: &str) -> Html {
     let caption = Html::tag("figcaption", &[("class", "muted")], name);
     let width = svg_width(svg).unwrap_or(WIDTH);
@@ -148,11 +148,12 @@ fn figure(id: &str, svg: &str, name: &str) -> Html {
     Html::block("figure", &[("id", id), ("class", "broad")], &[figure, caption])
 }
 
-/// A standalone SVG document as an element of the page, with `prefix` before each of its ids.
+/// Converts a standalone SVG document to an element of the page, with `prefix` before each of its
+/// ids.
 ///
-/// An `id` must be unique on the page, which contains many figures; references to an id get the
-/// same prefix. The page has the style sheet of figures once, so the copy in the document is
-/// removed. The style sheet of the page sets the size; the `viewBox` preserves the shape.
+/// Ids must be unique on a page with many figures. References to an id get the same prefix. The
+/// style sheet of figures is on the page once, so the copy in the document is removed. The style
+/// sheet of the page sets the size of a figure; the `viewBox` preserves its shape.
 pub(super) fn inline_svg(document: &str, prefix: &str) -> Html {
     let ids = ids(document);
     let mut inline = document.trim().to_owned();
@@ -173,13 +174,13 @@ pub(super) fn inline_svg(document: &str, prefix: &str) -> Html {
     Html::trusted(inline)
 }
 
-/// Width of an SVG document according to its `viewBox` (px).
+/// Width of an SVG document (px), from its `viewBox`.
 fn svg_width(document: &str) -> Option<f64> {
     let (_, view) = document.split_once(" viewBox=\"")?;
     view.split([' ', '"']).nth(2)?.parse().ok()
 }
 
-/// The ids of a document, without duplicates.
+/// Ids in a document, without duplicates.
 fn ids(document: &str) -> Vec<&str> {
     let mut ids: Vec<&str> = document
         .match_indices(" id=\"")

@@ -1,7 +1,7 @@
 //! Tables of the page: the matrix of problems and methods, and the verdicts of all cases.
 //!
-//! Cells that are numbers carry the plain value for the script that sorts; a cell without a value
-//! is sorted last in both directions.
+//! Number cells contain the plain value for the sorting script. Cells without a value are sorted
+//! last in both directions.
 
 use super::html::Html;
 use crate::report::columns::scientific;
@@ -12,9 +12,9 @@ use crate::verify::{CaseOutcome, SuiteOutcome};
 /// The outcome of a suite, with its source file.
 #[derive(Debug, Clone, Copy)]
 pub struct SuiteSource<'a> {
-    /// Results.
+    /// Results of the suite.
     pub outcome: &'a SuiteOutcome,
-    /// Name of the file, without folders: these are the machine's.
+    /// Name of the file, without its folders, which depend on the machine.
     pub file: &'a str,
     /// Text of the file.
     pub yaml: &'a str,
@@ -22,7 +22,7 @@ pub struct SuiteSource<'a> {
     pub sketch: Option<&'a str>,
 }
 
-/// Cases with the expected order, for each group of suites and each basis.
+/// Table of the cases with the expected order, for each group of suites and each basis.
 pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
     let head = |name: &str| Html::tag("th", &[("scope", "col"), ("class", "word")], name);
     let heads: Vec<Html> = ["Topic"].iter().chain(&COLUMNS).map(|name| head(name)).collect();
@@ -51,7 +51,8 @@ pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
     )
 }
 
-/// The number of cases with the expected order; a colour for all, most, some and none.
+/// Cell with the number of cases with the expected order. All, most, some and none have different
+/// colours.
 fn share((kept, all): (usize, usize)) -> Html {
     if all == 0 {
         return Html::tag("td", &[], "-");
@@ -65,18 +66,18 @@ fn share((kept, all): (usize, usize)) -> Html {
     coloured(class, format!("{kept} of {all}"))
 }
 
-/// A cell with the colour of a class. Only the text is coloured: a background would hide the shadow
-/// that shows that a table continues.
+/// A cell with the colour of a class. Only the text is coloured, because a background would hide
+/// the shadow that indicates more columns.
 fn coloured(class: FindingClass, text: String) -> Html {
     Html::tag("td", &[], Html::tag("span", &[("class", class.name())], text))
 }
 
-/// A name as part of an id.
+/// Converts a name for use in an id.
 fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_whitespace() { '_' } else { c }).collect()
 }
 
-/// Every suite with its results, below the name of its group.
+/// Table of all suites with their results, below the names of their groups.
 pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
     let head = |name: &str| Html::tag("th", &[("scope", "col"), ("class", "word")], name);
     let heads = Html::tag(
@@ -103,7 +104,7 @@ pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
     Html::block("nav", &[("id", "suites"), ("aria-label", "Suites")], &parts)
 }
 
-/// The legend, with the names of findings as code.
+/// Legend, with the names of findings formatted as code.
 fn legend() -> Html {
     let part = |(k, part): (usize, &str)| match k % 2 {
         0 => Html::text(part),
@@ -112,7 +113,7 @@ fn legend() -> Html {
     LEGEND.split('`').enumerate().map(part).collect()
 }
 
-/// Meaning of the colours, which repeat the texts of the cells.
+/// Meanings of the colours, which repeat the texts of the cells.
 fn key() -> Html {
     let item = |class: FindingClass| Html::tag("span", &[("class", class.name())], class.meaning());
     Html::tag("p", &[("class", "key")], FindingClass::SHOWN.map(item).to_vec())
@@ -137,7 +138,7 @@ fn suite_row(source: &SuiteSource<'_>) -> Html {
     Html::tag("tr", &[], cells)
 }
 
-/// Headings of the table of verdicts, and whether the cells of the column are numbers.
+/// Headings of the verdict table, and whether the column contains numbers.
 const VERDICT_COLUMNS: [(&str, bool); 8] = [
     ("Suite", false),
     ("Case", false),
@@ -149,7 +150,7 @@ const VERDICT_COLUMNS: [(&str, bool); 8] = [
     ("Expected", false),
 ];
 
-/// The table of all verdicts: one row for each case of each suite.
+/// Table of all verdicts, with one row for each case of each suite.
 pub(super) fn verdicts(sources: &[SuiteSource<'_>]) -> Html {
     let cases = sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |case| (s, case)));
     let rows: Vec<Html> = cases.map(|(source, case)| case_row(source, case)).collect();
@@ -196,14 +197,14 @@ fn case_row(source: &SuiteSource<'_>, case: &CaseOutcome) -> Html {
     )
 }
 
-/// A region that scrolls separately if it is wider than the screen, also by keyboard.
+/// A region that scrolls on its own if it is wider than the screen, also with the keyboard.
 pub(super) fn scrolled(label: &str, content: Html) -> Html {
     let attributes =
         [("class", "wide"), ("role", "region"), ("tabindex", "0"), ("aria-label", label)];
     Html::tag("div", &attributes, content)
 }
 
-/// Whether the case is as expected: as text, not by colour alone.
+/// Whether the result of a case is as expected, as text and not only by colour.
 pub(super) fn result(case: &CaseOutcome) -> Html {
     match (case.result(), case.passed()) {
         (word, true) => Html::tag("span", &[("class", "ok")], word),
@@ -211,8 +212,8 @@ pub(super) fn result(case: &CaseOutcome) -> Html {
     }
 }
 
-/// Cells of the order with its interval, of the judged error on the finest level and of its
-/// transfers.
+/// Cells with the order and its interval, and with the judged error and the transfers on the finest
+/// level.
 pub(super) fn figure_cells(case: &CaseOutcome) -> [Html; 3] {
     let study = case.convergence();
     let order = study.and_then(|study| study.judgement.order);
@@ -236,17 +237,17 @@ fn number(figure: Option<(f64, String)>) -> Html {
     Html::tag("td", &[("class", "number"), ("data-value", &value)], text)
 }
 
-/// The id of a suite's section.
+/// Id of a suite's section.
 pub(super) fn suite_id(outcome: &SuiteOutcome) -> String {
     format!("suite-{}", outcome.suite)
 }
 
-/// The id of a case's row in the section of its suite. Names of suites have no dot.
+/// Id of a case's row in the section of its suite. Names of suites contain no dot.
 pub(super) fn case_id(outcome: &SuiteOutcome, case: &CaseOutcome) -> String {
     format!("case-{}.{}", outcome.suite, plain(&case.case))
 }
 
-/// A link to the row of a case, with the suite's name or without.
+/// A link to the row of a case, with or without the name of the suite.
 pub(super) fn case_link(outcome: &SuiteOutcome, case: &CaseOutcome, full: bool) -> Html {
     let name = if full { format!("{}::{}", outcome.suite, case.case) } else { case.case.clone() };
     Html::tag("a", &[("href", &format!("#{}", case_id(outcome, case)))], name)

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 const HOSTILE: &str = "</pre></script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&lt;";
 
-/// An internal-force study in which every text is `words`.
+/// An internal-force study with `words` as every text.
 fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
     let word = || words.to_owned();
     let row = |position| ForceRow { position, left: 1, right: 2, force: position, predicted: 0.5 };
@@ -42,7 +42,7 @@ fn of(outcomes: &[SuiteOutcome], yaml: &str) -> String {
     page(&outcomes.iter().map(source).collect::<Vec<_>>(), 0)
 }
 
-/// Every start tag with its attributes; fails unless each is closed correctly.
+/// All start tags with their attributes. Fails unless each tag is closed correctly.
 fn tags(page: &str) -> Vec<(String, String)> {
     let (mut open, mut seen): (Vec<String>, _) = (Vec::new(), Vec::new());
     let mut rest = page.strip_prefix("<!DOCTYPE html>").expect("a document type");
@@ -68,7 +68,7 @@ fn tags(page: &str) -> Vec<(String, String)> {
     seen
 }
 
-/// Values of an attribute, in order.
+/// Values of an attribute, in the order of the page.
 fn values<'a>(page: &'a str, name: &str) -> Vec<&'a str> {
     let key = format!(" {name}=\"");
     let value = |(at, _)| page[at + key.len()..].split('"').next();
@@ -102,8 +102,8 @@ fn ids_are_unique_and_links_lead_somewhere() {
     }
 }
 
-/// Cost tables and work-precision diagrams of a suite appear on the page: every line of the text
-/// report and every figure does.
+/// The page contains every line of the text report and every figure, for example cost tables and
+/// work-precision diagrams.
 #[test]
 fn whatever_a_suite_reports_is_on_the_page() {
     let outcome = outcome("a", "words & more", &[]);
@@ -121,7 +121,7 @@ fn whatever_a_suite_reports_is_on_the_page() {
     }
 }
 
-/// Version, title, source, fingerprint and reasons: the circumstances of a result.
+/// The page states version, title, source, fingerprint and reasons.
 #[test]
 fn the_page_says_what_was_run() {
     let mut outcome = outcome("a", " b", &[]);
@@ -164,7 +164,7 @@ fn nothing_is_loaded() {
     assert!(!STYLE.contains("url(") && !STYLE.contains("@import") && !SCRIPT.contains("fetch"));
 }
 
-/// A colour of the page by its name, light and dark.
+/// The light and the dark variant of a colour of the page.
 fn colour(name: &str) -> [&'static str; 2] {
     let key = format!("--{name}:light-dark(");
     let (_, value) = STYLE.split_once(&key).expect(name);
@@ -182,7 +182,7 @@ fn texts_can_be_read(
     }
 }
 
-/// Browsers without `light-dark()` show the light colours.
+/// Browsers without support for `light-dark()` use the light colours.
 #[test]
 fn light_colours_are_the_fallback() {
     for name in ["page", "raised", "rule", "ink", "muted", "link", "ok", "bad"] {

@@ -1,4 +1,4 @@
-//! The report as JSON: an interface for programs.
+//! Reports as JSON, an interface for programs.
 //!
 //! One document:
 //!
@@ -34,26 +34,32 @@
 //! ```
 //!
 //! `cost` ranks the methods of each problem of the suite, the cheapest first. Errors are divided by
-//! `size`. `reached` has the work at each of the `targets`, and its ratio `times` to the least
-//! work. `pareto_front` lists the levels that no other level dominates. `exponent` is k in work ~
-//! error^k.
+//! `size`. `reached` contains the work for each of the `targets`, and the ratio `times` of this
+//! work to the least work. `pareto_front` lists the levels that no other level dominates.
+//! `exponent` is k in work ~ error^k.
 //!
-//! `null` marks a missing value; numbers that are not finite are the strings `"nan"`, `"inf"`,
-//! `"-inf"`. Internal-force studies have no levels; their `forces` are a list of
+//! `null` marks a missing value. Numbers that are not finite are the strings `"nan"`, `"inf"`,
+//! `"-inf"`.
+//!
+//! Internal-force studies have no levels; their `forces` are a list of
 //! `{"position", "n_left", "n_right", "force", "predicted"}`. Stability studies have no levels
-//! either; their `stability` is `{"swept", "sought", "rows"}`. Each row has the `value` of the
+//! either; their `stability` is `{"swept", "sought", "rows"}`. Each row contains the `value` of the
 //! swept parameter and either the `run`, with its verdict and figures, or the limit of the sought
 //! parameter: `predicted`, `observed` (each with `at`, or `above` or `below` the range) and the
-//! runs that `confirmed` it. `axis` is the refined axis (`space`, `time`, `particles`) and
-//! `spacing` the spacing on this axis; there is no formal order for `particles`. `energy_rate` is d
-//! ln E/dt (1/s), and both ends of its 95 % interval. For a law without an energy the drift of
-//! `energy` is `"nan"`. `stable_time_step` (s) is present if the step is automatic, or if the
-//! stated step is longer. `profile` is the cost of one step on the coarsest level, if the subject
-//! reports it (MPM): its `passes` in their order, the particles that each part of them `visits`,
-//! and the `columns` of memory, with the `bytes` of one entry. `floor` has the error of the finest
-//! level with another spacing halved, if that was run. Its `cause` is one of the axes, or `none`,
-//! or null if it could not be determined. Keys may be added; no key is renamed or removed without a
-//! new major version. `docs/columns.md` lists the keys of rows.
+//! runs that `confirmed` it.
+//!
+//! `axis` is the refined axis (`space`, `time`, `particles`) and `spacing` the spacing on this
+//! axis. There is no formal order for `particles`. `energy_rate` is d ln E/dt (1/s), followed by
+//! both ends of its 95 % interval. For a law without an energy the drift of `energy` is `"nan"`.
+//! `stable_time_step` (s) is present if the step is automatic or if the stated step is longer.
+//! `profile` is the cost of one step on the coarsest level, if the subject reports it (MPM): its
+//! `passes` in order, the particles that each part of them `visits`, and the `columns` of memory,
+//! with the `bytes` of one entry. `floor` contains the error of the finest level with half of
+//! another spacing, if this level was run. Its `cause` is one of the axes, or `none`, or null if it
+//! could not be determined.
+//!
+//! Keys may be added, but are renamed or removed only in a new major version. `docs/columns.md`
+//! lists the keys of rows.
 
 use crate::report::json::rankings;
 use crate::report::study::KINDS;
@@ -62,14 +68,14 @@ use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, Exemption, SuiteOutcome};
 use serde_json::{Value, json};
 
-/// The document for `outcomes`, indented, with a newline at its end.
+/// Creates the document for `outcomes`, indented and with a final newline.
 pub fn json(outcomes: &[SuiteOutcome]) -> String {
     let suites: Vec<Value> = outcomes.iter().map(suite).collect();
     let version = env!("CARGO_PKG_VERSION");
     format!("{:#}\n", json!({ "version": version, "commit": commit(), "suites": suites }))
 }
 
-/// The tested commit, if a CI service names it.
+/// The tested commit, if a CI service states it.
 pub(crate) fn commit() -> Option<String> {
     let said = |name: &&str| std::env::var(name).ok().filter(|commit| !commit.is_empty());
     ["GITHUB_SHA", "CI_COMMIT_SHA"].iter().find_map(said)
@@ -110,7 +116,7 @@ pub(crate) fn case(outcome: &CaseOutcome) -> Value {
     members.into()
 }
 
-/// Cost of a step.
+/// Cost of a step as JSON.
 pub fn profile(profile: &Profile) -> Value {
     let visit = |(part, particles): &(&str, u64)| json!({"part": part, "particles": particles});
     let column = |column: &ColumnSize| {

@@ -1,4 +1,4 @@
-//! All suites at a glance: the matrix of problems and methods, and a line for each case.
+//! Overview of all suites: the matrix of problems and methods, and one line for each case.
 
 use super::verdicts;
 use crate::report::matrix::{COLUMNS, LEGEND, by_group, failures, findings};
@@ -6,7 +6,7 @@ use crate::report::text::prose::{paragraph_lines, row};
 use crate::report::text::table::Table;
 use crate::verify::{CaseOutcome, Convergence, SuiteOutcome};
 
-/// Widths of the columns in the overview of all suites, which is a snapshot.
+/// Column widths in the overview of all suites, which is stored as a snapshot.
 const WIDTHS: [(&str, usize); 16] = [
     ("suite", 31),
     ("linear", BASIS),
@@ -26,10 +26,10 @@ const WIDTHS: [(&str, usize); 16] = [
     ("observed", 66),
 ];
 
-/// Width of the orders and verdicts of a basis.
+/// Width of a column with the orders and verdicts of a basis.
 const BASIS: usize = 15;
 
-/// Suites at a glance: the result, and the matrix of problems and methods.
+/// Short overview of suites: the result, and the matrix of problems and methods.
 pub fn glance(outcomes: &[SuiteOutcome]) -> String {
     at_a_glance(outcomes, Table::lines)
 }
@@ -62,8 +62,8 @@ fn at_a_glance(outcomes: &[SuiteOutcome], lines_of: fn(&Table) -> Vec<String>) -
     lines.join("\n") + "\n"
 }
 
-/// The overview of suites: a summary, then a line for each case, in groups. Columns have fixed
-/// widths, so that a changed case changes one line.
+/// Overview of suites: a summary, and one line for each case, in groups. Columns have fixed widths,
+/// so that a change of a case changes only one line.
 pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     let fixed = |table: &Table| table.lines_of_widths(&WIDTHS);
     let mut lines = vec!["Overview of all suites".to_owned(), String::new()];
@@ -79,7 +79,7 @@ pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The share of 95 % intervals of limits that contain the exact value, and of refused series.
+/// Share of 95 % intervals of limits that contain the exact value, and number of refused series.
 fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
     let studies: Vec<&Convergence> = cases.iter().filter_map(|case| case.convergence()).collect();
     let results = studies.iter().filter_map(|study| study.observed_limit);
@@ -96,12 +96,12 @@ fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
     })
 }
 
-/// Suites by group, in the order of names.
+/// Suites by group, in alphabetical order of the groups.
 fn groups(outcomes: &[SuiteOutcome]) -> Vec<(&str, Vec<&SuiteOutcome>)> {
     by_group(outcomes, |suite| suite)
 }
 
-/// The matrix: headings, then a row for each suite in the order of the groups.
+/// The matrix: headings, and one row for each suite in group order.
 fn matrix(outcomes: &[SuiteOutcome]) -> Table {
     let headings = ["suite"].iter().chain(&COLUMNS).map(|heading| (*heading).to_owned());
     let row = |suite: &&SuiteOutcome| {
@@ -112,7 +112,7 @@ fn matrix(outcomes: &[SuiteOutcome]) -> Table {
     Table::of_cells(headings.collect(), rows).without_empty_columns()
 }
 
-/// Lines of a table, with the names of groups above their suites.
+/// Lines of a table, with the name of each group above its suites.
 fn grouped(lines: &mut Vec<String>, outcomes: &[SuiteOutcome], table: Vec<String>) {
     let mut table = table.into_iter();
     lines.push(String::new());

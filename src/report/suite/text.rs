@@ -1,7 +1,7 @@
-//! The report as text: aligned tables that read well in a diff.
+//! Reports as text: aligned tables that are readable in a diff.
 //!
-//! Errors have four significant digits, orders two decimals; counters are exact. The report does
-//! not depend on the machine.
+//! Errors have four significant digits and orders two decimals; counters are exact. Reports do not
+//! depend on the machine.
 
 use super::verdicts;
 use crate::report::columns::TableColumn;
@@ -12,7 +12,7 @@ use crate::report::text::table::Table;
 use crate::report::text::table::shared;
 use crate::verify::{CaseOutcome, SuiteOutcome};
 
-/// The whole report of a suite.
+/// The complete report of a suite.
 pub fn text(outcome: &SuiteOutcome) -> String {
     let mut lines = vec![format!("{}: {}", outcome.suite, outcome.title), String::new()];
     let rankings = crate::verify::by_transfers(&outcome.cases);
@@ -31,9 +31,9 @@ pub fn text(outcome: &SuiteOutcome) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The statement of the problem: parameters and functions in rows, all else in one paragraph.
+/// Statement of the problem: parameters and functions in rows, the rest in one paragraph.
 fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
-    // The heading of the errors says what is judged.
+    // The heading of the errors states the judged quantity.
     let is_told = |(key, value): &&(String, String)| {
         key == "judged" || (key == "crossing levels" && value == "counted")
     };
@@ -48,7 +48,7 @@ fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
     row(lines, "problem", &others.join("; "));
 }
 
-/// The report of one case, for failing tests.
+/// Report of one case, for failing tests.
 pub fn case(outcome: &CaseOutcome) -> String {
     let mut lines = Vec::new();
     let cases = std::slice::from_ref(outcome);
@@ -61,7 +61,7 @@ pub fn case(outcome: &CaseOutcome) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Settings that all cases share; the names of the cases show the differences.
+/// Settings common to all cases. The names of the cases contain the differences.
 fn in_common(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let Some((first, others)) = cases.split_first() else { return };
     let is_common =
@@ -82,7 +82,7 @@ fn in_common(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     }
 }
 
-/// The first sentence of a text; the file of the suite has the whole text.
+/// The first sentence of a text. The suite file contains the complete text.
 fn first_sentence(text: &str) -> &str {
     let ends = |(at, _): &(usize, &str)| {
         text[at + 2..].starts_with(char::is_uppercase) && !text[..*at].ends_with(char::is_uppercase)
@@ -90,7 +90,7 @@ fn first_sentence(text: &str) -> &str {
     text.match_indices(". ").find(ends).map_or(text, |(at, _)| &text[..=at])
 }
 
-/// One line for each case: the table that `run` prints.
+/// Table with one line for each case, as printed by `run`.
 pub fn summary(outcomes: &[SuiteOutcome]) -> String {
     let rows = outcomes.iter().flat_map(|suite| suite.cases.iter().map(move |case| (suite, case)));
     Table::new(&verdicts(), rows).lines().join("\n") + "\n"

@@ -1,4 +1,4 @@
-//! The head of a report: results and expectations of each case.
+//! First part of a report: results and expectations of each case.
 
 use crate::report::columns::{TableColumn, decimals, scientific};
 use crate::report::columns::{distinct, grouped};
@@ -9,7 +9,7 @@ use crate::report::text::table::Table;
 use crate::report::text::table::together;
 use crate::verify::{CaseOutcome, Ranking};
 
-/// Target error whose cost is shown next to each verdict.
+/// Target error for the cost next to each verdict.
 const TARGET: f64 = 1e-3;
 
 /// Verdicts, unmet expectations, expectations with their reasons, and remarks.
@@ -34,7 +34,7 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
     remarks(lines, cases);
 }
 
-/// The number of cases with the expected result, as text.
+/// Text with the number of cases with the expected result.
 pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
     let count = |word: &str| cases.iter().filter(|case| case.result() == word).count();
     let (expected, failing) =
@@ -70,14 +70,14 @@ pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
     parts.join("; ")
 }
 
-/// The table of verdicts, a line for each case.
+/// Table of verdicts, with one line for each case.
 pub(crate) fn table(cases: &[CaseOutcome], rankings: &[Ranking]) -> Table {
     Table::new(&columns(rankings, &[]), cases).without_empty_columns()
 }
 
 type CaseColumn<'a> = TableColumn<'a, CaseOutcome>;
 
-/// Columns of verdicts, with letters for the expectations.
+/// Columns of the verdict table, with letters that refer to expectations.
 fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColumn<'a>; 10] {
     let order = |case: &CaseOutcome| case.convergence()?.judgement.order;
     [
@@ -114,7 +114,7 @@ fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColu
     ]
 }
 
-/// The work of a case for the target error, over that of the cheapest case.
+/// Ratio of a case's work for the target error to that of the cheapest case.
 fn cost(case: &CaseOutcome, rankings: &[Ranking]) -> Option<f64> {
     let of_case = |ranking: &Ranking| {
         let k = ranking.targets.iter().position(|target| *target == TARGET)?;
@@ -131,12 +131,12 @@ fn outcome(case: &CaseOutcome) -> &'static str {
     }
 }
 
-/// The different expectations of a suite, in the order of its cases.
+/// Distinct expectations of a suite, in the order of its cases.
 fn expectations(cases: &[CaseOutcome]) -> Vec<String> {
     distinct(cases.iter().map(CaseOutcome::expectation))
 }
 
-/// `a` to `z`, then `aa`.
+/// Letter of an expectation: `a` to `z`, then `aa` and so on.
 fn letter(k: usize) -> String {
     let last = char::from(b'a' + (k % 26) as u8);
     if k < 26 { last.to_string() } else { format!("{}{last}", letter(k / 26 - 1)) }

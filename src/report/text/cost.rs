@@ -1,24 +1,24 @@
-//! Tables of cost: the work of each method for a target error and for one more digit, compared with
-//! theory. Also the reports of timed suites, whose figures depend on the machine and are not in
+//! Cost tables: the work of each method for a target error and for one more digit, compared with
+//! theory. Also reports of timed suites, whose figures depend on the machine and are not in
 //! snapshots.
 //!
-//! In snapshots work is counted in particle-node transfers, which are the same on every machine.
+//! Snapshots count work in particle-node transfers, which are equal on all machines.
 
 use super::table::Table;
 use crate::report::columns::{TableColumn, cost as columns, short, timed_level};
 use crate::verify::{BestCandidate, Interval, Machine, Model, Ranked, Ranking, TimedSuite};
 
-/// The unit of counted work.
+/// Unit of counted work.
 const TRANSFERS: &str = "particle-node transfers";
 
-/// The tables of a ranking; `work` is the unit of work.
+/// Tables of a ranking. `work` is the unit of work.
 pub fn cost(ranking: &Ranking, work: &str) -> String {
     let mut lines = vec![format!("== cost, {} ==", ranking.problem)];
     lines.push(format!("  {:18}{}", "error", relative(ranking)));
     let how = "interpolated between neighbouring levels, never extrapolated";
     lines.push(format!("  {:18}{work}, {how}", "work"));
     lines.push(String::new());
-    // Targets that no method reaches have no column.
+    // Targets that no method reaches get no column.
     let work = Table::new(&columns::methods(ranking), &ranking.rows).without_empty_columns();
     lines.extend(work.lines());
     let exponents = ranking.rows.iter().filter(|row| row.exponent.is_some());
@@ -30,7 +30,7 @@ pub fn cost(ranking: &Ranking, work: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The cheapest method for each target that is reached, in one line.
+/// The cheapest method for each target that a method reaches, in one line.
 pub(crate) fn cheapest(ranking: &Ranking) -> Option<String> {
     let best = |(k, target): (usize, &f64)| {
         let reached = |row: &&Ranked| row.times[k].is_some_and(|times| times <= 1.0);
@@ -43,7 +43,7 @@ pub(crate) fn cheapest(ranking: &Ranking) -> Option<String> {
         .then(|| format!("{} {TRANSFERS}; errors {}", best.join("; "), relative(ranking)))
 }
 
-/// The scale of the errors, as text.
+/// Text about the scale of the errors.
 fn relative(ranking: &Ranking) -> String {
     if ranking.size == 1.0 {
         return "as judged, relative to the scale of the suite".to_owned();
@@ -51,7 +51,7 @@ fn relative(ranking: &Ranking) -> String {
     format!("relative to {}, the largest exact value", short(ranking.size))
 }
 
-/// The report of a suite whose levels have been timed.
+/// Report of a timed suite.
 pub fn timed(timed: &TimedSuite) -> String {
     let mut text = format!("{}: {}\n\n", timed.outcome.suite, timed.outcome.title);
     text += &machine(&timed.machine);
@@ -63,7 +63,7 @@ pub fn timed(timed: &TimedSuite) -> String {
     let (by_seconds, by_transfers) = (timed.by_seconds(), timed.by_transfers());
     for (seconds, transfers) in by_seconds.iter().zip(&by_transfers) {
         text += &format!("\n{}", cost(seconds, "seconds"));
-        // An external solver has no counted passes.
+        // External solvers do not count transfers.
         if timed.levels.iter().flatten().any(|(load, _)| load.transfers > 0.0) {
             text += &format!("\n{}", cost(transfers, TRANSFERS));
         }
@@ -84,7 +84,7 @@ fn lines(lines: &[String]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Cores, load, and noise.
+/// Cores, load and noise of the machine.
 pub(crate) fn machine(machine: &Machine) -> String {
     let cores = if machine.cores == 1 { "core" } else { "cores" };
     let load = machine.load.map_or("load not known".to_owned(), |[before, after]| {
@@ -101,14 +101,14 @@ pub(crate) fn machine(machine: &Machine) -> String {
         + &row("noise", &format!("{waited}{noise}"))
 }
 
-/// Every level of every case: its error and its time.
+/// Table of the error and the time of every level of every case.
 fn levels(timed: &TimedSuite) -> Vec<String> {
     let cases = 0..timed.outcome.cases.len();
     let rows = cases.flat_map(|case| timed_level::rows(timed, case));
     Table::new(&timed_level::columns(), rows).without_empty_columns().lines()
 }
 
-/// The cost model of each case, and how well it predicts the finest level before that runs.
+/// Table of the cost model of each case, and of its prediction error on the finest level.
 fn models(timed: &TimedSuite) -> Option<Vec<String>> {
     let cases = timed.outcome.cases.iter().enumerate();
     let rows = cases.filter_map(|(index, case)| {
@@ -119,7 +119,7 @@ fn models(timed: &TimedSuite) -> Option<Vec<String>> {
     (!table.is_empty()).then(|| table.lines())
 }
 
-/// The best setting within a budget.
+/// Report of the best setting within a budget.
 pub fn best_candidate(suite: &str, best: &BestCandidate) -> String {
     let BestCandidate { budget, case, cells, dt, ppc, seconds, error, .. } = best;
     let mut text = format!("{suite}: the most accurate setting predicted within {budget} s\n\n");

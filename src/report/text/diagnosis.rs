@@ -1,4 +1,4 @@
-//! A diagnosis as text: the causes, the evidence and the remedies.
+//! Diagnoses as text: causes, evidence and remedies.
 
 use super::prose::{paragraph_lines, row};
 use super::table::Table;
@@ -6,7 +6,7 @@ use crate::report::columns::TableColumn;
 
 use crate::verify::{Cause, ChangedRun, Diagnosis, Evidence, Interval, Verdict};
 
-/// The diagnosis of one case: a paragraph, and a table of its runs.
+/// Diagnosis of one case: a paragraph, and a table of the runs.
 pub fn diagnosis(found: &Diagnosis) -> String {
     let mut lines = vec![format!("== {} ==", found.case)];
     paragraph_lines(&mut lines, &paragraph(found));
@@ -20,7 +20,7 @@ pub fn diagnosis(found: &Diagnosis) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Verdict, causes, evidence and remedies.
+/// Paragraph with verdict, causes, evidence and remedies.
 pub(crate) fn paragraph(found: &Diagnosis) -> String {
     let judgement = &found.judgement;
     if found.is_sound() {
@@ -58,7 +58,7 @@ pub(crate) fn paragraph(found: &Diagnosis) -> String {
     sentences.join(" ")
 }
 
-/// Levels that are run again, from the coarsest to the finest.
+/// Range of the repeated levels, from the coarsest to the finest.
 fn range(found: &Diagnosis) -> String {
     match (found.levels.first(), found.levels.last()) {
         (Some(first), Some(last)) => format!("{first} to {last}"),
@@ -70,7 +70,7 @@ fn order(order: Option<Interval>) -> String {
     order.map_or("not determined".to_owned(), |order| order.shown())
 }
 
-/// Effect of the run that shows the cause.
+/// Effect of the run that reveals the cause.
 fn evidence_of_run(found: &Diagnosis, run: &ChangedRun, evidence: Evidence) -> String {
     let (change, with, before) = (&run.change, order(run.order), order(found.finest.order));
     let (range, error) = (range(found), error_of_run(found, run));
@@ -88,7 +88,7 @@ fn evidence_of_run(found: &Diagnosis, run: &ChangedRun, evidence: Evidence) -> S
     }
 }
 
-/// The finest error of a changed run, compared with that of the case.
+/// Finest error of a changed run, compared with that of the unchanged case.
 fn error_of_run(found: &Diagnosis, run: &ChangedRun) -> String {
     let (before, after) = (found.finest_error, run.error);
     if !run.ratio.is_finite() {
@@ -104,7 +104,7 @@ fn error_of_run(found: &Diagnosis, run: &ChangedRun) -> String {
     format!("the finest error is {after:.3e}, {share} {before:.3e}{relative}")
 }
 
-/// A positive ratio as text before `of ...`.
+/// Text of a positive ratio, to be followed by the reference value.
 fn share(ratio: f64) -> String {
     if ratio < 1e-4 {
         format!("{ratio:.0e} of")
@@ -115,7 +115,7 @@ fn share(ratio: f64) -> String {
     }
 }
 
-/// The remedy of a cause, or the reason why there is none.
+/// Remedy of a cause, or the reason why `check` rejects it.
 fn remedy(cause: &Cause<'_>) -> Option<String> {
     let label = match cause {
         Cause::Run(_, Evidence::Raised | Evidence::Lowered) => "Partial remedy",

@@ -1,15 +1,15 @@
-//! Has a report drifted? Two texts compared number by number.
+//! Detects drift of a report: compares two texts number by number.
 //!
-//! Words must be equal. Whole numbers (counters) must be equal. Decimal numbers may differ by
-//! [`RELATIVE`], or by one unit in the last printed digit; a number that is not finite equals
-//! nothing, not even itself. So a snapshot is not changed by the last bits of another platform, and
-//! shows any relevant change.
+//! Text and whole numbers (counters) must be equal. Decimal numbers may differ by [`RELATIVE`], or
+//! by one unit in the last printed digit. A number that is not finite equals nothing, not even
+//! itself. So the last bits of another platform do not change a snapshot, but any relevant change
+//! does.
 
-/// Largest relative difference of two decimal numbers that count as equal.
+/// Maximum relative difference between decimal numbers that count as equal.
 pub const RELATIVE: f64 = 1e-3;
 
-/// Whether `new` and `old` are equal up to tolerances. Runs of spaces count as one: a column may
-/// become wider.
+/// Whether `new` and `old` are equal within tolerances. Several spaces count as one, because a
+/// column may become wider.
 pub fn same(old: &str, new: &str) -> bool {
     let (old, new) = (old.trim_end(), new.trim_end());
     old.lines().count() == new.lines().count()
@@ -34,7 +34,7 @@ fn same_token(old: &str, new: &str) -> bool {
     }
 }
 
-/// Splits a line into numbers and everything between them.
+/// Splits a line into numbers and the texts between them.
 fn tokens(line: &str) -> Vec<&str> {
     let edge = |c: char| c.is_whitespace() || "[](),;:=".contains(c);
     let mut tokens = Vec::new();
@@ -59,8 +59,8 @@ fn is_decimal(token: &str) -> bool {
     token.contains(['.', 'e'])
 }
 
-/// One unit in the last printed place: 0.01 for `1.99`, 1e-8 for `1.235e-05`. In scientific
-/// notation a zero is exact: every other number would have been printed.
+/// One unit in the last printed place: 0.01 for `1.99`, 1e-8 for `1.235e-05`. A zero in scientific
+/// notation is exact, because any other number would be printed differently.
 fn last_place(token: &str) -> f64 {
     if token.contains('e') && number(token) == Some(0.0) {
         return 0.0;

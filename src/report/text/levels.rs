@@ -1,4 +1,4 @@
-//! Tables of convergence studies: a row for each case, a column for each level.
+//! Tables of convergence studies, with a row for each case and a column for each level.
 
 use super::prose::row;
 use super::table::Table;
@@ -10,7 +10,7 @@ use crate::verify::{
     Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, StepKind, format_number,
 };
 
-/// Errors with their orders, figures of the finest levels, drifts, rates and limits.
+/// Tables of errors with their orders, figures of the finest levels, drifts, rates and limits.
 pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     settings(lines, studies);
     for alike in by_levels(studies) {
@@ -24,16 +24,17 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     observed_limits(lines, studies);
 }
 
-/// The levels, once for all cases with the same levels.
+/// The levels, listed once for all cases that have them in common.
 fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     for (levels, names) in shared(studies.iter().map(|(name, study)| (*name, setting(study)))) {
         row(lines, "levels", &format!("{levels}{names}"));
     }
 }
 
-/// `8, 16, 32 cells; h = 0.125 ... 0.03125 m; dt = ... s; 4 ppc; 32 ... 128 particles; ... steps`.
+/// Levels as text: `8, 16, 32 cells; h = 0.125 ... 0.03125 m; dt = ... s; 4 ppc; 32 ... 128
+/// particles; ... steps`.
 fn setting(study: &Convergence) -> String {
-    // A failed level has fewer steps than planned.
+    // A failed level has fewer steps than planned, so it is excluded.
     let levels = || study.levels.iter().filter(|level| level.run.failure.is_none());
     let span = |value: &dyn Fn(&LevelOutcome) -> Option<String>| {
         let mut values: Vec<String> = levels().filter_map(value).collect();
@@ -74,7 +75,7 @@ fn setting(study: &Convergence) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
-/// Studies in groups with levels of the same names, judged by the same figure.
+/// Groups of studies with equal level names and equal judged errors.
 fn by_levels<'a>(studies: &[NamedStudy<'a>]) -> Vec<Vec<NamedStudy<'a>>> {
     let key = |study: &Convergence| format!("{} {}", study.judged(), level::names(study).join(" "));
     let compared = studies.iter().filter(|(_, study)| study.compared);
@@ -82,18 +83,18 @@ fn by_levels<'a>(studies: &[NamedStudy<'a>]) -> Vec<Vec<NamedStudy<'a>>> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// Judged errors and their orders.
+/// Table of the judged errors and their orders.
 fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let Some((_, first)) = studies.first() else { return };
     let judged = first.judged();
     if first.levels.len() == 1 {
-        // The error is in the row of the verdict.
+        // The table of verdicts contains the error.
         return row(lines, "judged", &judged);
     }
     by_level(lines, &judged, studies, &[level::judged(), level::order()]);
 }
 
-/// Differences between repeated runs.
+/// Table of the differences between repeated runs.
 fn spreads(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let is_repeated =
         |(_, study): &&NamedStudy<'_>| study.levels.iter().any(|level| level.spread.is_some());
@@ -108,7 +109,7 @@ fn observed_velocities(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_level(lines, velocity.about, &observed, &[level::velocity()]);
 }
 
-/// Columns level by level, under a heading.
+/// Table with `columns` for each level, below a heading.
 fn by_level<'a>(
     lines: &mut Vec<String>,
     heading: &str,
@@ -136,10 +137,11 @@ fn by_level<'a>(
     lines.extend(Table::of_cells(headings, rows).without_empty_columns().merged().lines());
 }
 
-/// The name of a case and a level of its study.
+/// Name of a case and a level of its study.
 type NamedLevel<'a> = (&'a str, LevelRow<'a>);
 
-/// A table of the finest levels under a heading, one row per case; nothing if all cells are empty.
+/// Table of the finest levels below a heading, with one row for each case. Nothing is printed if
+/// all cells are empty.
 fn by_case<'a>(
     lines: &mut Vec<String>,
     heading: &str,
@@ -158,7 +160,7 @@ fn by_case<'a>(
     }
 }
 
-/// Figures of the finest levels.
+/// Table of the figures of the finest levels.
 fn finest(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let of_levels = ["particles", "steps"];
     let counters = level::counters().into_iter();
@@ -167,7 +169,7 @@ fn finest(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_case(lines, "on the finest level", studies, columns);
 }
 
-/// Table of the drifts of the conserved sums that the suite reports.
+/// Table of the reported drifts of conserved sums.
 fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let sums = distinct(studies.iter().flat_map(|(_, study)| study.drifts.iter().copied()));
     let asked: Vec<NamedStudy<'_>> =
@@ -180,7 +182,7 @@ fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     );
 }
 
-/// Table of the growth or decay rate of the energy on the finest level, if the suite reports it.
+/// Table of the energy rate on the finest level, if it is reported.
 fn rates(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let rated: Vec<NamedStudy<'_>> =
         studies.iter().filter(|(_, study)| study.rated).copied().collect();
@@ -188,7 +190,8 @@ fn rates(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_case(lines, heading, &rated, level::energy_rate());
 }
 
-/// The limits of the displacement at the observed place, with the true errors if they are known.
+/// Table of the limits of the displacement at the observed place, with the true errors if they are
+/// known.
 fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let Some(place) = studies.iter().find_map(|(_, study)| study.place()) else { return };
     let limit = |(name, study): &NamedStudy<'_>| {
@@ -213,14 +216,14 @@ fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     lines.extend(Table::new(&limit_columns(), &rows).without_empty_columns().lines());
 }
 
-/// The limit to two digits of the half-width of its interval.
+/// The limit, rounded to two digits of the half-width of its interval.
 fn limit_shown(estimate: &LimitEstimate) -> String {
     let (value, half_width) = (estimate.limit.value, estimate.limit.half_width());
     let digits = libm::floor(libm::log10(value.abs())) - libm::floor(libm::log10(half_width));
     format!("{value:.*e}", (digits + 1.0).clamp(1.0, 15.0) as usize)
 }
 
-/// The limit of a case, or the reason why it has none.
+/// The limit of a case, or the reason why there is none.
 struct ObservedLimit {
     case: String,
     result: Result<LimitEstimate, EstimateRefusal>,

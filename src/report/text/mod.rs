@@ -1,4 +1,4 @@
-//! The report as aligned text, for snapshots and terminals.
+//! Reports as aligned text, for snapshots and terminals.
 
 pub(crate) mod cost;
 pub(crate) mod diagnosis;

@@ -1,4 +1,4 @@
-//! Cost of a step: effects, passes, visits and memory, in rows for reports and `explain`, and in
+//! Cost of a step: effects, passes, visits and memory, as rows for reports and `explain`, and as
 //! tables of all methods.
 
 use super::prose::{hanging, paragraph_lines};
@@ -7,7 +7,7 @@ use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, SuiteOutcome};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Rows of name and text.
+/// Rows of name and text that describe a profile.
 pub fn profile(profile: &Profile) -> Vec<(&'static str, String)> {
     vec![
         ("effects", effects(profile, "none")),
@@ -18,20 +18,20 @@ pub fn profile(profile: &Profile) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// The active effects, or `none`.
+/// Names of the active effects, or the text `none`.
 pub(crate) fn effects(profile: &Profile, none: &str) -> String {
     if profile.effects.is_empty() { none.to_owned() } else { profile.effects.join(", ") }
 }
 
-/// Differences of two profiles: lines of the first that are missing in the second, and the lines in
-/// their place.
+/// Differences between two profiles: rows of the first that the second changes, each followed by
+/// the changed row.
 pub fn difference(with: &Profile, without: &Profile) -> Vec<(&'static str, String)> {
     let rows = profile(with).into_iter().zip(profile(without));
     let changed = rows.filter(|((_, before), (_, after))| before != after);
     changed.flat_map(|((key, before), (_, after))| [(key, before), ("  becomes", after)]).collect()
 }
 
-/// `p2g mass, p2g momentum x 2, p2g point force at 4 of 20 particles`.
+/// Visits of a step: `p2g mass, p2g momentum x 2, p2g point force at 4 of 20 particles`.
 fn visits(profile: &Profile) -> String {
     let particles = profile.particles as u64;
     let part = |&(name, visited): &(&str, u64)| match visited.checked_div(particles) {
@@ -42,7 +42,8 @@ fn visits(profile: &Profile) -> String {
     profile.visits.iter().map(part).collect::<Vec<_>>().join(", ")
 }
 
-/// `168 B: X 16, x 16, ...`; columns with fewer entries than holders come last.
+/// Memory per particle or node: `168 B: X 16, x 16, ...`. Columns with fewer entries than particles
+/// or nodes come last.
 fn memory(profile: &Profile, holder: Holder) -> String {
     let holders = profile.holders(holder);
     let (whole, partial): (Vec<&ColumnSize>, Vec<&ColumnSize>) = profile
@@ -68,7 +69,7 @@ const HOW_TO_READ: &str = "For each dimension: a row for each method and what it
     and how often a step visits a particle; then the columns behind the bytes, and the passes of a \
     step. A suite's report says which effects its scene lists.";
 
-/// The profiles of all cases.
+/// Report of the profiles of all cases.
 pub fn profiles(outcomes: &[SuiteOutcome]) -> String {
     let mut lines = vec!["Memory and passes of a step".to_owned(), String::new()];
     paragraph_lines(&mut lines, HOW_TO_READ);
@@ -89,7 +90,7 @@ pub fn profiles(outcomes: &[SuiteOutcome]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The dimension, from the positions in the profile.
+/// Number of dimensions, computed from the size of positions in the profile.
 fn dimension(profile: &Profile) -> usize {
     let position = profile.columns.iter().find(|column| column.name == "X");
     position.map_or(0, |column| column.bytes / size_of::<f64>())
@@ -100,7 +101,7 @@ fn named(case: &CaseOutcome, keys: &[&str]) -> String {
     if words.is_empty() { case.subject.to_owned() } else { words.join(" ") }
 }
 
-/// One row for each method and list of effects.
+/// One row for each distinct combination of method, memory, visits and effects.
 fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     let headings =
         ["method", "particle", "where it acts", "node", "where it acts", "visits", "effects"];
@@ -125,7 +126,7 @@ fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     table.flush_left(&["effects"]).lines()
 }
 
-/// Bytes per holder: everywhere, and only where an effect acts.
+/// Bytes per particle or node: in columns with an entry for each of them, and in the other columns.
 fn bytes(profile: &Profile, holder: Holder) -> [usize; 2] {
     let whole = profile.holders(holder);
     let of_holder = || profile.columns.iter().filter(|column| column.holder == holder);
@@ -138,7 +139,7 @@ fn bytes(profile: &Profile, holder: Holder) -> [usize; 2] {
     [sum(true), sum(false)]
 }
 
-/// Columns of particles and nodes, with their bytes.
+/// Lists the columns of particles and nodes with their bytes.
 fn columns(lines: &mut Vec<String>, cases: &[&CaseOutcome]) {
     for (holder, mark) in [(Holder::Particle, "particle"), (Holder::Node, "node")] {
         let profiles = cases.iter().filter_map(|case| case.profile.as_ref());
@@ -154,7 +155,7 @@ fn columns(lines: &mut Vec<String>, cases: &[&CaseOutcome]) {
     }
 }
 
-/// Passes, with the methods and effects that have them.
+/// Lists the passes, with the methods and effects that use them.
 fn passes(lines: &mut Vec<String>, cases: &[&CaseOutcome]) {
     let mut found: BTreeMap<String, BTreeMap<String, BTreeSet<String>>> = BTreeMap::new();
     for case in cases {

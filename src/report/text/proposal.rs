@@ -3,21 +3,22 @@
 use super::prose::wrap;
 use crate::verify::{Convergence, Proposal, ProposedKey, SuiteOutcome, propose};
 
-/// Width of a suite's text.
+/// Maximum line width of a suite file.
 const WIDTH: usize = 96;
 
-/// Indent of a continued list of cases.
+/// Indentation of continuation lines in a list of cases.
 const LIST: &str = "           ";
 
-/// Cases with the same proposal.
+/// Cases with equal proposals.
 struct Group<'a> {
     proposal: Proposal,
-    /// Name, and observed value.
+    /// Name and observed result of each case.
     cases: Vec<(&'a str, String)>,
 }
 
-/// The proposed `expect` of a suite: one entry for all cases with the same proposal. Comments state
-/// the origin of each key, and ways to a stronger expectation; `remarks` on the suite come first.
+/// The proposed `expect` of a suite, with one entry for all cases with equal proposals. Comments
+/// state the origin of each key and ways to a stronger expectation. `remarks` about the suite come
+/// first.
 pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) -> String {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for (case, study) in outcome.results::<Convergence>() {
@@ -36,8 +37,8 @@ pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) 
     let mut lines = Vec::new();
     remarks.for_each(|remark| folded(&mut lines, "# ", &remark));
     lines.push("expect:".to_owned());
-    // An external solver is one method of its suite, and its results give no proposals for other
-    // methods.
+    // An external solver is only one method of its suite. Its results give no proposals for other
+    // methods, so the entry names its cases.
     let is_external = outcome.cases.iter().any(|case| case.subject == "external");
     let alone = groups.len() == 1 && !is_external;
     for group in &groups {

@@ -1,26 +1,26 @@
-//! Prose in text reports, wrapped.
+//! Wraps prose for text reports.
 
 /// Width to which prose is wrapped.
 const WIDTH: usize = 100;
 
-/// A paragraph over the whole width.
+/// Adds a paragraph over the full width.
 pub(crate) fn paragraph_lines(lines: &mut Vec<String>, paragraph: &str) {
     wrap(lines, WIDTH, paragraph);
 }
 
-/// `text` in lines of at most 100 characters, indented by two spaces.
+/// `text` in lines of at most 100 characters, each indented by two spaces.
 pub fn indented(text: &str) -> String {
     let mut lines = Vec::new();
     wrap(&mut lines, WIDTH - 2, text);
     format!("  {}\n", lines.join("\n  "))
 }
 
-/// `key` in the first column, `value` wrapped in the second.
+/// Adds `key` in the first column and `value`, wrapped, in the second.
 pub(crate) fn row(lines: &mut Vec<String>, key: &str, value: &str) {
     beside(lines, 14, key, value);
 }
 
-/// A paragraph with a bullet.
+/// Adds a paragraph with a bullet.
 pub(crate) fn hanging(lines: &mut Vec<String>, mark: &str, paragraph: &str) {
     beside(lines, 4, mark, paragraph);
 }

@@ -7,12 +7,12 @@ use crate::report::figure::map::{column_head, merged_fields};
 use crate::report::figure::{Map, MapField};
 use crate::verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
 
-/// The studies of a suite that search for a limit, with the names of their cases.
+/// Studies of a suite that seek a limit, with the names of their cases.
 fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_some()).collect()
 }
 
-/// Map of the stability limits of all cases of a suite; `None` without such studies.
+/// Map of the stability limits of all cases of a suite; `None` if no study seeks a limit.
 pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
     let studies = seeking(outcome);
     let (_, first) = studies.first()?;
@@ -36,11 +36,11 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
     })
 }
 
-/// The name of a case and its study.
+/// Name of a case and its study.
 type NamedSweep<'a> = (&'a str, &'a StabilityStudy);
 
-/// Limits, a row for each case and a column for each value of the parameter that is swept; runs, a
-/// row for each case and value.
+/// Tables of limits, with a row for each case and a column for each value of the swept parameter.
+/// Tables of runs, with a row for each case and value.
 pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     let (seeking, others): (Vec<NamedSweep<'_>>, Vec<NamedSweep<'_>>) =
         studies.iter().partition(|(_, study)| study.sought.is_some());
@@ -48,7 +48,7 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     trials(lines, &others);
 }
 
-/// Remarks on values without a run, and runs that did not reach their end.
+/// Remarks about values without a run, and about runs that did not reach their end.
 pub(crate) fn remarks(study: &StabilityStudy) -> Vec<String> {
     let remark = |row: &StabilityRow| {
         let why = row.trial.as_ref().and_then(|trial| trial.why.as_ref());
@@ -58,7 +58,7 @@ pub(crate) fn remarks(study: &StabilityStudy) -> Vec<String> {
     study.rows.iter().filter_map(remark).collect()
 }
 
-/// The name of a case and a row of its study.
+/// Name of a case and a row of its study.
 type NamedRow<'a> = (&'a str, &'a StabilityRow);
 
 fn trials(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {

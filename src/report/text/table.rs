@@ -4,7 +4,7 @@ use crate::report::columns::TableColumn;
 use crate::report::columns::{distinct, grouped};
 use std::borrow::Borrow;
 
-/// A line of headings and rows of cells, which are aligned to the right by default.
+/// A line of headings, and rows of cells. Cells are aligned to the right by default.
 #[derive(Debug)]
 pub(crate) struct Table {
     rows: Vec<Vec<String>>,
@@ -12,7 +12,7 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// The values of `columns` in `rows`.
+    /// Creates a table with the values of `columns` in `rows`.
     pub(crate) fn new<R>(
         columns: &[TableColumn<'_, R>],
         rows: impl IntoIterator<Item = impl Borrow<R>>,
@@ -27,13 +27,13 @@ impl Table {
         }
     }
 
-    /// Rows of cells under headings, the first column aligned to the left.
+    /// Creates a table from headings and rows of cells. The first column is aligned to the left.
     pub(crate) fn of_cells(headings: Vec<String>, rows: Vec<Vec<String>>) -> Self {
         let flush_left = (0..headings.len()).map(|column| column == 0).collect();
         Self { rows: std::iter::once(headings).chain(rows).collect(), flush_left }
     }
 
-    /// This table with the columns of these headings aligned to the left.
+    /// The table with the columns of these headings aligned to the left.
     pub(crate) fn flush_left(mut self, headings: &[&str]) -> Self {
         for (flush_left, heading) in self.flush_left.iter_mut().zip(&self.rows[0]) {
             *flush_left |= headings.contains(&heading.as_str());
@@ -46,19 +46,19 @@ impl Table {
         self.rows.len() == 1
     }
 
-    /// Merges rows with equal cells; the first cell lists all names.
+    /// Merges rows with equal cells. The first cell then lists all names.
     pub(crate) fn merged(mut self) -> Self {
         let rows = self.rows.split_off(1);
         self.rows.extend(merged(rows));
         self
     }
 
-    /// Drops every column with dashes in all rows except the headings.
+    /// Removes columns that contain only dashes below their heading.
     pub(crate) fn without_empty_columns(self) -> Self {
         self.without_columns_of("-")
     }
 
-    /// Drops every column that has but this cell below its heading.
+    /// Removes columns that contain only `cell` below their heading.
     pub(crate) fn without_columns_of(mut self, cell: &str) -> Self {
         let columns = self.rows[0].len();
         let kept: Vec<bool> =
@@ -77,7 +77,7 @@ impl Table {
         self.rows[0].len()
     }
 
-    /// The lines, each indented by two spaces, with columns as wide as their widest cells.
+    /// Lines of the table, indented by two spaces. Each column is as wide as its widest cell.
     pub(crate) fn lines(&self) -> Vec<String> {
         let columns = self.rows[0].len();
         let width =
@@ -85,8 +85,8 @@ impl Table {
         self.aligned(&(0..columns).map(width).collect::<Vec<_>>())
     }
 
-    /// The lines, with fixed column widths by heading: a wider cell shifts the rest of its line
-    /// only. Columns that `widths` does not list are as wide as their headings.
+    /// Lines of the table with fixed column widths by heading. A wider cell shifts only the rest of
+    /// its line. Columns that `widths` does not list are as wide as their headings.
     pub(crate) fn lines_of_widths(&self, widths: &[(&str, usize)]) -> Vec<String> {
         let width = |heading: &String| {
             let listed = widths.iter().find(|(known, _)| known == heading);
@@ -108,16 +108,16 @@ impl Table {
     }
 }
 
-/// Replaces control characters: names may come from a file, and must not control a terminal.
+/// Replaces control characters. Names may come from a file and must not control a terminal.
 pub(crate) fn printable(text: &str) -> String {
     let safe = |c: char| if c.is_control() { '\u{fffd}' } else { c };
     text.chars().map(safe).collect()
 }
 
-/// Maximum length of the joint name of merged rows (characters).
+/// Maximum length (characters) of the combined name of merged rows.
 const LONGEST: usize = 44;
 
-/// Merges rows whose cells after the name are equal into one row with both names.
+/// Merges rows whose cells after the name are equal. The combined row has all names.
 fn merged(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     let mut kept: Vec<(Vec<String>, Vec<String>)> = Vec::new();
     for mut row in rows {
@@ -139,14 +139,15 @@ fn merged(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     kept.into_iter().map(row).collect()
 }
 
-/// Distinct values, each with the names that have it in brackets, unless all have the same value.
+/// Distinct values, each followed by the names with this value in brackets, unless all names have
+/// the same value.
 pub(crate) fn shared<'a>(
     values: impl Iterator<Item = (&'a str, String)>,
 ) -> impl Iterator<Item = (String, String)> {
     let found = grouped(values.map(|(name, value)| (value, name)));
     let most = found.iter().map(|(_, names)| names.len()).max().unwrap_or(0);
     let single = found.len() == 1;
-    // Several groups of the same size would all be the others.
+    // If several groups had the maximum size, "all others" would be ambiguous.
     let is_largest_alone = found.iter().filter(|(_, names)| names.len() == most).count() == 1;
     found.into_iter().map(move |(value, names)| {
         let of = match names.len() {
@@ -158,7 +159,7 @@ pub(crate) fn shared<'a>(
     })
 }
 
-/// Several names as one, with the differences in braces: `mpm-{linear,ugimp}-flip-usl`.
+/// Combines several names into one, with the differences in braces: `mpm-{linear,ugimp}-flip-usl`.
 pub(crate) fn together(names: &[&str]) -> String {
     let names: Vec<Vec<String>> = names.iter().map(|name| words(name)).collect();
     let Some((first, others)) = names.split_first() else { return String::new() };
@@ -179,7 +180,7 @@ pub(crate) fn together(names: &[&str]) -> String {
     })
 }
 
-/// One text for the names of all combinations of words: `mpm-{linear,ugimp}-{flip,apic}`.
+/// Combines names that are all combinations of some words: `mpm-{linear,ugimp}-{flip,apic}`.
 fn product(first: &[String], names: &[Vec<String>]) -> Option<String> {
     let at = |k: usize| {
         names.iter().map(|name| name.get(k)).collect::<Option<Vec<&String>>>().map(distinct)
@@ -194,7 +195,7 @@ fn product(first: &[String], names: &[Vec<String>]) -> Option<String> {
     is_whole.then(|| choices.iter().map(word).collect::<Vec<_>>().join("-"))
 }
 
-/// Splits a name into words; `bspline` and its degree form one word.
+/// Splits a name into its words. `bspline` and its degree form one word.
 fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for word in name.split('-') {

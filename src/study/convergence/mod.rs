@@ -1,4 +1,4 @@
-//! The convergence study: every level of every case, its error, and the verdict.
+//! Runs a convergence study: every level of every case, its error, and the verdict.
 
 pub(crate) mod judge_plan;
 pub(crate) mod reference;
@@ -28,8 +28,8 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// Runs cases of a convergence study. Data of several cases are computed once: a reference, and
-/// manufactured forces at equal places and times.
+/// Runs the cases of a convergence study. Data that several cases need are computed once: a
+/// reference, and manufactured forces at equal places and times.
 pub(crate) struct ConvergenceRunner<'a> {
     plan: ConvergencePlan,
     /// Number of cases that have not run yet.
@@ -72,7 +72,7 @@ impl CaseRunner for ConvergenceRunner<'_> {
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let outcome = self.outcome(index, progress);
-        // A gate stores the runners of all suites until its end.
+        // Runners of all suites exist until the gate ends, so shared forces are freed early.
         let exact = self.plan.exact.as_ref();
         if self.left.fetch_sub(1, Ordering::Relaxed) == 1
             && let Some(forces) = exact.and_then(|exact| exact.shared_forces.as_ref())
@@ -123,7 +123,7 @@ impl<'a> ConvergenceRunner<'a> {
         ends.dedup();
         let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
         let mut plan = plan.clone();
-        // If each case has its own steps, times differ.
+        // Cases with their own time steps have different times.
         let same_times = plan.cases.len() > 1 && plan.refine.rule.is_none();
         if let Some(exact) = plan.exact.as_mut().filter(|exact| same_times && exact.manufactured) {
             exact.shared_forces = Some(Arc::default());
@@ -132,7 +132,7 @@ impl<'a> ConvergenceRunner<'a> {
         Self { plan, left, context, references, steps: StableSteps::default() }
     }
 
-    /// The outcome of a case, whether it can be run or not.
+    /// Outcome of a case, whether or not it can run.
     fn outcome(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let (plan, case) = (&self.plan, &self.plan.cases[index]);
         let expectation = match (self.context.extent, &case.expectation_in_full) {
@@ -152,7 +152,7 @@ impl<'a> ConvergenceRunner<'a> {
         let mut outcome = if let Some(Gating::Excepted(reason)) = &case.gating {
             described(plan, case, None).excepted(reason.clone())
         } else if lacks.is_empty() {
-            // A problem that the solver refuses is not a failure.
+            // If the solver refuses the problem, the case does not fail.
             self.run(case, expectation, progress).unwrap_or_else(|reason| {
                 not_applicable(plan, case, vec![reason.to_string()], "refuses the problem:")
             })
@@ -166,7 +166,7 @@ impl<'a> ConvergenceRunner<'a> {
     /// Runs every level of a case and judges the case.
     ///
     /// # Errors
-    /// One line with the reason why the case cannot be run.
+    /// The reason why the case cannot be run.
     fn run(
         &self,
         case: &Case,
@@ -201,7 +201,7 @@ impl<'a> ConvergenceRunner<'a> {
         Ok(described(plan, case, expectation).judged(judge_case(&judging, levels?, &runs)))
     }
 
-    /// Runs this case with a shorter spacing, as the reference of the case.
+    /// Runs the case with a shorter spacing, as its own reference.
     fn same_method(&self, case: &Case, same: SameMethod) -> Result<Box<dyn Truth>, SubjectError> {
         let plan = &self.plan;
         Ok(match same {
@@ -242,7 +242,7 @@ struct CaseRuns<'r, 'a> {
 }
 
 impl CaseRuns<'_, '_> {
-    /// Runs one level; `keeps_field`: also stores its errors over the body.
+    /// Runs one level. With `keeps_field`, its errors over the body are stored too.
     fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, fingerprint, solver, .. } = self.runner.context;
@@ -259,7 +259,7 @@ impl CaseRuns<'_, '_> {
         Ok(self.outcome(level, clock.dt(), run))
     }
 
-    /// Runs one level as often as the context requires, and measures the spread between the runs.
+    /// Runs one level as often as the context requires, and measures the spread of the runs.
     fn repeated(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, solver, repeat, .. } = self.runner.context;
@@ -289,7 +289,7 @@ impl CaseRuns<'_, '_> {
         Ok(LevelOutcome { spread, ..outcome })
     }
 
-    /// The quantities that are compared in a run.
+    /// Quantities that a run compares.
     fn comparison(&self, keeps_field: bool) -> Comparison<'_> {
         let plan = &self.runner.plan;
         let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
@@ -297,7 +297,7 @@ impl CaseRuns<'_, '_> {
         Comparison { of: plan.of, sum, observe, at_rest, steps: plan.steps, keeps_field }
     }
 
-    /// The outcome of a level with steps of `dt` (s).
+    /// Outcome of a level with time steps of `dt` (s).
     fn outcome(&self, level: LevelPlan, dt: f64, run: RunResult) -> LevelOutcome {
         let particle_spacing = level.particle_spacing(self.runner.plan.scene.dimension());
         let LevelPlan { cells, h, ppc, .. } = level;
@@ -305,7 +305,7 @@ impl CaseRuns<'_, '_> {
     }
 }
 
-/// The sizes of a level with its actual step.
+/// Resolution of a level, with its actual time step.
 fn taken(level: &LevelOutcome) -> LevelPlan {
     let LevelOutcome { cells, h, dt, ppc, .. } = *level;
     LevelPlan { cells, h, dt, ppc }

@@ -1,16 +1,16 @@
-//! Computed reference solutions, for suites without an exact solution.
+//! Computes reference solutions for suites without an exact solution.
 //!
-//! `Reference` is a FEM solution on a mesh much finer than any level. `FineGrid` serves studies in
-//! space, in any dimension: the method itself on a grid much finer than any level. The reference
-//! configuration of its particles is a lattice, on which the motion is interpolated wherever the
-//! particles have moved. `FineSteps` serves studies in time: the method itself on the same grid,
-//! with steps so short that the result is the limit dt -> 0 of the equations that are discrete in
-//! space.
+//! `Reference` is a FEM solution on a mesh much finer than any level. `FineGrid` is for studies in
+//! space, in any dimension: it runs the method itself on a grid much finer than any level. The
+//! reference configuration of its particles is a lattice, on which the motion is interpolated even
+//! after particles have moved. `FineSteps` is for studies in time: it runs the method itself on the
+//! same grid, with steps so short that the result is the limit dt -> 0 of the space-discrete
+//! equations.
 //!
-//! `FineSteps` separates the error of the time step from that of the grid. At the Courant limit of
-//! a body the error of the grid is larger and would hide the error of the step. Methods that filter
-//! the velocity in every step (PIC, APIC) have no such limit. Neither `FineGrid` nor `FineSteps`
-//! checks that the method converges to the right solution: suites with exact solutions do.
+//! `FineSteps` separates the time-step error from the grid error. At the Courant limit of a body,
+//! the grid error is larger and would hide the time-step error. Methods that filter the velocity in
+//! every step (PIC, APIC) have no limit dt -> 0. Neither `FineGrid` nor `FineSteps` checks that the
+//! method converges to the right solution; suites with exact solutions do.
 
 use crate::exact::Truth;
 use crate::fem::Bar;
@@ -24,13 +24,13 @@ use crate::suite::scene::grid_size::cell_size;
 use crate::verify::error::observer::lagrange_weights;
 use std::cmp::Ordering;
 
-/// Displacement and velocity of a fine bar at every instant of the study. It is only evaluated at
-/// instants, so that there is no interpolation in time.
+/// Displacement and velocity of a finely meshed bar at every instant of the study. They are
+/// evaluated at instants only, so no interpolation in time is needed.
 pub(crate) struct Reference {
     until: f64,
     from: f64,
     spacing: f64,
-    /// Nodal displacements and velocities at each instant, the start first.
+    /// Nodal displacements and velocities at the start and at each instant.
     states: Vec<(Vec<f64>, Vec<f64>)>,
 }
 
@@ -38,7 +38,7 @@ impl Reference {
     /// Runs the reference of `plan` to `until` (s).
     ///
     /// # Errors
-    /// One line with the reason why it could not be computed.
+    /// The reason why the reference could not be computed.
     pub(crate) fn compute(plan: &ConvergencePlan, until: f64) -> Result<Self, SubjectError> {
         let fine = plan.reference.as_ref().ok_or("the suite declares no reference")?;
         let method = reference_method(fine);
@@ -56,7 +56,7 @@ impl Reference {
         Ok(Self { until, from: nodes[0], spacing: nodes[1] - nodes[0], states })
     }
 
-    /// Linear interpolation between nodes at the instant nearest to `t`.
+    /// Linear interpolation between nodes, at the instant nearest to `t`.
     fn interpolate(
         &self,
         field: impl Fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>,
@@ -71,7 +71,7 @@ impl Reference {
     }
 }
 
-/// The index of the instant nearest to `t` (s), of `count` instants from 0 to `until`.
+/// Index of the instant nearest to `t` (s), of `count` instants from 0 to `until`.
 pub(crate) fn nearest_instant(t: f64, until: f64, count: usize) -> usize {
     let last = (count - 1) as f64;
     libm::round(t / until * last).clamp(0.0, last) as usize
@@ -91,10 +91,10 @@ impl Truth for Reference {
     }
 }
 
-/// Number of points per axis of an interpolation: order 6, above that of any method.
+/// Number of interpolation points per axis. The order is 6, above the order of any method.
 const NEAR: usize = 6;
 
-/// Displacement and velocity of a lattice of particles at the start and at every instant.
+/// Displacement and velocity of a particle lattice at the start and at every instant.
 pub(crate) struct FineGrid {
     until: f64,
     lattice: Lattice,
@@ -102,10 +102,10 @@ pub(crate) struct FineGrid {
 }
 
 impl FineGrid {
-    /// Runs the method of `case` on `level`, starting half a step back.
+    /// Runs the method of `case` on `level`. Velocities start half a step back.
     ///
     /// # Errors
-    /// One line with the reason why this was not possible.
+    /// The reason why the reference could not be computed.
     pub(crate) fn compute(
         plan: &ConvergencePlan,
         case: &Case,
@@ -139,13 +139,13 @@ impl Truth for FineGrid {
 struct Lattice {
     /// Coordinates on each axis, ascending.
     axes: Vec<Vec<f64>>,
-    /// Index of the particle at each point, the first axis fastest.
+    /// Index of the particle at each point. The index of the first axis varies fastest.
     particles: Vec<usize>,
 }
 
 impl Lattice {
-    /// The lattice formed by `labels`, `d` numbers each, in any order; `None` if they do not form
-    /// one.
+    /// The lattice formed by `labels` in any order, with `d` numbers for each label. `None` if the
+    /// labels do not form a lattice.
     fn of(labels: &[f64], d: usize) -> Option<Self> {
         let axis = |axis: usize| {
             let mut all: Vec<f64> = labels.iter().skip(axis).step_by(d).copied().collect();
@@ -169,7 +169,7 @@ impl Lattice {
         Some(Self { axes, particles: particles.into_iter().collect::<Option<_>>()? })
     }
 
-    /// The value at `label` of a field that has one number for each axis at each particle.
+    /// Interpolates at `label` a field with one number for each axis and particle.
     fn interpolate(&self, field: &[f64], label: &[f64], into: &mut [f64]) {
         let along = self.axes.iter().zip(label);
         let near: Vec<_> = along.map(|(all, x)| lagrange_weights(all, *x, NEAR)).collect();
@@ -191,21 +191,21 @@ impl Lattice {
     }
 }
 
-/// Displacement and velocity of every label of a method at every instant.
+/// Displacement and velocity of every label at every instant, computed by the method itself.
 pub(crate) struct FineSteps {
     until: f64,
     dimension: usize,
-    /// Indices of the labels, sorted by position.
+    /// Indices of the labels, sorted by reference position.
     order: Vec<usize>,
-    /// The start, and every instant.
+    /// States at the start and at every instant.
     states: Vec<Samples>,
 }
 
 impl FineSteps {
-    /// Runs the method of `case` with steps of `dt` (s), starting half a step back.
+    /// Runs the method of `case` with steps of `dt` (s). Velocities start half a step back.
     ///
     /// # Errors
-    /// One line with the reason why this was not possible.
+    /// The reason why the reference could not be computed.
     pub(crate) fn compute(
         plan: &ConvergencePlan,
         case: &Case,
@@ -220,8 +220,8 @@ impl FineSteps {
         Ok(Self { until: case.until, dimension: now.dimension, order, states })
     }
 
-    /// The numbers of `field` at the label `wanted` at the instant nearest to `t`; NaN if there is
-    /// no such label.
+    /// Copies the values of `field` at the label `wanted` at the instant nearest to `t`; NaN if
+    /// there is no such label.
     fn find(&self, field: fn(&Samples) -> &[f64], wanted: &[f64], t: f64, into: &mut [f64]) {
         let samples = &self.states[nearest_instant(t, self.until, self.states.len())];
         match self.order.binary_search_by(|p| compare(label(samples, *p), wanted)) {
@@ -233,11 +233,11 @@ impl FineSteps {
     }
 }
 
-/// Runs the method of `case` on `level`, starting half a step back, and passes the state at the
-/// start and at every instant to `show`. Returns the state at the end.
+/// Runs the method of `case` on `level`, with velocities that start half a step back. Passes the
+/// states at the start and at every instant to `show`, and returns the state at the end.
 ///
 /// # Errors
-/// One line with the reason why this was not possible.
+/// The reason why the run was not possible.
 pub(crate) fn run(
     plan: &ConvergencePlan,
     case: &Case,
@@ -272,7 +272,7 @@ fn compare(a: &[f64], b: &[f64]) -> Ordering {
     unequal.unwrap_or_else(|| a.len().cmp(&b.len()))
 }
 
-/// The method in double precision, with the start that is of second order.
+/// The method in double precision, with the second-order start.
 fn second_order(mut method: Method) -> Method {
     match &mut method {
         Method::Mpm { start, precision, .. } => {
@@ -300,7 +300,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A lattice of seven, three and two points (for `d` axes), in random order.
+    /// A lattice with seven, three and two points along the first `d` axes, in random order.
     fn labels(d: usize) -> Vec<f64> {
         let counts = &[7, 3, 2][..d];
         let points: usize = counts.iter().product();
@@ -315,8 +315,8 @@ mod tests {
         (0..points).flat_map(point).collect()
     }
 
-    /// A polynomial of degree 5, 2 and 1 along the axes: these degrees are determined by the
-    /// points.
+    /// A polynomial of degree 5, 2 and 1 along the axes, the highest degrees that the points
+    /// determine.
     fn field(label: &[f64]) -> Vec<f64> {
         let degrees = [5.0, 2.0, 1.0];
         let product: f64 = label.iter().zip(degrees).map(|(x, n)| 1.0 - libm::pow(*x, n)).product();

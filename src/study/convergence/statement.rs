@@ -1,4 +1,4 @@
-//! The rows that state a convergence study, and outcomes of cases that have not run.
+//! The rows that describe a convergence study, and the outcomes of cases that have not run.
 
 use crate::exact::heat::Conduction;
 use crate::study::describe::statement::{Rows, push, scene, stated, step_profile};
@@ -49,7 +49,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     rows
 }
 
-/// Rows that state the exact temperature; empty without a heat problem.
+/// Rows with the exact temperature; empty without a heat problem.
 fn exact_temperature(plan: &ConvergencePlan) -> Vec<(String, String)> {
     let Some(problem) = plan.heat_problem() else { return Vec::new() };
     let Conduction { temperature, manufactured, motion, .. } = problem;
@@ -95,7 +95,7 @@ fn judged(plan: &ConvergencePlan) -> String {
     plan.scale.map_or_else(|| judged.clone(), |scale| format!("{judged}, divided by {scale}"))
 }
 
-/// Rows of time steps and particles, and of cells if they are not refined.
+/// Rows with time steps and particles, and with cells if they are not refined.
 fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     let (plan, instants) = (&study.refine, study.instants);
     let list = |of: &dyn Fn(&LevelPlan) -> Option<u64>, levels: &[LevelPlan]| {
@@ -134,7 +134,7 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     push(rows, "--full adds", &full);
 }
 
-/// Positions of the particles, as text.
+/// Description of the particle positions.
 fn placed(scatter: &LatticeOffsets) -> String {
     let LatticeOffsets { shift, perturb, seed } = scatter;
     if scatter.is_none() {
@@ -148,7 +148,7 @@ fn placed(scatter: &LatticeOffsets) -> String {
     format!("{} of their spacing", both.join(" and "))
 }
 
-/// Rows of one case.
+/// Rows with the settings of one case.
 pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
     let mut rows = case.method.settings();
     let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());
@@ -184,7 +184,7 @@ pub(crate) fn described(
     }
 }
 
-/// The outcome of a case that does not apply to its solver.
+/// Outcome of a case that does not apply to its solver.
 pub(crate) fn not_applicable(
     plan: &ConvergencePlan,
     case: &Case,
@@ -194,7 +194,7 @@ pub(crate) fn not_applicable(
     described(plan, case, None).not_applicable(lacks, verb)
 }
 
-/// The outcome of a case that could not be set up.
+/// Outcome of a case that could not be set up.
 pub(crate) fn refused(
     plan: &ConvergencePlan,
     case: &Case,

@@ -1,11 +1,11 @@
-//! Time steps of levels: the stable step, the automatic step, and the step of a run.
+//! Time steps of levels: the stable step, the automatic step, and the actual step.
 //!
-//! The stable step comes from [`crate::mpm::Solver::stable_time_step`], for the stages of the
-//! solver and the state at the start. It is at most `h/(c + |v|)`, so that neither a wave nor a
-//! particle crosses more than a cell. It is predicted before a run and constant during the run,
-//! because an order needs one step per level. If particles with linear functions move, later
-//! stability limits may be smaller (`tiny-nodal-mass`). An automatic step is a share of the stable
-//! step, as a margin for this.
+//! [`crate::mpm::Solver::stable_time_step`] computes the stable step from the solver stages and the
+//! initial state. It is at most `h/(c + |v|)`, so that neither a wave nor a particle crosses more
+//! than one cell. It is predicted before a run and constant during the run, because an order
+//! requires one step for each level. If particles with linear functions move, later stability
+//! limits may be smaller (`tiny-nodal-mass`). As a margin for this, an automatic step is a share of
+//! the stable step.
 
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;
@@ -20,7 +20,7 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// The time step on one level of a case.
+/// Time step on one level of a case.
 #[derive(Debug, Clone)]
 pub struct TimeStep {
     /// Name of the case.
@@ -29,7 +29,7 @@ pub struct TimeStep {
     pub level: LevelPlan,
     /// Requested time step (s).
     pub wanted: f64,
-    /// Actual steps.
+    /// Actual steps of the run.
     pub clock: Clock,
 }
 
@@ -40,8 +40,8 @@ impl TimeStep {
     }
 }
 
-/// The time steps of all cases and levels of `suite`; empty for a study without steps, or with
-/// steps that it chooses during the run. Excludes levels whose set-up fails: the run reports the
+/// Time steps of all cases and levels of `suite`. Empty for a study without steps, or with steps
+/// that are chosen during the run. Levels whose set-up fails are excluded; the run reports the
 /// reason.
 pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
@@ -49,7 +49,7 @@ pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
     let mut found = Vec::new();
     for case in &plan.cases {
         for level in plan.refine.levels(extent) {
-            // A stated step does not depend on the particles.
+            // A step that the suite states does not depend on the particles.
             let stepped = match plan.refine.rule {
                 Some(_) => steps.of(plan, case, *level).map(|(level, _)| level),
                 None => Ok(*level),
@@ -70,18 +70,18 @@ pub struct PlannedLevel {
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
-    /// Particles, to rounding.
+    /// Number of particles, up to rounding.
     pub particles: f64,
     /// Time step (s).
     pub dt: f64,
     /// Number of steps.
     pub steps: u64,
-    /// Courant number c dt/h, with the speed c of the fastest wave in the body at rest;
-    /// `None` for load steps, which have no time.
+    /// Courant number c dt/h, where c is the speed of the fastest wave in the body at rest. `None`
+    /// for load steps, which have no time.
     pub courant: Option<f64>,
 }
 
-/// The levels of the gate of each case, in order; empty for a study without levels.
+/// The gate levels of each case, in order; empty for a study without levels.
 pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let waves = plan.scene.fastest_wave();
@@ -103,27 +103,27 @@ pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
     all
 }
 
-/// Rounds of the prediction for an automatic time step.
+/// Number of iterations of the prediction for an automatic time step.
 pub(crate) const ROUNDS: u32 = 40;
 
-/// Rounds of the first prediction with which a stated time step is compared; each round costs as
+/// Number of iterations of the first prediction for a stated time step. Each iteration costs as
 /// much as a step.
 const FEW: u32 = 6;
 
-/// Share of the limit from few rounds above which a step is compared with a prediction from more
-/// rounds: few rounds overestimate the limit by up to 50 %.
+/// Share of the first predicted limit above which a step is compared with a second prediction. The
+/// first one has few iterations and overestimates the limit by up to 50 %.
 const NEAR: f64 = 0.6;
 
 /// A level with its time step, and the stable time step (s) if it is known.
 type Stepped = (LevelPlan, Option<f64>);
 
-/// Cache of the stable time steps (s) of a study, by the inputs of the prediction. Methods with
-/// equal inputs, and levels that differ only in their step, share one prediction.
+/// Cache of the stable time steps (s) of a study, with the inputs of the prediction as keys.
+/// Methods with equal inputs, and levels that differ only in their step, share one prediction.
 #[derive(Debug, Default)]
 pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<f64, SubjectError>>>);
 
 impl StableSteps {
-    /// The step on one level.
+    /// The step on one level, and the stable step if it is known.
     pub(crate) fn of(
         &self,
         plan: &ConvergencePlan,
@@ -136,8 +136,8 @@ impl StableSteps {
             let limit = limit(ROUNDS)?;
             return Ok((LevelPlan { dt: share * limit, ..level }, Some(limit)));
         }
-        // Unconverged iterations overestimate the limit. The run reports a level whose set-up
-        // fails.
+        // Unconverged iterations overestimate the limit. Failures of the set-up are reported by the
+        // run.
         let taken = taken(plan, case, level);
         let is_suspect = limit(FEW).is_ok_and(|limit| taken > NEAR * limit);
         let limit = if is_suspect { limit(ROUNDS).ok() } else { None };
@@ -162,7 +162,7 @@ impl StableSteps {
         found
     }
 
-    /// Warnings about the levels and the fine grids that run, in their order.
+    /// Warnings about levels and fine grids, in the order of their runs.
     pub(crate) fn warnings(&self, plan: &ConvergencePlan, extent: Extent) -> Vec<StepWarning> {
         let levels = plan.refine.levels(extent);
         let each = |case: &Case| levels.iter().copied().chain(case.against.fine_grid());
@@ -178,7 +178,7 @@ impl StableSteps {
     }
 }
 
-/// The simplest method with the stable time step of `method`.
+/// The simplest method with the same stable time step as `method`.
 fn simplest(method: Method) -> Method {
     let Method::Mpm { basis, transfer, scheme, mass, frame, volume, .. } = method else {
         return method;
@@ -188,13 +188,13 @@ fn simplest(method: Method) -> Method {
     Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision }
 }
 
-/// The actual step (s).
+/// Actual time step (s).
 fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     case.clock(plan, level.dt).map_or(level.dt, |clock| clock.dt())
 }
 
-/// Warning about a step that is longer than the stable time step, or that differs from the
-/// requested one, and whether it is too long.
+/// Warning about a step that is longer than the stable step or differs from the requested step. The
+/// flag states whether the step is too long.
 fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<(String, bool)> {
     let clock = case.clock(plan, level.dt)?;
     let (dt, name, cells) = (clock.dt(), &case.name, level.cells);

@@ -1,14 +1,14 @@
-//! The most accurate setting that is done within a budget of seconds.
+//! Finds the most accurate setting that finishes within a budget of seconds.
 //!
 //! For every method, the time of its finest level predicts the finest grid within the budget, and
 //! the errors of its levels predict the error there. Only a method that still converges is
-//! extrapolated beyond the levels of the suite. The best method is then run on finer and finer
-//! grids, until a grid twice as fine as the last one exceeds the budget. These runs give a cost
-//! model, and their errors are judged together with those of the suite. If the new prediction is
-//! worse than that of another method, this method is tried too. The best method of those tried is
-//! run at the finest grid within the budget.
+//! extrapolated beyond the levels of the suite. The best method then runs on increasingly fine
+//! grids, until a grid twice as fine as the last one would exceed the budget. These runs give a
+//! cost model, and their errors are judged together with those of the suite. If the new prediction
+//! is worse than that of another method, the other method is tried too. The best of the tried
+//! methods runs on the finest grid within the budget.
 //!
-//! Methods are compared by the upper ends of their errors.
+//! Methods are compared by the upper bounds of their predicted errors.
 
 use super::candidate::{Candidate, REACH, candidate, run};
 use super::measure::seconds;
@@ -20,30 +20,29 @@ use crate::suite::model::{ConvergencePlan, Suite};
 use crate::verify::{Axis, BestCandidate, Interval, Model, Workload, by_transfers};
 use thiserror::Error;
 
-/// Number of finest runs to which a model is fitted: coarse runs are not representative of long
-/// runs.
+/// Number of finest runs in the fit of a model. Coarse runs are not representative of long runs.
 const FITTED: usize = 6;
 
-/// Repeats of each,
+/// Number of repeats of each run.
 const REPEATS: usize = 3;
 
-/// unless it takes this share of the budget: then it is run once.
+/// Share of the budget above which a run is not repeated.
 const LONG: f64 = 0.05;
 
-/// Reason why no setting is chosen for a budget.
+/// Reason why no setting was chosen for a budget.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BudgetError {
     /// The suite has no levels.
     #[error("the suite refines nothing")]
     NoLevels,
-    /// The suite refines something other than its cells.
+    /// The suite refines another axis than its cells.
     #[error("the suite does not refine its cells")]
     NotInSpace,
-    /// No error of the suite can be compared with the size of its solution.
+    /// No error of the suite can be related to the size of its solution.
     #[error("no error of it has a size to be compared with")]
     NoScale,
-    /// The error of no method can be extrapolated.
+    /// No method has an error that can be extrapolated.
     #[error("no error is predicted: no method converges on three levels")]
     NoPrediction,
     /// Every prediction exceeds the budget.
@@ -62,7 +61,7 @@ pub enum BudgetError {
 /// Chooses a setting of `suite` for a budget (s), runs it, and returns the result.
 ///
 /// # Errors
-/// [`BudgetError`] if nothing can be chosen.
+/// [`BudgetError`] if no setting can be chosen.
 pub fn best_candidate(suite: &Suite, budget: f64) -> Result<BestCandidate, BudgetError> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else {
         return Err(BudgetError::NoLevels);
@@ -103,14 +102,14 @@ pub fn best_candidate(suite: &Suite, budget: f64) -> Result<BestCandidate, Budge
 /// A method on the finest grid within the budget.
 struct Setting {
     candidate: Candidate,
-    /// Cost model, and the number of runs to which it is fitted; `None` before the method is tried.
+    /// Cost model, and the number of runs in its fit; `None` before the method is tried.
     model: (Model, Option<usize>),
     level: LevelPlan,
     error: Interval,
 }
 
 impl Setting {
-    /// None if no grid is within the budget.
+    /// The finest grid of `candidate` within the budget; `None` if there is none.
     fn of(candidate: Candidate, model: (Model, Option<usize>), budget: f64) -> Option<Self> {
         let level = candidate.finest_within(&model.0, budget)?;
         let error = candidate.error.at(level.h)?;
@@ -154,7 +153,8 @@ impl Setting {
 }
 
 impl Candidate {
-    /// The candidate with the errors of finer and finer levels, and their times.
+    /// Adds the errors of increasingly fine levels to the candidate, and returns it with their
+    /// times.
     fn judged_within(
         self,
         suite: &Suite,
@@ -167,7 +167,7 @@ impl Candidate {
         loop {
             let next = runs.len();
             if next == cells.len() {
-                // In space three levels are a long way.
+                // In three dimensions a larger ratio would make three levels too expensive.
                 let grown = (cells[next - 1] as f64 * 1.5 / self.stride as f64) as u64;
                 cells.push((grown * self.stride).max(cells[next - 1] + self.stride));
             }
@@ -193,7 +193,7 @@ impl Candidate {
     }
 }
 
-/// The median of several times, or the first one if it is long.
+/// Median of several measured times, or the first time if it is long.
 fn median(
     long: f64,
     mut time: impl FnMut() -> Result<f64, SubjectError>,

@@ -1,4 +1,4 @@
-//! A method that may be chosen for a budget: predicted time and error of its levels.
+//! A method that may be chosen for a budget, with the predicted time and error of its levels.
 
 use super::measure::{load, seconds};
 use crate::study::runner::Runner;
@@ -12,15 +12,15 @@ use crate::verify::{
 };
 use std::sync::Arc;
 
-/// Maximum refinement of a method beyond the levels of the suite.
+/// Maximum refinement relative to the levels of the suite.
 const FINER: u64 = 8;
 
-/// Maximum refinement beyond all judged levels at which an error is predicted.
+/// Maximum refinement relative to all judged levels for which an error is predicted.
 pub(crate) const REACH: u64 = 2;
 
-/// A method that may be chosen.
+/// A method that may be chosen for a budget.
 pub(crate) struct Candidate {
-    /// A plan with this case only.
+    /// A plan with only this case.
     pub(crate) plan: ConvergencePlan,
     pub(crate) case: Case,
     pub(crate) study: Convergence,
@@ -28,11 +28,11 @@ pub(crate) struct Candidate {
     pub(crate) error: PredictedError,
     /// Common divisor of the numbers of cells of the suite.
     pub(crate) stride: u64,
-    /// Maximum refinement beyond its levels at which it may be chosen.
+    /// Maximum refinement relative to the method's levels.
     pub(crate) reach: u64,
 }
 
-/// The method of a ranking; `None` if it does not converge.
+/// Creates a candidate from a method of a ranking; `None` if the method does not converge.
 pub(crate) fn candidate(
     plan: &ConvergencePlan,
     cases: &[CaseOutcome],
@@ -56,12 +56,12 @@ fn common_divisor(a: u64, b: u64) -> u64 {
 }
 
 impl Candidate {
-    /// The finest level that converges.
+    /// The finest level of the converging part.
     pub(crate) fn finest(&self) -> &LevelOutcome {
         &self.study.levels[self.ranked.part.levels.end - 1]
     }
 
-    /// A level with `cells` cells, whose time step follows the rule of the two finest levels of the
+    /// A level with `cells` cells. Its time step follows the rule of the two finest levels of the
     /// suite.
     pub(crate) fn level(&self, cells: u64) -> LevelPlan {
         let levels = &self.plan.refine.levels;
@@ -73,12 +73,12 @@ impl Candidate {
         let h = last.h * last.cells as f64 / cells as f64;
         let rule = libm::log(before.dt / last.dt) / libm::log(before.h / last.h);
         let rule = if rule.is_finite() { rule } else { 0.0 };
-        // A constant step would exceed its Courant limit on a fine grid.
+        // A constant step would exceed the Courant limit of a fine grid.
         let rule = if h < last.h { rule.max(1.0) } else { rule };
         LevelPlan { cells, h, dt: last.dt * libm::pow(h / last.h, rule), ..last }
     }
 
-    /// Predicted load of a level, from the finest one that has run.
+    /// Predicted workload of a level, scaled from the finest level that has run.
     pub(crate) fn load(&self, level: LevelPlan) -> Option<Workload> {
         let clock = self.case.clock(&self.plan, level.dt)?;
         let finest = self.finest();
@@ -94,7 +94,7 @@ impl Candidate {
         })
     }
 
-    /// A model of one run, and the seconds that it predicts of the coarsest level.
+    /// A cost model from one run, and its predicted time (s) of the coarsest level.
     pub(crate) fn rough_model(&self) -> Result<(Model, f64), SubjectError> {
         let level = self.level(self.finest().cells);
         seconds(&self.plan, &self.case, level)?;
@@ -105,8 +105,8 @@ impl Candidate {
         Ok((model, model.predict(&coarsest)))
     }
 
-    /// This method with additional levels of `cells` cells, run and judged with the levels of the
-    /// suite.
+    /// The method with additional levels of `cells` cells, run and judged together with the levels
+    /// of the suite.
     pub(crate) fn judged_with(&self, suite: &Suite, cells: &[u64]) -> Option<Self> {
         let mut plan = self.plan.clone();
         plan.refine.levels.truncate(self.study.levels.len());
@@ -119,19 +119,19 @@ impl Candidate {
         Some(Self { stride: self.stride, reach: REACH, ..judged })
     }
 
-    /// Cells of the finest level that is considered.
+    /// Number of cells of the finest level that is considered.
     pub(crate) fn most_cells(&self) -> u64 {
         let finest = self.finest().cells;
         let reach = if self.error.obstacle().is_none() { self.reach } else { 1 };
         finest.saturating_mul(reach).min(self.most_known())
     }
 
-    /// Maximum number of cells of a level for which the reference is accurate enough.
+    /// Maximum number of cells for which the reference is accurate enough.
     fn most_known(&self) -> u64 {
         self.case.against.fine_grid().map_or(u64::MAX, |level| level.cells / FINE_GRID)
     }
 
-    /// Why a level is the finest one considered; `None` if it is not.
+    /// Reason why no level finer than this one is considered; `None` if one is.
     pub(crate) fn limit(&self, level: LevelPlan) -> Option<String> {
         let next = level.cells.saturating_add(self.stride);
         let last = next > self.most_cells();
@@ -144,8 +144,8 @@ impl Candidate {
         })
     }
 
-    /// The finest level that is predicted to finish in time. Levels beyond those that have run are
-    /// only considered if their error can be predicted.
+    /// The finest level with a predicted time within the budget. Levels finer than those that have
+    /// run are considered only if their error can be predicted.
     pub(crate) fn finest_within(&self, model: &Model, budget: f64) -> Option<LevelPlan> {
         let most = self.most_cells();
         let first = self.study.levels[self.ranked.part.levels.start].cells;
@@ -172,7 +172,7 @@ impl Candidate {
     }
 }
 
-/// Runs the one case of `plan` on all its levels.
+/// Runs the only case of `plan` on all its levels.
 pub(crate) fn run(suite: &Suite, plan: ConvergencePlan) -> CaseOutcome {
     let one = Suite { study: Arc::new(plan), ..suite.clone() };
     Runner::over(&one, Extent::Usual).case(0, &|| ())

@@ -1,9 +1,9 @@
-//! Seconds of every level of every case.
+//! Measures the seconds of every level of every case.
 //!
-//! A level is run once to warm up and then at least five times, or for one second, whichever comes
-//! first; short levels are repeated for at least 50 ms. All levels are repeated in turn, so that a
-//! slowdown of the machine affects all of them. The time for which other processes used the core is
-//! excluded, if the system reports it.
+//! A level runs once to warm up, and then at least five times or for one second, whichever comes
+//! first. Short levels are repeated for at least 50 ms. Rounds over all levels are repeated, so
+//! that a slowdown of the machine affects all of them. Time for which other processes used the core
+//! is excluded, if the system reports it.
 
 use crate::external::SolverFactory;
 use crate::study::handover::subject_under;
@@ -33,7 +33,7 @@ const LONGEST: f64 = 1.0;
 /// Maximum number of repeats.
 const MOST: usize = 200;
 
-/// One level that is timed.
+/// Time measurement of one level.
 struct TimingJob<'a> {
     suite: &'a str,
     plan: &'a ConvergencePlan,
@@ -57,10 +57,10 @@ impl TimingJob<'_> {
     }
 }
 
-/// Time (s) of the steps of a level; for a run that fails, the time until then.
+/// Time (s) of the steps of a level, until the end or the failure of the run.
 ///
 /// # Errors
-/// One line with the reason why there is no such run.
+/// The reason why the level cannot run.
 pub(crate) fn seconds(
     plan: &ConvergencePlan,
     case: &Case,
@@ -69,7 +69,7 @@ pub(crate) fn seconds(
     seconds_of(plan, case, level, || subject(plan, case.method, level))
 }
 
-/// Time (s) of the steps of a subject on a level. For an external solver it includes the response
+/// Time (s) of the steps of a subject on a level. For an external solver this includes its response
 /// time.
 fn seconds_of(
     plan: &ConvergencePlan,
@@ -90,18 +90,18 @@ fn seconds_of(
     })
 }
 
-/// A suite, and what runs it.
+/// A suite with the solver that runs it.
 #[derive(Clone, Copy)]
 pub struct TimedPart<'a> {
     /// The suite.
     pub suite: &'a Suite,
-    /// The solver of its cases, if their method is external.
+    /// Solver of the cases, if their method is external.
     pub solver: Option<&'a dyn SolverFactory>,
 }
 
-/// Runs the parts of one suite and times every level of all of them in turn; calls `progress` after
-/// each level that ran and after each that was timed. `None` without a part. Only convergence
-/// studies have levels.
+/// Runs the parts of one suite and measures the times of all their levels in turn. Calls `progress`
+/// after each run and after each measured level. `None` without a part. Only convergence studies
+/// have levels.
 pub fn price(
     parts: &[TimedPart<'_>],
     extent: Extent,
@@ -145,7 +145,7 @@ pub fn price(
     Some(TimedSuite { outcome, levels, machine: observed.seen() })
 }
 
-/// Round after round until every level has been timed often enough.
+/// Repeats rounds over the levels until every level has been timed often enough.
 fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn() + Sync)) {
     for job in jobs.iter() {
         let _ = job.run();
@@ -157,7 +157,7 @@ fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn(
             let job = &mut jobs[*k];
             let found = job.run();
             job.seconds.extend(found.iter());
-            // A level whose set-up fails is not tried again.
+            // A level whose set-up fails is not repeated.
             let done = found.is_err() || job.is_done();
             if done {
                 progress();
@@ -167,7 +167,7 @@ fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn(
     }
 }
 
-/// Load of a level that has run.
+/// Workload of a level that has run.
 pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Workload {
     let (counters, steps) = (&level.run.counters, level.run.steps as f64);
     Workload {
@@ -178,7 +178,7 @@ pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Workload {
     }
 }
 
-/// A level that reaches an error, run by one thread.
+/// A level that reaches a target error, run by one thread.
 #[derive(Debug)]
 pub struct Goal<'a> {
     plan: &'a ConvergencePlan,
@@ -187,9 +187,9 @@ pub struct Goal<'a> {
     error: f64,
 }
 
-/// For every method of the first problem of the suite, the cheapest listed level in its converging
-/// part whose error over the size of the solution is at most `target`, sorted by cost. Excludes
-/// methods that do not reach it.
+/// The cheapest level of each method of the suite's first problem that reaches `target`, sorted by
+/// cost. The level must be in the method's converging part, and its error relative to the size of
+/// the solution must be at most `target`. Methods that do not reach the target are excluded.
 pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let ranked = by_transfers(&Runner::new(suite).run(&|| ()).cases);
@@ -219,7 +219,7 @@ impl Goal<'_> {
         self.level.cells
     }
 
-    /// Error over the size of the solution, from the judged run.
+    /// Error relative to the size of the solution, from the judged run.
     pub fn error(&self) -> f64 {
         self.error
     }
@@ -227,20 +227,20 @@ impl Goal<'_> {
     /// Sets up the level and runs its steps; returns the time of the steps (s).
     ///
     /// # Errors
-    /// One line with the reason why it cannot be set up.
+    /// The reason why the level cannot be set up.
     pub fn seconds(&self) -> Result<f64, SubjectError> {
         seconds(self.plan, self.case, self.level)
     }
 }
 
-/// Rounds of the loop: about a millisecond.
+/// Iterations of the fixed loop, which takes about a millisecond.
 const ROUNDS: u32 = 250_000;
 
-/// A pool of one thread; `None` if the system cannot create one.
+/// Thread pool with one thread; `None` if the system cannot create one.
 static ALONE: LazyLock<Option<ThreadPool>> =
     LazyLock::new(|| ThreadPoolBuilder::new().num_threads(1).build().ok());
 
-/// Does `work` on one thread, all of it: large scenes would use more.
+/// Runs `work` on one thread. Large scenes would otherwise use several.
 pub(crate) fn alone<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     match &*ALONE {
         Some(pool) => pool.install(work),
@@ -248,7 +248,7 @@ pub(crate) fn alone<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     }
 }
 
-/// A machine under observation.
+/// State of the machine during measurements.
 pub(crate) struct Observed {
     load: Option<f64>,
     loops: Vec<f64>,
@@ -256,30 +256,30 @@ pub(crate) struct Observed {
     waited: Option<f64>,
 }
 
-/// Time (s) of a piece of work: wall time, and the part in which this thread waited for a core, if
-/// the system reports it.
+/// Measures the time (s) of a piece of work: wall time minus the time for which this thread waited
+/// for a core, if the system reports the latter.
 pub(crate) struct LoadMonitor {
     start: Instant,
     waited: Option<f64>,
 }
 
 impl LoadMonitor {
-    /// From now on.
+    /// Starts a measurement.
     pub(crate) fn start() -> Self {
         Self { waited: waited(), start: Instant::now() }
     }
 
-    /// Until now, without the waiting.
+    /// Ends the measurement and returns the time (s) without waiting.
     pub(crate) fn stop(self) -> f64 {
         let passed = self.start.elapsed().as_secs_f64();
         let idle = self.waited.zip(waited()).map_or(0.0, |(before, after)| after - before);
-        // A value that is not positive is invalid.
+        // Waiting times outside this range are invalid.
         if idle > 0.0 && idle < passed { passed - idle } else { passed }
     }
 }
 
-/// Seconds for which this thread has been ready to run and waited: the second number of `schedstat`
-/// (Linux, Documentation/scheduler/sched-stats).
+/// Seconds for which this thread was ready to run but waited for a core: the second number of
+/// `schedstat` (Linux, Documentation/scheduler/sched-stats).
 fn waited() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let nanoseconds: f64 = text.split_whitespace().nth(1)?.parse().ok()?;
@@ -287,13 +287,13 @@ fn waited() -> Option<f64> {
 }
 
 impl Observed {
-    /// From now on.
+    /// Starts the observation.
     pub(crate) fn new() -> Self {
         let loops = Vec::new();
         Self { load: load_average(), loops, passed: Instant::now(), waited: waited() }
     }
 
-    /// Runs and times the loop once.
+    /// Runs the fixed loop once and measures its time.
     pub(crate) fn look(&mut self) {
         let watch = LoadMonitor::start();
         let mut x = black_box(0.5_f64);
@@ -304,7 +304,7 @@ impl Observed {
         self.loops.push(watch.stop());
     }
 
-    /// The machine as observed.
+    /// The observed state of the machine.
     pub(crate) fn seen(self) -> Machine {
         Machine {
             cores: std::thread::available_parallelism().map_or(1, usize::from),
@@ -318,7 +318,7 @@ impl Observed {
     }
 }
 
-/// Load average over the last minute, if the system has a file with it.
+/// Load average over the last minute, if the system reports it.
 fn load_average() -> Option<f64> {
     std::fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
 }

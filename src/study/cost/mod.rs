@@ -1,7 +1,7 @@
-//! Cost of suites in seconds: measured level by level, and within a budget.
+//! Cost of suites in seconds: measured for each level, and within a budget.
 //!
-//! Errors come from the same runs as reports, in parallel. Then every level is run again, alone on
-//! one thread, and its steps are timed, without set-up and without computing errors.
+//! Errors come from the same parallel runs as in reports. Then every level runs again, alone on one
+//! thread, and its steps are timed. The times exclude the set-up and the computation of errors.
 
 pub(crate) mod budget;
 pub(crate) mod candidate;

@@ -1,4 +1,4 @@
-//! The rows of name and value that state a problem.
+//! The rows of name and value that describe a problem.
 
 pub mod sketch;
 pub(crate) mod statement;

@@ -1,4 +1,4 @@
-//! The statement of a problem in rows of name and value, for reports and `explain`.
+//! Describes a problem in rows of name and value, for reports and `explain`.
 
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialParameter, MaterialPlan};
@@ -11,7 +11,7 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::sources;
 use crate::verify::rounded;
 
-/// Parameters and functions of a suite.
+/// Rows with the parameters and functions of a suite.
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let parameter = |(name, text, value): &(String, String, Option<f64>)| match value {
@@ -42,7 +42,7 @@ fn corner(c: &[f64]) -> String {
     c.iter().map(|x| stated(*x)).collect::<Vec<_>>().join(", ")
 }
 
-/// A number with the digits of the statement of a problem.
+/// A number with the digits that statements of problems use.
 pub(crate) fn stated(x: f64) -> String {
     shown(rounded(x, 6))
 }
@@ -61,7 +61,7 @@ fn body(scene: &Scene) -> String {
     format!("{body}, density {density}")
 }
 
-/// The rims that no load acts on, after the row of a body.
+/// Remark about rims without loads, for the row of a body.
 fn rims(scene: &Scene) -> &'static str {
     let is_loaded = scene.loads.iter().any(|load| matches!(load.target(), LoadTarget::Rim(_)));
     if is_loaded { "" } else { ", free rims" }
@@ -83,7 +83,7 @@ fn bodies(scene: &Scene, rows: &mut Rows) {
     }
 }
 
-/// Rows of a scene.
+/// Rows that describe a scene.
 pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     let one = scene.bodies.is_empty();
     if one {
@@ -142,22 +142,22 @@ fn material(plan: &MaterialPlan) -> String {
     plan.name().replace('_', " ") + &parameters
 }
 
-/// A part that a scene may do without.
+/// A part that can be removed from a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dispensable {
     /// An effect.
     Effect(EffectName),
-    /// Contact between bodies, which share one velocity field without it.
+    /// Contact between bodies. Without contact they share one velocity field.
     Contact,
 }
 
 impl Dispensable {
-    /// All of them.
+    /// All removable parts.
     pub fn all() -> impl Iterator<Item = Self> {
         EffectName::ALL.iter().map(|effect| Self::Effect(*effect)).chain([Self::Contact])
     }
 
-    /// The name in suites and reports.
+    /// Name in suites and reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Effect(effect) => effect.name(),
@@ -171,7 +171,7 @@ pub(crate) fn step_profile(plan: &ConvergencePlan, case: &Case) -> Option<Profil
     dispatch::profile(plan, case.method, *plan.refine.levels.first()?)
 }
 
-/// The plan with a scene that does not list `without`.
+/// The plan with a scene that lacks the part `without`.
 pub(crate) fn without_effect(plan: &ConvergencePlan, without: Dispensable) -> ConvergencePlan {
     let mut plan = plan.clone();
     let Dispensable::Effect(effect) = without else {
@@ -185,7 +185,7 @@ pub(crate) fn without_effect(plan: &ConvergencePlan, without: Dispensable) -> Co
     plan
 }
 
-/// Removes an effect from a scene, with the effects that need it.
+/// Removes an effect from a scene, together with the effects that require it.
 fn remove(scene: &mut Scene, effect: EffectName) {
     let goes = |other: &EffectName| *other == effect || other.needs().contains(&effect);
     scene.loads.retain(|load| !goes(&load.effect));

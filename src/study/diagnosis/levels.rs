@@ -1,4 +1,4 @@
-//! Findings about levels that are too coarse, bodies without damping, and errors of the size of the
+//! Findings about levels that are too coarse, bodies without damping, and errors as large as the
 //! solution.
 
 use super::regularity::sizes;
@@ -12,26 +12,25 @@ use crate::verify::{
     Verdict, observed_order,
 };
 
-/// Maximum ratio of the distances from the theoretical order, without the coarse levels over with
-/// them, if these levels are the cause.
+/// Maximum ratio of the distances from the theoretical order, without the coarse levels to with
+/// them, if the coarse levels are the cause.
 const CLOSER: f64 = 0.5;
 
-/// Maximum distance of the order between the finest two levels from the theoretical order, if the
-/// coarse levels are the cause.
+/// Maximum distance of the finest pair's order from the theoretical order, if the coarse levels are
+/// the cause.
 const NEAR: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
-/// Minimum error, as a share of the largest exact value, that has the size of the solution.
+/// Minimum error that counts as large as the solution, as a share of the largest exact value.
 const WHOLE: f64 = 0.1;
 
 /// Maximum ratio of the largest to the smallest error, if errors do not depend on the cells.
 const CONSTANT: f64 = 1.5;
 
-/// Minimum ratio of the cell size to the length scale of the solution on a level that is too
-/// coarse.
+/// Minimum ratio of cell size to length scale of the solution on a level that is too coarse.
 const COARSE: f64 = 0.5;
 
-/// A finding about coarse levels that do not resolve the exact solution: the order without them is
-/// that of theory, or the orders between neighbouring levels rise to it.
+/// Finding: coarse levels do not resolve the exact solution. Without them the order is the
+/// theoretical one, or the orders between neighbouring levels rise to it.
 pub(super) fn coarse(known: &Known<'_>) -> Option<KnownCause> {
     let (session, axis) = (known.session, known.plan.refine.axis);
     let p = session.formal_order;
@@ -78,7 +77,8 @@ pub(super) fn coarse(known: &Known<'_>) -> Option<KnownCause> {
     })
 }
 
-/// Orders between the coarsest two and the finest two levels, if they rise to that of theory.
+/// Orders between the coarsest two and the finest two levels, if they rise to the theoretical
+/// order.
 fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
     let order = |pair: &[&LevelOutcome]| {
         let [coarse, fine] = pair else { return None };
@@ -89,7 +89,8 @@ fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
     ((last - p).abs() <= NEAR && first < p - NEAR).then_some((first, last))
 }
 
-/// The coarsest cell over the length on which the exact solution changes, and a sentence on it.
+/// Ratio of the coarsest cell size to the length on which the exact solution changes, and a
+/// sentence with both.
 fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
     let length = sizes(known.plan.exact.as_ref()?, known.session.case.until).length();
     let coarsest = known.levels.first()?.h;
@@ -101,14 +102,14 @@ fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
     share.is_finite().then_some((share, text))
 }
 
-/// Levels by name, in a sentence.
+/// Names of levels, for a sentence.
 fn names(levels: &[&LevelOutcome], axis: Axis) -> String {
     let names: Vec<String> = levels.iter().map(|level| level.name(axis)).collect();
     let noun = if names.len() == 1 { "level" } else { "levels" };
     format!("the {noun} of {}", names.join(", "))
 }
 
-/// A finding about an equilibrium without damping in the suite.
+/// Finding: the suite has an equilibrium solution but no damping.
 pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     undamped::oscillates(plan, case).then_some(())?;
@@ -134,7 +135,7 @@ pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
     })
 }
 
-/// A finding about an external solver whose errors are of the size of the solution and do not fall.
+/// Finding: the errors of an external solver are as large as the solution and do not decrease.
 pub(super) fn another_problem(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     if !matches!(case.method, Method::External { .. }) || known.levels.len() < FEWEST_LEVELS {

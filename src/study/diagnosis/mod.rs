@@ -1,7 +1,7 @@
-//! Finds the cause if a case does not have the theoretical order.
+//! Finds out why a case does not have the theoretical order.
 //!
 //! ```text
-//! session        runs of one case within a budget, and whether `check` accepts a remedy
+//! session        runs of one case within a budget; checks whether `check` accepts a remedy
 //! steps          steps longer than the stable step
 //! walls          particles outside the grid, and walls that move
 //! levels         levels that are too coarse; an equilibrium without damping
@@ -9,10 +9,10 @@
 //! probes         changes of the problem, the levels or the method, one at a time
 //! ```
 //!
-//! The finest levels run again with one change at a time. A change is the cause if it restores the
-//! order. If no change does, the one with the largest decrease of the finest error is named. The
-//! `because` texts of the suite are not used. (One factor at a time, as the isolating runs of Roy
-//! 2005, J. Comput. Phys. 205, 131.)
+//! The finest levels run again with one change at a time (one factor at a time, as in the isolating
+//! runs of Roy 2005, J. Comput. Phys. 205, 131). A change is the cause if it restores the order. If
+//! no change does, the one with the largest decrease of the finest error is reported. The `because`
+//! texts of the suite are not used.
 
 mod levels;
 mod probes;
@@ -37,13 +37,13 @@ use crate::verify::{
     Axis, ChangedRun, Diagnosis, FEWEST_LEVELS, KnownCause, LevelOutcome, Quantity,
 };
 
-/// Number of levels, the finest, that are run again.
+/// Number of finest levels that run again.
 const LEVELS: usize = 5;
 
 /// Factor of the amplitude in the probe with a smaller motion.
 const SMALLER: f64 = 0.1;
 
-/// Every change that a plan can carry out, the most specific first.
+/// All changes that modify the plan only, the most specific first.
 const PROBES: [&ProbeKind; 14] = [
     &REFERENCE,
     &FORMULA,
@@ -61,7 +61,7 @@ const PROBES: [&ProbeKind; 14] = [
     &CELLS,
 ];
 
-/// Every search for a cause that needs no change of the method.
+/// All searches for causes that do not change the method.
 const CHECKS: [fn(&Known<'_>) -> Option<KnownCause>; 6] = [
     steps::check,
     walls::check,
@@ -71,12 +71,12 @@ const CHECKS: [fn(&Known<'_>) -> Option<KnownCause>; 6] = [
     regularity::check,
 ];
 
-/// The diagnosis of case number `index` of a suite, within a predicted time (s) for all changed
-/// runs. With `solver`, `suite` is that of [`under`](crate::study::under). `None` for a case
-/// without an order to explain: another kind of study, no exact solution, or too few levels.
+/// Diagnoses case number `index` of a suite, within a predicted time (s) for all changed runs. With
+/// `solver`, `suite` must come from [`under`](crate::study::under). `None` if there is no order to
+/// explain: another kind of study, no exact solution, or too few levels.
 ///
 /// # Errors
-/// One line with the reason why the case itself cannot be run.
+/// The reason why the case itself cannot run.
 pub fn diagnose(
     suite: &Suite,
     source: &Source,
@@ -94,7 +94,7 @@ pub fn diagnose(
     let session = Session::new(&suite.name, source, case, formal_order, solver, budget);
     let all = only(plan, case, plan.refine.levels(Extent::Usual));
     let found = session.first(&all).map_err(|reason| with_cause(&session, &all, reason))?;
-    // Levels that do not count have another error than the one that is judged.
+    // The last level must count, because its error is compared.
     let end = found.levels.iter().rposition(|level| level.usable).map_or(0, |last| last + 1);
     let range = end.saturating_sub(LEVELS)..end;
     let levels = &found.levels[range.clone()];
@@ -117,7 +117,7 @@ pub fn diagnose(
     let known = Known { session: &session, plan: &all, levels: &found.levels, finest: &finest };
     for check in CHECKS {
         diagnosis.findings.extend(check(&known));
-        // Once a cause is known, further checks with this step, grid or load give no evidence.
+        // Once a cause is known, further checks with the same step, grid or load give no evidence.
         if diagnosis.is_known() {
             break;
         }
@@ -131,7 +131,7 @@ pub fn diagnose(
     Ok(Some(diagnosis))
 }
 
-/// Why a case cannot be run, with the cause if it is known.
+/// Reason why a case cannot run, with the cause if it is known.
 fn with_cause(session: &Session<'_>, plan: &ConvergencePlan, reason: String) -> String {
     let lost = |level| walls::particle_on_wall(session, plan, level);
     let Some(finding) = plan.refine.levels.iter().copied().find_map(lost) else { return reason };
@@ -143,7 +143,7 @@ fn finest_error(levels: &[LevelOutcome]) -> f64 {
     levels.last().map_or(f64::NAN, |level| level.error)
 }
 
-/// Runs the levels of `finest` with one change at a time; `levels` are their results without a
+/// Runs the levels of `finest` with one change at a time. `levels` are their results without a
 /// change.
 fn changed_runs(
     session: &Session<'_>,
@@ -175,7 +175,7 @@ fn changed_runs(
     runs
 }
 
-/// Every change that means something, with the factor by which it changes the size of the judged
+/// All applicable changes, each with the factor by which it changes the size of the judged
 /// quantity.
 fn changed_plans(
     session: &Session<'_>,
@@ -194,8 +194,8 @@ fn changed_plans(
     changed
 }
 
-/// Size of the judged quantity in the smaller motion of `smaller` over that in `plan`, both over
-/// the divisors of their errors.
+/// Ratio of the size of the judged quantity in the smaller motion of `smaller` to that in `plan`,
+/// both relative to the divisors of their errors.
 fn size_factor(plan: &ConvergencePlan, smaller: &ConvergencePlan) -> f64 {
     let divisor = |plan: &ConvergencePlan| plan.scale.unwrap_or(1.0);
     let sizes = match (&plan.sum, &smaller.sum, plan.of) {
@@ -206,7 +206,7 @@ fn size_factor(plan: &ConvergencePlan, smaller: &ConvergencePlan) -> f64 {
     sizes * divisor(plan) / divisor(smaller)
 }
 
-/// Loads the suite with the remedy that the diagnosis recommends.
+/// Checks whether the suite loads with the remedy that the diagnosis recommends.
 fn check_remedy(session: &Session<'_>, finest: &ConvergencePlan, diagnosis: &mut Diagnosis) {
     let Some(change) = diagnosis.found().map(|(run, _)| run.change.clone()) else { return };
     let kind = PROBES.into_iter().find(|kind| kind.change == change);

@@ -1,7 +1,7 @@
-//! Probes: changes of one thing in the problem, the levels or the method.
+//! Probes: single changes of the problem, the levels or the method.
 //!
-//! Any solver can run changes of the problem and of the levels. Changes of a method apply to the
-//! methods of this crate only.
+//! Any solver can run changes of the problem and of the levels. Changes of a method apply only to
+//! methods of this crate.
 
 use crate::mpm::{
     BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, combine,
@@ -18,26 +18,26 @@ use crate::verify::Axis;
 /// Whether particles change their cells in the runs of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Crossings {
-    /// None does.
+    /// No particle changes its cell.
     None,
-    /// Some do, or the solver does not report it.
+    /// Some particles do, or the solver does not report it.
     Some,
 }
 
-/// A change of one thing.
+/// A single change, its interpretation, and the remedy.
 pub(crate) struct ProbeKind {
     /// The change, as text.
     pub(crate) change: &'static str,
-    /// The cause, if the change helps.
+    /// Cause that is inferred if the change helps.
     pub(crate) cause: fn(&Case, Crossings) -> &'static str,
-    /// The remedy for an author.
+    /// Remedy for the author of the suite.
     pub(crate) remedy: &'static str,
     /// The plan with the change; `None` if the change does not apply.
     pub(crate) apply: fn(&ConvergencePlan) -> Option<ConvergencePlan>,
 }
 
-/// A run with smaller amplitude. The plan is compiled from the text of the suite, with its
-/// amplitude scaled.
+/// A run with smaller amplitude. Its plan is compiled from the suite text with the amplitude
+/// scaled.
 pub(super) const AMPLITUDE: ProbeKind = ProbeKind {
     change: "a tenth of the amplitude",
     cause: |_, _| {
@@ -48,7 +48,7 @@ pub(super) const AMPLITUDE: ProbeKind = ProbeKind {
     apply: |_| None,
 };
 
-/// The reference as exact solution.
+/// Compares with the reference instead of the formula.
 pub(super) const REFERENCE: ProbeKind = ProbeKind {
     change: "the reference in place of the formula",
     cause: |_, _| "the exact formula solves another model than the method does",
@@ -59,7 +59,7 @@ pub(super) const REFERENCE: ProbeKind = ProbeKind {
     },
 };
 
-/// The formula as exact solution.
+/// Compares with the formula instead of the reference.
 pub(super) const FORMULA: ProbeKind = ProbeKind {
     change: "the formula in place of the reference",
     cause: |_, _| "the reference solves another model than the method does",
@@ -70,7 +70,7 @@ pub(super) const FORMULA: ProbeKind = ProbeKind {
     },
 };
 
-/// Grid lines on every interface and loaded face.
+/// Aligns grid lines with every interface and loaded face.
 pub(super) const ALIGNMENT: ProbeKind = ProbeKind {
     change: "cells whose lines meet every interface and loaded face",
     cause: |_, _| "an interface or a loaded face inside a cell, where the solution is smeared",
@@ -145,15 +145,15 @@ pub(super) const CELLS: ProbeKind = ProbeKind {
     },
 };
 
-/// The plan with its case compared with another solution.
+/// The plan, with its case compared with another solution.
 fn compared_with(plan: &ConvergencePlan, against: Against) -> ConvergencePlan {
     let mut plan = plan.clone();
     plan.cases.iter_mut().for_each(|case| case.against = against);
     plan
 }
 
-/// The plan with every level changed, including the fine grid of the reference; `None` if a level
-/// cannot be changed, or becomes too large.
+/// The plan with every level changed, including the fine grid of the reference. `None` if a level
+/// cannot be changed or would become too large.
 fn changed_levels(
     plan: &ConvergencePlan,
     change: impl Fn(LevelPlan) -> Option<LevelPlan>,
@@ -170,7 +170,7 @@ fn changed_levels(
     Some(plan)
 }
 
-/// The first velocity at half a step before the start.
+/// Starts velocities half a step before the start.
 pub(super) const START: ProbeKind = ProbeKind {
     change: "`start: half_step_back`",
     cause: |_, _| "the start: v(0) is used for v(-dt/2), an error of first order in time",
@@ -188,7 +188,7 @@ pub(super) const START: ProbeKind = ProbeKind {
     },
 };
 
-/// MUSL in place of USF.
+/// Uses MUSL instead of USF.
 pub(super) const SCHEME: ProbeKind = ProbeKind {
     change: "`scheme: musl`",
     cause: |_, _| "the scheme: USF updates the stress half a step late, first order in time",
@@ -203,7 +203,7 @@ pub(super) const SCHEME: ProbeKind = ProbeKind {
     },
 };
 
-/// Domains that follow the deformation.
+/// Uses domains that follow the deformation.
 pub(super) const DOMAINS: ProbeKind = ProbeKind {
     change: "`basis: cpgimp`",
     cause: |_, _| {
@@ -221,7 +221,7 @@ pub(super) const DOMAINS: ProbeKind = ProbeKind {
     },
 };
 
-/// Gradients of the basis in place of gradients from a fit.
+/// Uses gradients of the basis instead of gradients from a fit.
 pub(super) const GRADIENTS: ProbeKind = ProbeKind {
     change: "`transfer: apic`",
     cause: |_, _| {
@@ -245,7 +245,7 @@ pub(super) const GRADIENTS: ProbeKind = ProbeKind {
     },
 };
 
-/// The consistent mass matrix.
+/// Uses the consistent mass matrix.
 pub(super) const MASS: ProbeKind = ProbeKind {
     change: "the consistent mass matrix",
     cause: |_, _| "lumping: row sums are not the mass that a smooth acceleration acts on",
@@ -262,7 +262,7 @@ pub(super) const MASS: ProbeKind = ProbeKind {
     },
 };
 
-/// A grid that moves with the body.
+/// Uses a grid that moves with the body.
 pub(super) const FRAME: ProbeKind = ProbeKind {
     change: "`frame: total_lagrangian`",
     cause: |case, crossings| match case.method {
@@ -289,7 +289,7 @@ pub(super) const FRAME: ProbeKind = ProbeKind {
     },
 };
 
-/// A basis with continuous gradients.
+/// Uses a basis with continuous gradients.
 pub(super) const SMOOTH_BASIS: ProbeKind = ProbeKind {
     change: "`basis: quadratic_bspline`",
     cause: |_, crossings| match crossings {
@@ -307,8 +307,8 @@ pub(super) const SMOOTH_BASIS: ProbeKind = ProbeKind {
     },
 };
 
-/// The plan with the method of its case changed; `None` if this is no change, or not a valid
-/// method.
+/// The plan with the method of its case changed. `None` if the method does not change or becomes
+/// invalid.
 fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<ConvergencePlan> {
     let mut changed = plan.clone();
     changed.cases.iter_mut().for_each(|case| change(&mut case.method));

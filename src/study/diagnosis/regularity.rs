@@ -1,7 +1,7 @@
-//! Jumps of the exact displacement and its derivatives, and the order that they allow.
+//! Finds jumps of the exact displacement and its derivatives, and the order that they allow.
 //!
-//! The derivatives are taken from the formulas, piece by piece. So a jump between two points
-//! remains when the points approach each other, and the change across a steep slope vanishes.
+//! The derivatives are those of the formulas in each piece. When two points approach each other, a
+//! jump between them therefore remains, while the change across a steep slope vanishes.
 
 use super::session::Known;
 use crate::exact::{Derivatives, Problem};
@@ -9,19 +9,18 @@ use crate::suite::grammar::NormName;
 use crate::suite::model::{Against, ConvergencePlan};
 use crate::verify::{Axis, KnownCause, KnownCauseKind, OrderHypothesis, Quantity};
 
-/// Minimum change of the strain within a cell, as a share of its largest value, that acts like a
-/// jump.
+/// Minimum relative change of the strain within a cell that has the effect of a jump.
 const STEEP: f64 = 0.5;
 
-/// Maximum distance of the observed order below the limit if the limit explains it.
+/// Maximum distance by which the observed order may be below a limit that explains it.
 const BELOW: f64 = 0.5;
 
 /// Maximum order that a method of order `p` can reach if the derivative of order `jump` of the
 /// solution is discontinuous; `None` for a sum over the body.
 ///
-/// A jump of the judged quantity is smeared over h^(p/(p + 1)) by a scheme of order p, and each
-/// continuous derivative gains that factor (Brenner & Thomee 1971, Math. Scand. 27, 5). In an
-/// equilibrium the front does not travel and is as wide as a cell.
+/// A scheme of order p smears a jump of the judged quantity over h^(p/(p + 1)), and each continuous
+/// derivative gains this factor (Brenner & Thomee 1971, Math. Scand. 27, 5). In an equilibrium the
+/// front does not travel and is as wide as a cell.
 fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
     let differentiated = match plan.of {
         Quantity::Displacement => 0.0,
@@ -43,7 +42,7 @@ fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
     Some((jump as f64 - differentiated + of_support).max(0.0) * front)
 }
 
-/// A finding about an exact solution for which the theoretical order cannot be reached.
+/// Finding: the exact solution does not allow the theoretical order.
 pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     let problem = plan.exact.as_ref().filter(|_| case.against == Against::Exact)?;
@@ -78,7 +77,7 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let p = known.session.formal_order;
     let limit = limit(plan, p, jump)?;
     let observed = known.finest.order;
-    // An order above this limit shows that the jump has no effect: the grid has a line at the jump.
+    // An order above this limit shows that the jump has no effect, because a grid line lies on it.
     let is_lower =
         observed.is_none_or(|order| order.low <= limit + 2.0 * OrderHypothesis::TOLERANCE);
     if !(limit < p - OrderHypothesis::TOLERANCE && is_lower) {
@@ -114,24 +113,23 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
 /// Times at which the solution is examined, as shares of the run.
 const TIMES: [f64; 6] = [0.37, 0.61, 0.83, 0.17, 1.0, 0.0];
 
-/// Intervals of each line on which the solution is examined, and lines along each axis, by
-/// dimension.
+/// Number of intervals on each examined line, and number of lines along each axis, by dimension.
 const INTERVALS: [usize; 3] = [512, 128, 64];
 const LINES: [usize; 3] = [1, 5, 3];
 
-/// Share of the largest value of a derivative that a jump has at least.
+/// Minimum size of a jump, as a share of the largest value of the derivative.
 const LEAST: f64 = 1e-3;
 
-/// Share of the length of a line below which it counts as a point.
+/// Length below which an interval counts as a point, as a share of the length of the line.
 const POINT: f64 = 1e-9;
 
-/// Share of its natural size below which a derivative is rounding.
+/// Share of its natural size below which a derivative counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
 /// A derivative of the displacement: its order, and its values.
 type Derivative = (usize, fn(&Derivatives) -> Vec<f64>);
 
-/// The displacement and its derivatives, from the lowest order.
+/// The displacement and its derivatives, starting with the lowest order.
 const GROUPS: [Derivative; 6] = [
     (0, |now| now.u.to_vec()),
     (1, |now| now.velocity.to_vec()),
@@ -141,7 +139,7 @@ const GROUPS: [Derivative; 6] = [
     (2, |now| now.second.as_flattened().as_flattened().to_vec()),
 ];
 
-/// A place and a time at which a derivative jumps.
+/// Place and time of a jump of a derivative.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Jump {
     /// Order of the derivative.
@@ -157,8 +155,8 @@ pub(crate) struct Jump {
 pub(crate) struct Sizes([f64; GROUPS.len()]);
 
 impl Sizes {
-    /// Length (m) over which the displacement changes: the square root of its size over that of its
-    /// second derivatives. For a sine it is the wavelength over 2 pi.
+    /// Length (m) over which the displacement changes: the square root of the ratio of its size to
+    /// that of its second derivatives. For a sine this is the wavelength over 2 pi.
     pub(crate) fn length(&self) -> f64 {
         (self.0[0] / self.0[5]).sqrt()
     }
@@ -185,7 +183,7 @@ pub(crate) fn sizes(problem: &Problem, until: f64) -> Sizes {
     Sizes(sizes)
 }
 
-/// The jump of the derivative of lowest order, up to the second, that has one.
+/// The jump of the lowest-order derivative that jumps, up to the second order.
 pub(crate) fn lowest_jump(problem: &Problem, until: f64) -> Option<Jump> {
     let Sizes(sizes) = sizes(problem, until);
     let length = problem.from.iter().zip(&problem.to).map(|(a, b)| b - a).fold(0.0, f64::max);
@@ -222,7 +220,7 @@ impl LocalLine {
         place
     }
 
-    /// Points of the line in the body, each with its number.
+    /// Points of the line inside the body, with their numbers.
     fn inside<'a>(&'a self, problem: &'a Problem) -> impl Iterator<Item = (usize, Vec<f64>)> + 'a {
         let count = INTERVALS[problem.dimension().clamp(1, 3) - 1];
         let from = self.from[self.axis];
@@ -231,7 +229,7 @@ impl LocalLine {
         places.filter(|(_, place)| problem.holds(place))
     }
 
-    /// The place of a jump of a component of `at` by at least `least`.
+    /// Place where a component of `at` jumps by at least `least`.
     fn jump(
         &self,
         problem: &Problem,
@@ -253,7 +251,7 @@ impl LocalLine {
         None
     }
 
-    /// The place of a jump of component `i` between two points with its values.
+    /// Place of a jump of component `i` between two points with known values.
     fn bisect(
         &self,
         mut low: (f64, f64),
@@ -263,7 +261,7 @@ impl LocalLine {
         at: &dyn Fn(&[f64]) -> Vec<f64>,
     ) -> Option<Vec<f64>> {
         let point = POINT * (self.to - self.from[self.axis]);
-        // A difference that is not finite is not a jump.
+        // A difference that is not finite does not count as a jump.
         while (high.1 - low.1).abs() >= least && (high.1 - low.1).is_finite() {
             let x = 0.5 * (low.0 + high.0);
             if high.0 - low.0 <= point {
@@ -277,7 +275,7 @@ impl LocalLine {
     }
 }
 
-/// Lines along every axis, evenly through the body.
+/// Evenly distributed lines through the body along every axis.
 fn lines(problem: &Problem) -> Vec<LocalLine> {
     let d = problem.dimension();
     let count = LINES[d.clamp(1, 3) - 1];

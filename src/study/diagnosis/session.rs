@@ -1,4 +1,4 @@
-//! Runs of one case within a budget, and whether `check` accepts a recommended remedy.
+//! Runs one case repeatedly within a budget, and checks whether `check` accepts a remedy.
 
 use crate::external::SolverFactory;
 use crate::study::kind::{RunContext, Study};
@@ -16,11 +16,11 @@ use std::time::Instant;
 /// Maximum distance of a restored order below the theoretical order.
 const NEAR: f64 = 0.2;
 
-/// Maximum distance of a restored order above the theoretical order: a case may be better than
-/// theory.
+/// Maximum distance of a restored order above the theoretical order. A case may have a higher order
+/// than theory.
 const ABOVE: f64 = 0.8;
 
-/// Everything that all runs of a case share.
+/// Data common to all runs of a case.
 pub(super) struct Session<'a> {
     pub(super) suite: &'a str,
     pub(super) source: &'a Source,
@@ -29,14 +29,15 @@ pub(super) struct Session<'a> {
     pub(super) solver: Option<&'a dyn SolverFactory>,
     /// Remaining time (s) for changed runs.
     left: Cell<f64>,
-    /// Measured time of an external solver over the predicted one of this crate, at least 1.
+    /// Ratio of the measured time of an external solver to the predicted time of this crate, at
+    /// least 1.
     slowness: Cell<f64>,
     /// Changes that were too expensive.
     skipped: RefCell<Vec<String>>,
 }
 
 impl<'a> Session<'a> {
-    /// A session with `budget` (s) for changed runs.
+    /// Creates a session with `budget` (s) for changed runs.
     pub(super) fn new(
         suite: &'a str,
         source: &'a Source,
@@ -53,7 +54,7 @@ impl<'a> Session<'a> {
     /// Runs the unchanged case.
     ///
     /// # Errors
-    /// One line with the reason why it cannot be run.
+    /// The reason why the case cannot run.
     pub(super) fn first(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
         let start = Instant::now();
         let found = self.run(plan)?;
@@ -64,7 +65,7 @@ impl<'a> Session<'a> {
         Ok(found)
     }
 
-    /// Runs a changed plan. `None` if it exceeds the budget, or cannot be set up: a failed set-up
+    /// Runs a changed plan. `None` if it exceeds the budget or cannot be set up. A failed set-up
     /// gives no evidence.
     pub(super) fn changed(&self, change: &str, plan: &ConvergencePlan) -> Option<Convergence> {
         let cost = self.slowness.get() * estimate_of(plan).seconds;
@@ -84,7 +85,7 @@ impl<'a> Session<'a> {
         outcome.convergence().cloned().ok_or(outcome.reason)
     }
 
-    /// Judges levels with a hypothesis near the theoretical order.
+    /// Judges levels with an expected order near the theoretical one.
     pub(super) fn judge<'b>(
         &self,
         levels: impl IntoIterator<Item = &'b LevelOutcome>,
@@ -101,18 +102,18 @@ impl<'a> Session<'a> {
     }
 }
 
-/// A case with the results of its levels of the gate.
+/// A case with the results of its gate levels.
 pub(super) struct Known<'a> {
     pub(super) session: &'a Session<'a>,
-    /// The study with this case only, and its levels.
+    /// The study with only this case and its levels.
     pub(super) plan: &'a ConvergencePlan,
-    /// The results of the levels.
+    /// Results of the levels.
     pub(super) levels: &'a [LevelOutcome],
     /// Judgement of the finest levels.
     pub(super) finest: &'a Judgement,
 }
 
-/// The plan with one case and some levels.
+/// The plan with a single case and the given levels.
 pub(super) fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) -> ConvergencePlan {
     let mut plan = plan.clone();
     plan.refine.levels = levels.to_vec();
@@ -121,8 +122,8 @@ pub(super) fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) ->
     plan
 }
 
-/// Why `check` refuses the suite in `source` with all differences between `before` and `after`, two
-/// plans of one case; `None` if `check` accepts the suite.
+/// Reason why `check` rejects the suite in `source` if all differences between `before` and `after`
+/// are applied to it. Both are plans of one case. `None` if `check` accepts the suite.
 pub(super) fn refusal(
     source: &Source,
     before: &ConvergencePlan,
@@ -152,7 +153,7 @@ pub(super) fn accepts_grid(source: &Source, from: &[f64], to: &[f64]) -> bool {
     with_changes(source, |spec| spec.scene.grid = Some(grid)).is_ok()
 }
 
-/// The method as a suite states it; `None` of a method that is never changed.
+/// The method as written in a suite; `None` for methods that are never changed.
 fn method_spec(method: Method) -> Option<MethodSpec> {
     let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } = method
     else {
@@ -170,8 +171,8 @@ fn method_spec(method: Method) -> Option<MethodSpec> {
     })
 }
 
-/// Writes the levels `after` into a suite whose levels are `before`. A time step that is a formula
-/// of h follows the cells.
+/// Replaces the levels `before` of a suite by `after`. A time step that is a formula of h follows
+/// the cells.
 fn write_levels(spec: &mut ConvergenceSpec, before: &[LevelPlan], after: &[LevelPlan]) {
     let write = |values: &mut OneOrMany<NumberText>, of: fn(&LevelPlan) -> f64| {
         let is_changed = before.iter().map(of).ne(after.iter().map(of));
@@ -187,6 +188,6 @@ fn write_levels(spec: &mut ConvergenceSpec, before: &[LevelPlan], after: &[Level
     if let Some(dt) = &mut spec.refine.dt {
         write(dt, |level| level.dt);
     }
-    // Finer levels of full runs need not be levels of the changed list.
+    // Finer levels of full runs may not be compatible with the changed list.
     spec.refine.full = None;
 }

@@ -9,21 +9,21 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::yaml::NumberText;
 use crate::verify::{Axis, KnownCause, KnownCauseKind, LevelOutcome, StepKind};
 
-/// Share of a stable step that is predicted, at which levels are run again.
+/// Share of the predicted stable step with which levels are repeated.
 const OF_PREDICTED: f64 = 0.5;
 
-/// Share of the time in which a wave crosses a cell, from which on the step of a method without a
-/// predicted stable step is in question.
+/// Share of the time in which a wave crosses a cell, above which the step of a method without a
+/// predicted stable step is doubtful.
 const IN_QUESTION: f64 = 0.5;
 
-/// Share of the time in which a wave crosses a cell, at which such levels are run again.
+/// Share of the time in which a wave crosses a cell, with which such levels are repeated.
 const CAUTIOUS: f64 = 0.2;
 
-/// Maximum ratio of the error of a level with a stable step to that with an unstable one, if the
-/// step is the cause. With a step of 2/5, an accurate method of order 2 in time has a ratio of 1/6.
+/// Maximum ratio of the error with a stable step to that with an unstable one, if the step is the
+/// cause. With a step of 2/5, an accurate method of order 2 in time has a ratio of 1/6.
 const MENDED: f64 = 0.03;
 
-/// A level whose step is longer than a limit (s), and its run with a stable step.
+/// A level whose step exceeds a limit (s), with its repetition at a stable step.
 struct Mended<'a> {
     index: usize,
     before: &'a LevelOutcome,
@@ -31,8 +31,8 @@ struct Mended<'a> {
     limit: f64,
 }
 
-/// A finding about steps longer than the stable step, on levels whose error is small, or finite at
-/// all, with stable steps only.
+/// Finding: steps are longer than the stable step, on levels whose error is small or finite only
+/// with stable steps.
 pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let (session, plan) = (known.session, known.plan);
     let mended = mended(known)?;
@@ -80,13 +80,13 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
 }
 
 impl Mended<'_> {
-    /// The step over its limit.
+    /// Ratio of the step to its limit.
     fn times(&self) -> f64 {
         self.before.dt / self.limit
     }
 }
 
-/// Levels that stable steps repair; `None` if there are no such levels.
+/// Levels that are repaired by stable steps; `None` if there are none.
 fn mended<'a>(known: &Known<'a>) -> Option<Vec<Mended<'a>>> {
     let (plan, levels) = (known.plan, known.levels);
     let limits: Vec<(usize, f64)> = levels
@@ -118,12 +118,12 @@ fn mended<'a>(known: &Known<'a>) -> Option<Vec<Mended<'a>>> {
     Some(mended).filter(|mended| !mended.is_empty())
 }
 
-/// The step (s) above which the step of a level is in question.
+/// Time step (s) above which the step of a level is doubtful.
 fn limit(plan: &ConvergencePlan, level: &LevelOutcome) -> Option<f64> {
     if plan.steps == StepKind::Load {
         return None;
     }
-    // Steps of the built-in MPM are stable unless they are predicted to be too long.
+    // Steps of the built-in MPM are stable unless a prediction shows that they are too long.
     if level.stable_time_step.is_some() || matches!(plan.cases[0].method, Method::Mpm { .. }) {
         return level.stable_time_step;
     }

@@ -1,4 +1,4 @@
-//! Gradient studies: derivatives of a differentiable solver, compared with its own values, with
+//! Gradient studies compare the derivatives of a differentiable solver with its own values, with
 //! exact sensitivities, and over an interval of a parameter.
 
 mod run;
@@ -28,7 +28,7 @@ impl Study for GradientPlan {
     }
 }
 
-/// Runs cases of a gradient study.
+/// Runs the cases of a gradient study.
 struct GradientRunner<'a> {
     plan: &'a GradientPlan,
     context: RunContext<'a>,
@@ -69,7 +69,7 @@ impl CaseRunner for GradientRunner<'_> {
         let run = GradientRun { context, plan, case, solver, request };
         match run.study(progress) {
             Ok(study) => judged(described, case, study),
-            // A solver's statement that it cannot do something is not a fault.
+            // A capability that the solver lacks is not a failure.
             Err(GradientError::Cannot(reason)) => {
                 described.not_applicable(vec![reason], "refuses the problem:")
             }
@@ -78,14 +78,14 @@ impl CaseRunner for GradientRunner<'_> {
     }
 }
 
-/// Whether `solver` has gradients with respect to a parameter.
+/// Whether `solver` supports gradients with respect to a parameter.
 fn has_gradient(solver: &dyn SolverFactory, parameter: GradientParameter) -> bool {
     let of = |gradients| ProblemNeeds { gradients, ..ProblemNeeds::default() };
     let without = solver.lacks(&of(Vec::new())).len();
     solver.lacks(&of(vec![parameter.name()])).len() == without
 }
 
-/// Everything that a case needs and `solver` lacks.
+/// Capabilities that a case requires and `solver` lacks.
 fn lacking(plan: &GradientPlan, case: &GradientCase, solver: &dyn SolverFactory) -> Vec<String> {
     let one = &plan.parameters[case.parameter];
     let mut gradients = vec![one.parameter.name()];
@@ -115,7 +115,7 @@ fn described(
     }
 }
 
-/// The outcome of a case that has run.
+/// Outcome of a case that has run.
 fn judged(described: CaseOutcome, case: &GradientCase, study: GradientStudy) -> CaseOutcome {
     let (state, reason) = study.state();
     let unmet = case.expected.as_ref().map_or(Vec::new(), |(terms, _)| terms.unmet(&study));
@@ -128,7 +128,7 @@ fn judged(described: CaseOutcome, case: &GradientCase, study: GradientStudy) -> 
     }
 }
 
-/// The outcome of a case whose solver broke.
+/// Outcome of a case whose solver failed.
 fn failed(described: CaseOutcome, reason: &str) -> CaseOutcome {
     let reason = format!("the solver {reason}");
     let is_expected = described.expected.is_some();
@@ -136,7 +136,7 @@ fn failed(described: CaseOutcome, reason: &str) -> CaseOutcome {
     CaseOutcome { verdict: "failed".to_owned(), reason, unmet, ..described }
 }
 
-/// Rows of the study.
+/// Rows that describe the study.
 fn rows(plan: &GradientPlan) -> Rows {
     let mut rows = statement::rows(&plan.problem);
     rows.retain(|(key, _)| !["instants", "judged", "crossing levels"].contains(&key.as_str()));

@@ -1,4 +1,4 @@
-//! The runs of one case: gradients and perturbed values.
+//! Runs one case: gradients and perturbed values.
 
 use crate::exact::{ParametricMotion, ParametricState};
 use crate::external::{Gradient, GradientError, GradientRequest, LevelProblem, SolverFactory};
@@ -15,14 +15,14 @@ use crate::verify::{
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Rounding of a value, in units of the rounding of its largest term.
+/// Rounding error of a value, in units of the rounding error of its largest term.
 const ROUNDING: f64 = 4.0;
 
-/// Share of a parameter by which it is perturbed for the comparison of all entries, as a power of
-/// 1/2.
+/// Level of the perturbation for comparing all entries: the perturbation is the parameter times
+/// 2^-level.
 const EVIDENCE_LEVEL: u32 = 8;
 
-/// Young's modulus of a run without stress, relative to that of the problem.
+/// Young's modulus of a run without stress, relative to the problem's modulus.
 const NO_STRESS: f64 = 1e-9;
 
 /// Runs of one case.
@@ -31,18 +31,18 @@ pub(super) struct GradientRun<'a> {
     pub(super) plan: &'a GradientPlan,
     pub(super) case: &'a GradientCase,
     pub(super) solver: &'a dyn SolverFactory,
-    /// The parameters of the suite for which the solver has gradients.
+    /// Parameters of the suite for which the solver supports gradients.
     pub(super) request: Vec<GradientParameter>,
 }
 
-/// The result of one run of the solver, as it is kept by `--resume`.
+/// Result of one run of the solver, as stored for `--resume`.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct CachedAnswer {
-    /// Value and rounding of a functional, or value and gradient.
+    /// Either value and rounding of a functional, or value and gradient.
     numbers: Vec<f64>,
-    /// The reason for which the solver does not support the run.
+    /// Reason why the solver does not support the run.
     cannot: Option<String>,
-    /// The reason for which the solver broke.
+    /// Reason why the solver failed.
     failed: Option<String>,
 }
 
@@ -68,8 +68,8 @@ impl GradientRun<'_> {
     /// Runs all checks.
     ///
     /// # Errors
-    /// [`GradientError::Cannot`] if the solver does not support a run, [`GradientError::Failed`]
-    /// if it breaks.
+    /// [`GradientError::Cannot`] if the solver does not support a run, [`GradientError::Failed`] if
+    /// it fails.
     pub(super) fn study(&self, progress: Progress<'_>) -> Result<GradientStudy, GradientError> {
         let levels = self.plan.problem.refine.levels(self.context.extent);
         let on_level = |level: &LevelPlan| {
@@ -116,7 +116,7 @@ impl GradientRun<'_> {
         Ok(study)
     }
 
-    /// Figures of further runs without derivatives, with which a wrong derivative is compared.
+    /// Figures from additional runs without derivatives, for comparison with a wrong derivative.
     fn evidence(&self, problem: &LevelProblem) -> Result<GradientEvidence, GradientError> {
         let Gradient { gradient, .. } = self.gradient(problem)?;
         let value = |problem: LevelProblem| Ok(self.value(&problem)?.value);
@@ -135,7 +135,7 @@ impl GradientRun<'_> {
         let young = GradientParameter::Young;
         let soft = problem.parameter(young).map(|young| NO_STRESS * young);
         let soft = soft.map(|soft| problem.clone().with_parameter(young, soft));
-        // A solver may break on either: then there is nothing to compare with.
+        // The solver may fail in either of these runs. Their figures are then missing.
         let or_none = |value: Result<f64, GradientError>| value.unwrap_or(f64::NAN);
         Ok(GradientEvidence {
             entries,
@@ -152,7 +152,7 @@ impl GradientRun<'_> {
         Ok(level_problem(self.context.suite, &self.plan.problem, &self.case.solver, level)?)
     }
 
-    /// Rounding of the Taylor remainder, in units of the largest term of a value.
+    /// Rounding error of the Taylor remainder, in units of the largest term of a value.
     fn rounding(&self) -> f64 {
         let half = match self.solver.precision() {
             Precision::Double => 0.5 * f64::EPSILON,
@@ -161,7 +161,7 @@ impl GradientRun<'_> {
         ROUNDING * half
     }
 
-    /// Allowed difference between the reported value and that of a run without derivatives.
+    /// Allowed difference between the reported value and the value of a run without derivatives.
     fn tolerance(&self, plain: FunctionalValue) -> f64 {
         let relative = match self.solver.precision() {
             Precision::Double => 1e-12,
@@ -171,7 +171,8 @@ impl GradientRun<'_> {
         (relative * plain.value.abs()).max(near_zero)
     }
 
-    /// One level with the reported value, and with the partial derivative as it is reported.
+    /// Runs one level. Returns the level, the reported value, and the partial derivative as
+    /// reported.
     fn level(&self, level: LevelPlan) -> Result<(GradientLevel, f64, f64), GradientError> {
         let (problem, one) = (self.problem(level)?, self.parameter());
         let exact = exact_derivative(self.plan, one, &problem);
@@ -211,7 +212,7 @@ impl GradientRun<'_> {
         Err(GradientError::Failed(reason))
     }
 
-    /// Value of the functional after a run without derivatives.
+    /// Value of the functional after a run without derivatives, from the cache if available.
     fn value(&self, problem: &LevelProblem) -> Result<FunctionalValue, GradientError> {
         let run = |problem| self.plain_run(problem).map(|done| vec![done.value, done.scale]);
         match self.kept(problem, "value", run)?[..] {
@@ -220,8 +221,8 @@ impl GradientRun<'_> {
         }
     }
 
-    /// The stored result of a run, or that of `run`, which is then stored. `what` states which
-    /// numbers of the problem it has.
+    /// The stored result of a run, or the result of `run`, which is then stored. `what` states
+    /// which numbers the result contains.
     fn kept(
         &self,
         problem: &LevelProblem,
@@ -232,7 +233,8 @@ impl GradientRun<'_> {
         if self.context.cache.is_none() {
             return run().numbers();
         }
-        // Everything that a parameter changes: numbers of the message, masses and velocities.
+        // The key includes everything that a parameter changes: numbers of the message, masses and
+        // velocities.
         let numbers = serde_json::to_string(problem)
             .map_err(|error| GradientError::Failed(error.to_string()))?;
         let particles = [&problem.particles.mass, &problem.particles.velocity];
@@ -265,7 +267,7 @@ impl GradientRun<'_> {
         Ok(self.plan.of.value(&mass, &samples))
     }
 
-    /// Values with the parameter of the problem, `q`, perturbed by shares of it.
+    /// Values of the functional with the problem's parameter `q` perturbed by shares of it.
     fn perturbed(
         &self,
         problem: &LevelProblem,
@@ -285,7 +287,7 @@ impl GradientRun<'_> {
         (FIRST_LEVEL..=LAST_LEVEL).into_par_iter().map(perturbed).collect()
     }
 
-    /// Values and derivatives over an interval of the parameter.
+    /// Values and derivatives at points of an interval of the parameter.
     fn sweep(
         &self,
         problem: &LevelProblem,
@@ -305,7 +307,7 @@ impl GradientRun<'_> {
     }
 }
 
-/// The value of a parameter in the problem.
+/// Value of a parameter in the problem.
 fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, GradientError> {
     let lacks = || GradientError::Cannot(format!("the problem has no `{}`", parameter.name()));
     problem.parameter(parameter).filter(|q| *q != 0.0).ok_or_else(lacks)
@@ -314,9 +316,9 @@ fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, 
 /// A value and its derivative.
 type Dual = (f64, f64);
 
-/// Exact derivative, at the end of the run, of the functional with respect to a parameter of the
-/// problem. It is total: where the suite's initial velocity follows the parameter, so does that of
-/// the exact motion.
+/// Exact derivative of the functional at the end of the run with respect to a parameter of the
+/// problem. It is the total derivative: if the suite's initial velocity depends on the parameter,
+/// so does the initial velocity of the exact motion.
 pub(super) fn exact_derivative(
     plan: &GradientPlan,
     one: &Differentiated,
@@ -324,13 +326,13 @@ pub(super) fn exact_derivative(
 ) -> f64 {
     let slope = slope(plan.of, one, problem);
     match one.parameter {
-        // The parameter of the problem is a factor on the parameter of the suite.
+        // This parameter of the problem is a factor on the suite's parameter.
         GradientParameter::InitialVelocity => one.motion.value * slope,
         _ => slope,
     }
 }
 
-/// Derivative of the functional with respect to the parameter of the suite.
+/// Derivative of the functional with respect to the suite's parameter.
 fn slope(of: Functional, one: &Differentiated, problem: &LevelProblem) -> f64 {
     let (motion, t) = (&one.motion, problem.until);
     match of {

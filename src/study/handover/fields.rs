@@ -1,4 +1,4 @@
-//! Initial state, loads and conditions on faces at places that a solver chooses.
+//! Initial state, loads and face conditions at places that a solver chooses.
 
 use crate::dimension::with_dimension;
 use crate::exact::Circle;
@@ -10,7 +10,7 @@ use crate::suite::model::Scene;
 use crate::suite::scene::numbers::{LoadNumbers, NumberField};
 
 /// Radius at which stresses on the axis of a body of revolution are evaluated, relative to the size
-/// of the body: the hoop stretch r/R has no value at R = 0.
+/// of the body. The hoop stretch r/R is undefined at R = 0.
 const NEAR_AXIS: f64 = 1e-8;
 
 /// The fields of a scene.
@@ -28,7 +28,7 @@ struct FieldBody {
 }
 
 impl SceneFields {
-    /// The fields of `scene`, whose bodies start in the states `initial`.
+    /// Creates the fields of `scene`. `initial` contains the initial states of its bodies.
     pub(super) fn new(scene: &Scene, initial: Vec<Initial>, is_perturbed: bool) -> Self {
         let scenes = scene.each().iter().cloned().zip(initial);
         let bodies = scenes.map(|(scene, initial)| FieldBody { scene, initial }).collect();
@@ -41,7 +41,7 @@ impl SceneFields {
         })
     }
 
-    /// One field of the initial state, place by place.
+    /// One field of the initial state, for each place.
     fn initial(&self, of: FieldName, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
         let d = self.scene.dimension();
         let mut values = Vec::new();
@@ -66,7 +66,7 @@ impl SceneFields {
         Ok(values)
     }
 
-    /// The Cauchy stress at the start, which the law of each body gives.
+    /// Initial Cauchy stress, computed by the law of each body.
     fn stress(&self, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
         let d = self.scene.dimension();
         let mut values = vec![0.0; at.bodies.len() * d * d];
@@ -118,12 +118,12 @@ impl SceneFields {
         let mut law = initial.stressed(law, &mut particles);
         complete_start(&mut particles, law.as_mut())
             .map_err(|failure| undefined(failure.to_string()))?;
-        // Algebra stores columns.
+        // The matrix library stores columns, the protocol rows.
         let rows = |sigma: &Matrix<D>| sigma.transpose().data.0;
         Ok(particles.sigma.iter().flat_map(rows).flatten().collect())
     }
 
-    /// The values of the numbers named `what`.
+    /// Values of the load numbers named `what`.
     fn numbers(
         &self,
         (what, numbers): (&str, &LoadNumbers),
@@ -147,7 +147,7 @@ impl SceneFields {
         Ok(places.flat_map(value).collect())
     }
 
-    /// Fails if a place is not on the face.
+    /// Checks that all places are on the face.
     fn check_on_face(&self, number: usize, at: &FieldPlaces<'_>) -> Result<(), FieldError> {
         let d = self.scene.dimension();
         let Some(face) = self.scene.faces.get(number) else {
@@ -168,7 +168,7 @@ impl SceneFields {
 }
 
 impl SceneFields {
-    /// Fails if a place is not on the rim.
+    /// Checks that all places are on the rim.
     fn check_on_rim(&self, circle: &Circle, at: &FieldPlaces<'_>) -> Result<(), FieldError> {
         let Circle { name, centre, radius, .. } = circle;
         let near = self.scene.rounding();
@@ -264,7 +264,7 @@ impl FieldSource for SceneFields {
     }
 }
 
-/// A place in a message.
+/// Text of a place in a message.
 fn shown(label: &[f64]) -> String {
     let all: Vec<String> = label.iter().map(ToString::to_string).collect();
     format!("({}) m", all.join(", "))

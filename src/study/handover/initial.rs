@@ -1,4 +1,4 @@
-//! Initial state of a level.
+//! Converts the initial state of a level to a problem for solvers.
 
 use super::fields::SceneFields;
 use super::particles::particles;
@@ -19,10 +19,10 @@ use crate::suite::scene::numbers::LoadNumbers;
 use crate::verify::StepKind;
 use std::sync::Arc;
 
-/// The problem of one level of a case, of the suite called `suite`.
+/// Creates the problem of one level of a case. `suite` is the name of the suite.
 ///
 /// # Errors
-/// One line with the reason why there is none.
+/// The reason why the problem cannot be created.
 pub fn level_problem(
     suite: &str,
     plan: &ConvergencePlan,
@@ -48,25 +48,25 @@ pub fn level_problem(
     ))
 }
 
-/// The steps of a run and the particles that it starts from.
+/// Steps of a run, and the particles at its start.
 pub(crate) struct HandedRun {
-    /// Number of load steps, for a run without time.
+    /// Number of load steps, if the run has no time.
     pub(crate) load_steps: Option<u64>,
     pub(crate) steps: u64,
     /// Length of a step (s).
     pub(crate) dt: f64,
     /// End of the run (s).
     pub(crate) until: f64,
-    /// Numbers of the steps after which the state is compared.
+    /// Numbers of the steps after which states are compared.
     pub(crate) instants: Vec<u64>,
     pub(crate) particles: ProblemParticles,
-    /// States in which the bodies start.
+    /// Initial states of the bodies.
     pub(crate) initial: Vec<Initial>,
     /// Whether random numbers were added to the state of the particles.
     pub(crate) is_perturbed: bool,
 }
 
-/// The problem of a run on the cells of `level`, with the manufactured force of `made`.
+/// Creates the problem of a run on the cells of `level`, with the manufactured force of `made`.
 pub(crate) fn problem(
     suite: &str,
     scene: &Scene,
@@ -188,7 +188,7 @@ fn material(scene: &Scene) -> ProblemMaterial {
     }
 }
 
-/// The terms of the loads on each body that are body forces.
+/// Terms of the body forces on each body.
 fn forces(scene: &Scene) -> Vec<Vec<Arc<dyn Term>>> {
     let is_force = |load: &&ListedLoad| {
         matches!(load.effect, EffectName::Gravity | EffectName::BodyForce)
@@ -204,9 +204,9 @@ fn forces(scene: &Scene) -> Vec<Vec<Arc<dyn Term>>> {
 /// The body force of a scene.
 #[derive(Clone)]
 struct SceneForce {
-    /// The stated ones, body by body.
+    /// Stated forces of each body.
     terms: Vec<Vec<Arc<dyn Term>>>,
-    /// The motion that needs a manufactured one.
+    /// Motion with a manufactured force, if any.
     made: Option<Problem>,
 }
 
@@ -215,7 +215,7 @@ impl SceneForce {
         self.made.is_none() && self.terms.iter().all(Vec::is_empty)
     }
 
-    /// The force, if it is constant in space and time and there is one body.
+    /// The force, if it is constant in space and time and there is only one body.
     fn constant(&self, dimension: usize) -> Option<Vec<f64>> {
         let [terms] = &self.terms[..] else { return None };
         let is_constant =
@@ -225,7 +225,7 @@ impl SceneForce {
         is_constant.then(|| (0..dimension).map(component).collect())
     }
 
-    /// The stated forces on a body with the displacement `u` (m), added to `made`.
+    /// The stated forces on a body with the displacement `u` (m), plus `made`.
     fn whole(
         &self,
         made: [f64; 3],

@@ -1,10 +1,10 @@
-//! Conversion of a level of a study to a problem for any solver.
+//! Converts a level of a study to a problem for any solver.
 //!
 //! ```text
 //! initial   grid, faces, materials, forces and steps of a level
-//! particles the particles at the start, and their exact state at a later time
-//! fields    initial state, loads and conditions on faces at places that a solver chooses
-//! needs     abilities that a suite asks of a solver, and suites with a solver as their method
+//! particles initial particles, and their exact state at a later time
+//! fields    initial state, loads and face conditions at places that a solver chooses
+//! needs     capabilities that a suite requires; suites with an external solver as their method
 //! ```
 
 mod fields;

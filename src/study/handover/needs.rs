@@ -15,7 +15,7 @@ use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::verify::{Quantity, StepKind, SumNeed};
 use std::sync::Arc;
 
-/// The needs of a convergence study.
+/// Capabilities that a convergence study requires.
 pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         column: column(plan.of),
@@ -31,7 +31,7 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     needs
 }
 
-/// The needs of a scene, independent of the judged quantities.
+/// Capabilities that a scene requires, independent of the judged quantities.
 pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         dimension: scene.dimension(),
@@ -58,24 +58,25 @@ pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     needs
 }
 
-/// Capabilities that `suite` requires and `solver` does not have; empty for a study that no
-/// external solver can run.
+/// Capabilities that `suite` requires and `solver` lacks; empty for a study that external solvers
+/// cannot run.
 pub fn lacking(suite: &Suite, solver: &dyn SolverFactory) -> Vec<String> {
     study(suite).needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
 }
 
-/// The judged column, if it is an optional one.
+/// The judged column, if it is optional.
 fn column(of: Quantity) -> Option<&'static str> {
     (of.is_optional() && !of.is_sum()).then(|| of.name())
 }
 
-/// The suite with `solver` in place of its methods, gated or not; see [`Suite::of_external`].
+/// The suite with `solver` instead of its methods, with or without a gate (see
+/// [`Suite::of_external`]).
 pub fn under(suite: &Suite, solver: &dyn SolverFactory, gate: bool) -> Option<Suite> {
     under_on(suite, solver, gate.then(GateTerms::default).as_ref())
 }
 
-/// The suite with `solver` in place of its methods, gated on the `terms` of the solver's author, if
-/// any. If nothing deforms, the solver may use another law.
+/// The suite with `solver` instead of its methods. With `terms` of the solver's author, the suite
+/// is a gate. If nothing deforms, the solver may use another law.
 pub fn under_on(
     suite: &Suite,
     solver: &dyn SolverFactory,
@@ -91,8 +92,8 @@ pub fn under_on(
     })
 }
 
-/// The plan with a law that `solver` supports, if the law has no effect and the solver does not
-/// support the stated one.
+/// The plan with a law that `solver` supports, if it does not support the stated law and laws have
+/// no effect.
 fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<ConvergencePlan> {
     let needs = needs(plan);
     let lacking = if plan.any_method.any_law { solver.lacks(&needs).len() } else { 0 };
@@ -109,8 +110,8 @@ fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<Con
     Some(plan)
 }
 
-/// Value of a parameter of the replacing law: the stated value if the stated law has the parameter,
-/// otherwise its stiffness, so that the time step remains stable.
+/// Value of a parameter of the replacing law. This is the stated value if the stated law has the
+/// parameter, and otherwise its stiffness, so that the time step remains stable.
 fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     let parameters = own.parameters();
     let known = parameters.iter().find(|(other, _)| other.what == parameter.what);
@@ -123,11 +124,11 @@ fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     }
 }
 
-/// The subject of one level of a case of the suite named `suite`, run by `solver` if there is one,
-/// or by the method of the case.
+/// The subject of one level of a case, run by `solver` if there is one, otherwise by the method of
+/// the case. `suite` is the name of the suite.
 ///
 /// # Errors
-/// One line with the reason why there is none.
+/// The reason why there is no such subject.
 pub(crate) fn subject_under(
     solver: Option<&dyn SolverFactory>,
     suite: &str,

@@ -1,4 +1,4 @@
-//! Particles at the start of a run, and their exact state at a later time.
+//! Computes the initial particles of a run, and their exact state at a later time.
 
 use crate::dimension::with_dimension;
 use crate::exact::Truth;
@@ -13,7 +13,7 @@ use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Scene};
 
-/// The particles of a level at the start.
+/// Initial particles of a level.
 pub(super) fn particles(
     plan: &ConvergencePlan,
     level: LevelPlan,
@@ -24,16 +24,16 @@ pub(super) fn particles(
     start(&bodies, level, &mut |_| ())
 }
 
-/// The bodies of a scene without their loads, which do not change an initial state.
+/// The bodies of a scene without their loads, which do not affect an initial state.
 pub(crate) fn unloaded(scene: &Scene) -> Vec<Scene> {
     scene.each().iter().map(|own| Scene { loads: Vec::new(), ..own.clone() }).collect()
 }
 
-/// The particles of all bodies, with the initial stress of each law for the deformation at the
-/// start, after `disturb` has modified them.
+/// Initial particles of all bodies, after `disturb` has modified them. Each law computes the
+/// initial stress from the initial deformation.
 ///
 /// # Errors
-/// One line with the reason why there is no such start.
+/// The reason why there is no such initial state.
 pub(crate) fn start(
     bodies: &[Body<'_>],
     level: LevelPlan,
@@ -48,7 +48,7 @@ fn started<const D: usize>(
     level: LevelPlan,
     disturb: &mut dyn FnMut(&mut dyn Perturbable),
 ) -> Result<ProblemParticles, SubjectError> {
-    // A method without private state.
+    // A method without internal state in addition to the particles.
     let method = Method::Mpm {
         basis: BasisName::Linear,
         transfer: TransferName::Flip.into(),
@@ -65,7 +65,7 @@ fn started<const D: usize>(
         let mut solver = Solver::<D>::new(setup(body, method, level)?)?;
         disturb(&mut solver);
         let mut particles = solver.particles().clone();
-        // F is passed even if the law does not read it.
+        // F is passed even if the law does not use it.
         particles.track_deformation();
         let flat = |vectors: &[Vector<D>]| vectors.iter().flatten().copied().collect::<Vec<_>>();
         all.reference_position.extend(flat(&particles.x0));
@@ -78,7 +78,7 @@ fn started<const D: usize>(
             (&mut all.deformation_gradient, &particles.def_grad),
             (&mut all.stress, &particles.sigma),
         ] {
-            // Algebra stores columns.
+            // The matrix library stores columns, the protocol rows.
             into.extend(tensors.iter().flat_map(|tensor| tensor.transpose().data.0).flatten());
         }
         all.body.extend(vec![number as f64; particles.x0.len()]);
@@ -95,26 +95,26 @@ fn started<const D: usize>(
     Ok(all)
 }
 
-/// Whether a particle of the coarsest level starts displaced, or with another F than I.
+/// Whether a particle of the coarsest level starts displaced, or with F other than I.
 pub(super) fn starts_deformed(plan: &ConvergencePlan) -> bool {
     let level = plan.refine.levels.first();
-    // A level that cannot be passed to a solver is reported when it is run.
+    // If a level cannot be passed to a solver, its run reports the reason.
     let start = level.and_then(|level| particles(plan, *level).ok());
     start.is_some_and(|start| is_deformed(&start, plan.scene.dimension()))
 }
 
-/// Whether a particle is displaced, or has another F than I.
+/// Whether a particle is displaced, or has F other than I.
 pub(crate) fn is_deformed(start: &ProblemParticles, d: usize) -> bool {
     let identity = |k: usize| f64::from(u8::from(k / d == k % d));
     let mut f = start.deformation_gradient.iter().enumerate();
     start.position != start.reference_position || f.any(|(k, f)| *f != identity(k % (d * d)))
 }
 
-/// The particles in the exact state at time `t` (s): position, velocity, and F, volume and stress
-/// if they are known. Masses and reference positions are those of `start`.
+/// The particles in their exact state at time `t` (s): position and velocity, and F, volume and
+/// stress if these are known. Masses and reference positions are copied from `start`.
 ///
 /// # Errors
-/// One line with the reason why there is no exact state.
+/// The reason why there is no exact state.
 pub fn exact_state(
     plan: &ConvergencePlan,
     start: &ProblemParticles,

@@ -1,9 +1,8 @@
-//! Errors that no refinement lowers, and the level from which they show.
+//! Reports errors that refinement does not lower, and the level from which they are visible.
 //!
-//! `small_strain` concerns a solution of small strain or of a linearised law, run by a solver
-//! without that simplification. `single_precision` concerns an external solver that computes in
-//! single precision. `loose_tolerance` concerns a linearised solution with a tolerance larger than
-//! it needs.
+//! `small_strain` concerns a small-strain or linearised solution that is run by a solver without
+//! this simplification. `single_precision` concerns an external solver in single precision.
+//! `loose_tolerance` concerns a linearised solution with an unnecessarily large tolerance.
 
 use super::subject::Preflight;
 use crate::study::exact_motion::{Extremes, Linearisation};
@@ -14,22 +13,22 @@ use crate::suite::model::{Against, Case};
 use crate::suite::yaml::{Diagnostic, Severity};
 use crate::verify::{Axis, Quantity, rounding_bound, single_precision_spacing};
 
-/// Share of the error of the cells from which on another one bends its order.
+/// Share of the cell error above which another error changes the observed order.
 const SEEN: f64 = 0.3;
 
-/// Share from which on a few refinements more will show it.
+/// Share of the cell error above which a few more refinements make another error visible.
 const SOON: f64 = 0.003;
 
-/// The predicted error (m) of cells of size `h` (m): interpolation by linear functions, h^2/8 times
-/// the second derivative.
+/// Predicted error (m) of cells with the size `h` (m): interpolation by linear functions, h^2/8
+/// times the second derivative.
 fn of_cells(preflight: &Preflight<'_>, h: f64) -> f64 {
     let curvature = preflight.extremes.as_ref().map_or(0.0, |motion| motion.curvature);
     0.125 * h * h * curvature
 }
 
-/// The finding about an error of `size` (m) with the cause `origin`: a warning with `help` if a
-/// level of the suite shows it, a note if one of the next finer levels would show it, otherwise
-/// nothing.
+/// Finding about an error of `size` (m) with the cause `origin`. It is a warning with `help` if the
+/// error is visible on a level of the suite, a note if it would be visible on one of the next finer
+/// levels, and otherwise `None`.
 fn floor_finding(
     preflight: &Preflight<'_>,
     size: f64,
@@ -55,18 +54,18 @@ fn floor_finding(
     Some(if severity == Severity::Warning { found.with_help(help) } else { found })
 }
 
-/// The error of a solution that is not one of the solver's problem.
+/// Error of a solution that does not solve the solver's problem exactly.
 struct ModelError {
-    /// Its size (m).
+    /// Size of the error (m).
     size: f64,
-    /// Origin of the error, as text.
+    /// Description of the origin of the error.
     origin: String,
-    /// Advice how to state a solution without this error.
+    /// Advice on a solution without this error.
     remedy: &'static str,
 }
 
-/// Model error of `case`, if it has one. For a linearised solution it is measured. For a solution
-/// of small-strain theory it is estimated, because MPM uses a law in rate form, which differs from
+/// Model error of `case`, if it has one. For a linearised solution it is measured. For a
+/// small-strain solution it is estimated, because MPM uses a law in rate form, which differs from
 /// the law of the solution.
 fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     let problem = preflight.plan.exact.as_ref()?;
@@ -86,9 +85,9 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     if !is_small || !matches!(case.method, Method::Mpm { .. }) {
         return None;
     }
-    // The neglected forces are of the order of the strain e: they accelerate by e u_tt, which gives
-    // e u_tt t^2/2 after a time t, and at most about e u over a long run. In more than one
-    // dimension a body rotates, and so does its initial stress.
+    // The neglected forces are of the order of the strain e. They cause an acceleration e u_tt, a
+    // displacement e u_tt t^2/2 after a time t, and at most about e u over a long run. In more than
+    // one dimension a body rotates, and its initial stress rotates too.
     let turning = if problem.dimension() > 1 { motion.initial_stress } else { 0.0 };
     let neglected = strain + turning / problem.modulus();
     let early = 0.5 * motion.acceleration * case.until * case.until;
@@ -100,8 +99,8 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     Some(ModelError { size: neglected * motion.largest_displacement().min(early), origin, remedy })
 }
 
-/// Reports the size of the error, and the level from which on it is visible: a warning if this is a
-/// level of the suite, a note if it is one of the next finer levels.
+/// Reports the model error and the first level on which it is visible: a warning if this is a level
+/// of the suite, a note if it is one of the next finer levels.
 pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     if plan.refine.axis != Axis::Space || plan.manufactured().is_some() {
@@ -122,15 +121,15 @@ const LEVELS: usize = 4;
 /// A level with its predicted errors (m).
 struct LevelPrediction {
     cells: u64,
-    /// Error of the cells: interpolation by linear functions.
+    /// Error of the cells, estimated as interpolation by linear functions.
     discretisation: f64,
-    /// Bound of the rounding errors of positions.
+    /// Bound on the rounding errors of positions.
     rounding: f64,
 }
 
-/// Predicts from which level on the error of a solver in single precision lies below the rounding
-/// bound: a warning with the amplitude and the origin that leave four levels above it, if fewer
-/// are, and a note otherwise.
+/// Predicts the first level on which the error of a solver in single precision lies below the
+/// rounding bound. If fewer than four levels lie above the bound, this is a warning, with the
+/// amplitude and the origin that leave four levels above it. Otherwise it is a note.
 pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let case = preflight.of_an_order().find(|case| case.method.is_single_precision());
@@ -179,8 +178,8 @@ pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     vec![found.with_help(&help)]
 }
 
-/// The factor by which the spacing of positions becomes smaller if the body is centred at the
-/// origin, if it does.
+/// Factor by which the spacing of positions decreases if the body is centred at the origin; `None`
+/// if it does not decrease.
 fn nearer_origin(motion: &Extremes, spacing: f64) -> Option<f64> {
     let lengths = motion.reach.iter().map(|(low, high)| high - low);
     let half = 0.5 * lengths.filter(|length| length.is_finite()).fold(0.0, f64::max);
@@ -194,10 +193,10 @@ fn two_digits(factor: f64) -> f64 {
     text.parse().unwrap_or(factor)
 }
 
-/// Residuals that the tolerance may be worth, before another solution would pass.
+/// Maximum ratio of the tolerance to the residual. Beyond it, wrong solutions would pass.
 const MOST: f64 = 100.0;
 
-/// Notes a tolerance that exceeds the residual of the solution by orders of magnitude.
+/// Reports a tolerance that exceeds the residual of the solution by orders of magnitude, as a note.
 pub(crate) fn loose_tolerance(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let Some(problem) = &preflight.plan.exact else { return Vec::new() };
     let Some(stated) = &problem.linearised else { return Vec::new() };

@@ -1,9 +1,9 @@
-//! Levels that can count for an order, and the place of the particles in their grids.
+//! Checks that enough levels count for an order, and the position of the particles in their grids.
 //!
-//! `few_levels` concerns levels that can count for an order, `leaves_grid` a motion that leaves the
+//! `few_levels` concerns levels that count for an order, `leaves_grid` a motion that leaves the
 //! grid. `end_on_node` concerns boxes whose last particles start exactly on nodes, with linear
-//! functions: a particle on a node belongs to the cell above, and the node at the far end of that
-//! cell has no mass, so it keeps neither velocity nor force.
+//! functions. A particle on a node belongs to the cell above. The node at the far end of this cell
+//! has no mass, so it holds neither velocity nor force.
 
 use super::subject::{Preflight, moves_on_grid};
 use crate::mpm::BasisName;
@@ -17,7 +17,7 @@ use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
 use crate::verify::FEWEST_LEVELS;
 
-/// Warns of a claimed order that too few levels can support.
+/// Warns of an expected order for which too few levels count.
 pub(crate) fn few_levels(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let levels = preflight.levels();
     let excluded = preflight.plan.crossing_levels == CrossingLevels::Excluded;
@@ -44,8 +44,8 @@ pub(crate) fn few_levels(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     vec![found.with_label(&label).with_help(&help)]
 }
 
-/// Whether the exact motion carries a particle into another cell. Particles of an aligned body are
-/// half of their spacing away from the faces of a cell.
+/// Whether the exact motion moves a particle into another cell. Particles of an aligned body are
+/// half of their spacing away from the cell faces.
 fn crosses(preflight: &Preflight<'_>, level: &LevelPlan) -> bool {
     let dimension = preflight.plan.scene.dimension();
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, dimension)).unwrap_or(1);
@@ -54,10 +54,10 @@ fn crosses(preflight: &Preflight<'_>, level: &LevelPlan) -> bool {
     largest > room
 }
 
-/// Distance beyond the grid that is rounding, in cells.
+/// Distance (cells) beyond the grid that counts as rounding error.
 const ROUNDING: f64 = 1e-6;
 
-/// Warns of an exact motion that carries the body beyond the grid of some level.
+/// Warns of an exact motion that moves the body out of the grid of some level.
 pub(crate) fn leaves_grid(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let (Some(motion), true) = (&preflight.extremes, plan.cases.iter().any(moves_on_grid)) else {
@@ -89,7 +89,7 @@ pub(crate) fn leaves_grid(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     Vec::new()
 }
 
-/// Warns of a box that ends with a row of particles on nodes before the last ones of the grid.
+/// Warns of a box whose last row of particles lies on nodes that are not the last ones of the grid.
 pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let is_linear = |method| {
@@ -121,8 +121,8 @@ pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     found.into_iter().collect()
 }
 
-/// The position (m) of the last particles along `axis` in the solver, if they are on nodes with
-/// another node ahead.
+/// Position (m) of the last particles along `axis` in the solver, if they lie on nodes that are
+/// followed by another node.
 fn last_on_node(plan: &ConvergencePlan, axis: usize, level: &LevelPlan) -> Option<f64> {
     let scene = &plan.scene;
     if !scene.faces.get(2 * axis + 1)?.hold.is_free() {

@@ -1,16 +1,17 @@
-//! Warnings and notes about a suite before anything runs, each with its place.
+//! Warnings and notes about a suite before anything runs, each with its position in the file.
 //!
 //! ```text
-//! subject      the study, and places in its file
-//! grid         levels that can count for an order, a motion that leaves the grid, and a box whose
-//!              last particles start on nodes, with linear functions
-//! error_floor  errors that no refinement lowers: small strain, single precision, linearised laws
+//! subject      the study, and paths in its file
+//! grid         levels that count for an order, a motion that leaves the grid, and a box whose last
+//!              particles start on nodes, with linear functions
+//! error_floor  errors that refinement does not lower: small strain, single precision, and
+//!              linearised laws
 //! alignment    interfaces and loaded faces inside a cell
-//! undamped     an equilibrium in which nothing removes energy
+//! undamped     an equilibrium without dissipation
 //! ```
 //!
-//! A rule concerns an expectation: a suite that only bounds an error gets no warning about too few
-//! levels for an order. A suite acknowledges intended findings by their names, with `acknowledge`.
+//! Rules depend on the expectation: a suite that only bounds an error gets no warning about too few
+//! levels for an order. Suites acknowledge intended findings by their names, with `acknowledge`.
 
 pub(crate) mod alignment;
 pub(crate) mod error_floor;
@@ -32,7 +33,7 @@ use crate::verify::Axis;
 /// Findings of one rule.
 type PreflightRule = fn(&Preflight<'_>) -> Vec<Diagnostic>;
 
-/// Rules of suites that claim an order, with the names under which suites acknowledge them.
+/// Rules for suites with an expected order, with the names by which suites acknowledge them.
 const RULES_OF_ORDER: [(WarningName, PreflightRule); 6] = [
     (WarningName::FewLevels, grid::few_levels),
     (WarningName::TimeStep, check),
@@ -42,14 +43,14 @@ const RULES_OF_ORDER: [(WarningName, PreflightRule); 6] = [
     (WarningName::InsideCell, alignment::check),
 ];
 
-/// Rules of all suites, with their names.
+/// Rules for all suites, with their names.
 const RULES: [(WarningName, PreflightRule); 3] = [
     (WarningName::LooseTolerance, error_floor::loose_tolerance),
     (WarningName::EndOnNode, grid::end_on_node),
     (WarningName::Undamped, undamped::check),
 ];
 
-/// A finding. The help of a warning includes the name with which it is acknowledged.
+/// Adds to the help of a warning the name that acknowledges it.
 fn with_name(finding: Diagnostic, name: WarningName) -> Diagnostic {
     if finding.severity() != Severity::Warning {
         return finding;
@@ -62,8 +63,8 @@ fn with_name(finding: Diagnostic, name: WarningName) -> Diagnostic {
     finding.with_help(&help)
 }
 
-/// Warnings and notes about `suite`, read from `source`, except those that the suite acknowledges;
-/// none for studies without refinement.
+/// Warnings and notes about `suite`, which was read from `source`. Acknowledged ones are excluded.
+/// Studies without refinement have none.
 pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let preflight = Preflight::new(plan, source);
@@ -81,8 +82,8 @@ pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     findings
 }
 
-/// Warns of a step in which a wave, or a particle, crosses more than a cell, or in which heat does
-/// not flow stably, and notes one that is the same on every level of a study of space.
+/// Warns of a time step in which a wave or a particle crosses more than one cell, or in which heat
+/// conduction is unstable. A constant step on all levels of a study in space is a note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     found.extend(too_long(preflight));
@@ -91,7 +92,8 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// A rule is a share of the stable time step.
+/// Warns of a step that is too long for the motion. An automatic step is checked as a share of the
+/// stable step.
 fn too_long(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     let plan = preflight.plan;
     let moves = plan.cases.iter().any(|case| matches!(case.method, Method::Mpm { .. }));
@@ -116,8 +118,8 @@ fn too_long(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     Some(found.with_label("expected a stable step").with_help(help))
 }
 
-/// Forward Euler on lumped linear elements is stable up to h^2 rho c/(2 k) (Hughes 2000, section
-/// 8.2).
+/// Warns of a step that is too long for heat conduction. Forward Euler on lumped linear elements is
+/// stable up to h^2 rho c/(2 k) (Hughes 2000, section 8.2).
 fn too_long_for_heat(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     let scene = &preflight.plan.scene;
     let heat = scene.heat()?;
@@ -159,34 +161,34 @@ fn steps(preflight: &Preflight<'_>) -> Path {
     }
 }
 
-/// Seconds per particle and step, by dimension, including errors and set-up: fitted to whole runs
-/// of eight suites in the profile of `cargo run`, on one thread. Single suites differ by a factor
-/// of up to three.
+/// Seconds per particle and step, by dimension, including errors and set-up. They were fitted to
+/// whole runs of eight suites in the profile of `cargo run`, on one thread. Single suites differ by
+/// a factor of up to three.
 const SECONDS: [f64; 3] = [2.5e-7, 6e-7, 1.8e-6];
 
 /// Time (s) of a case without a prediction.
 pub(crate) const UNKNOWN: f64 = 0.5;
 
-/// Bytes of a particle, and of a node, by dimension.
+/// Bytes per particle and per node, by dimension.
 const BYTES: [[f64; 2]; 3] = [[100.0, 40.0], [250.0, 70.0], [450.0, 100.0]];
 
-/// Estimate of a whole suite.
+/// Estimated cost of a whole suite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
-    /// Particles times steps, over all cases and levels.
+    /// Number of particles times number of steps, over all cases and levels.
     pub particle_steps: f64,
-    /// Seconds of one thread, to a factor of about three.
+    /// Seconds on one thread, within a factor of about three.
     pub seconds: f64,
     /// Memory of the largest level (bytes).
     pub bytes: f64,
 }
 
-/// Cost of the levels of the gate of a convergence study; `None` for other studies.
+/// Estimated cost of the gate levels of a convergence study; `None` for other studies.
 pub fn estimate(suite: &Suite) -> Option<Estimate> {
     suite.plan().map(estimate_of)
 }
 
-/// Cost of each case of a suite; `None` for studies without refinement.
+/// Estimated cost of each case of a suite; `None` for studies without refinement.
 pub fn estimates(suite: &Suite, extent: Extent) -> Vec<Option<Estimate>> {
     match suite.plan::<ConvergencePlan>() {
         Some(plan) => plan.cases.iter().map(|case| Some(of_case(plan, case, extent))).collect(),
@@ -194,7 +196,7 @@ pub fn estimates(suite: &Suite, extent: Extent) -> Vec<Option<Estimate>> {
     }
 }
 
-/// Cost of the levels of the gate.
+/// Estimated cost of the gate levels.
 pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
     let none = Estimate { particle_steps: 0.0, seconds: 0.0, bytes: 0.0 };
     let cases = plan.cases.iter().map(|case| of_case(plan, case, Extent::Usual));
@@ -205,8 +207,8 @@ pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
     })
 }
 
-/// Time (s, one thread) of each unit of progress of a run: its levels, or an estimate for studies
-/// without refinement.
+/// Predicted time (s) on one thread for each progress unit of a run: for each level, or a default
+/// for each case of a study without refinement.
 pub fn unit_seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else {
         return vec![UNKNOWN; suite.case_names().len()];
@@ -217,7 +219,7 @@ pub fn unit_seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
     each.map(|(case, level)| SECONDS[index] * particle_steps(plan, case, *level)).collect()
 }
 
-/// Particles times steps of a level.
+/// Number of particles times number of steps of a level.
 fn particle_steps(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     let steps = case.clock(plan, level.dt).map_or(0, |clock| clock.steps);
     size::particles(&plan.scene, level) * steps as f64

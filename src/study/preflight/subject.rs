@@ -1,4 +1,4 @@
-//! The study of the preflight rules, and the paths in its file.
+//! The study that preflight rules check, and the paths in its file.
 
 use crate::mpm::FrameName;
 use crate::study::exact_motion::Extremes;
@@ -10,7 +10,7 @@ use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity, Source};
 use crate::verify::{Axis, Verdict};
 
-/// A convergence study before it runs.
+/// A convergence study that has not run yet.
 pub(crate) struct Preflight<'a> {
     pub(crate) plan: &'a ConvergencePlan,
     /// Extremes of the exact motion, if it is given by formulas and an order is expected.
@@ -19,7 +19,7 @@ pub(crate) struct Preflight<'a> {
 }
 
 impl<'a> Preflight<'a> {
-    /// The study, read from `source`.
+    /// Creates the study from a plan that was read from `source`.
     pub(crate) fn new(plan: &'a ConvergencePlan, source: &'a Source) -> Self {
         let mut preflight = Self { plan, extremes: None, source };
         if preflight.claims_an_order() {
@@ -33,12 +33,12 @@ impl<'a> Preflight<'a> {
         self.of_an_order().next().is_some()
     }
 
-    /// Levels of the gate.
+    /// The gate levels.
     pub(crate) fn levels(&self) -> &[LevelPlan] {
         self.plan.refine.levels(Extent::Usual)
     }
 
-    /// Cases whose expectation is an order, stated or theoretical.
+    /// Cases with an expected order, stated or theoretical.
     pub(crate) fn of_an_order(&self) -> impl Iterator<Item = &Case> {
         let claims = |case: &&Case| match &case.expectation {
             Some(expected) => expected.verdict == Some(Verdict::Converging),
@@ -47,7 +47,7 @@ impl<'a> Preflight<'a> {
         self.plan.cases.iter().filter(claims)
     }
 
-    /// Path of the sizes of the refined axis.
+    /// Path of the list of levels on the refined axis.
     pub(crate) fn sizes(&self) -> Path {
         Path::top("refine").then(match self.plan.refine.axis {
             Axis::Space => "cells",
@@ -56,13 +56,13 @@ impl<'a> Preflight<'a> {
         })
     }
 
-    /// Path of the solution.
+    /// Path of the exact solution.
     pub(crate) fn truth(&self) -> Path {
         let keys = ["exact", "manufactured", "equilibrium"].map(Path::top);
         keys.into_iter().find(|path| self.stands(path)).unwrap_or_else(|| Path::top("exact"))
     }
 
-    /// Path of the motion in the solution.
+    /// Path of the motion in the exact solution.
     pub(crate) fn motion(&self) -> Path {
         let motion = self.truth().then("displacement");
         if self.stands(&motion) { motion } else { self.truth() }
@@ -72,8 +72,8 @@ impl<'a> Preflight<'a> {
         self.source.value_at(path.steps()).is_some()
     }
 
-    /// A warning about every acknowledgement that is not among those `used`. An external solver in
-    /// place of the methods of the suite may have other findings.
+    /// Warnings about acknowledgements that are not among those `used`. None are given if an
+    /// external solver replaces the methods of the suite, because it may have other findings.
     pub(crate) fn unused_acknowledgements(&self, used: &[WarningName]) -> Vec<Diagnostic> {
         let replaced = self.plan.cases.iter().any(|case| case.solver.is_some());
         let all = self.plan.acknowledged.iter().enumerate().filter(|_| !replaced);
@@ -86,7 +86,7 @@ impl<'a> Preflight<'a> {
         unused.map(warning).collect()
     }
 
-    /// A finding about the value at `path`.
+    /// Creates a finding about the value at `path`.
     pub(crate) fn finding(&self, severity: Severity, path: &Path, message: &str) -> Diagnostic {
         self.source.diagnostic_at(path.steps(), message).with_severity(severity)
     }

@@ -1,4 +1,4 @@
-//! Studies of an equilibrium without dissipation.
+//! Warns of an equilibrium without dissipation.
 
 use super::subject::Preflight;
 use crate::exact::{Problem, Truth, variables};
@@ -15,15 +15,15 @@ use crate::verify::StepKind;
 /// Minimum share of the final load at the start that counts as sudden loading.
 const SUDDEN: f64 = 0.1;
 
-/// Intervals along each axis of the raster on which loads are evaluated.
+/// Number of intervals along each axis at whose ends loads are evaluated.
 const INTERVALS: usize = 4;
 
 /// Minimum initial distance from the equilibrium, as a share of the equilibrium displacement.
 const AWAY: f64 = 1e-3;
 
-/// Warns of a body that does not start in the stated equilibrium, if the scene has no dissipation:
-/// the body oscillates about its equilibrium. A load that grows slowly causes small oscillations,
-/// and is a note.
+/// Warns of a body that does not start in the stated equilibrium of a scene without dissipation:
+/// the body oscillates about its equilibrium. If the load grows slowly, the oscillations are small,
+/// and the finding is a note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let Some(case) = plan.cases.iter().find(|case| oscillates(plan, case)) else {
@@ -39,12 +39,12 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     vec![found.with_help(HELP)]
 }
 
-/// Loads that remove energy.
+/// Advice on loads that dissipate energy.
 pub(crate) const HELP: &str = "list `damping` or `local_damping` in `loads`, and run until the body is \
                                at rest";
 
-/// Whether a case is compared with an equilibrium in which the body does not start, without
-/// dissipation. An external solver is assumed to have no dissipation.
+/// Whether a case without dissipation is compared with an equilibrium in which the body does not
+/// start. An external solver is assumed to have no dissipation.
 pub(crate) fn oscillates(plan: &ConvergencePlan, case: &Case) -> bool {
     let Some(problem) = plan.exact.as_ref().filter(|exact| exact.at_rest) else { return false };
     plan.steps == StepKind::Time
@@ -52,8 +52,8 @@ pub(crate) fn oscillates(plan: &ConvergencePlan, case: &Case) -> bool {
         && starts_away(plan, case, problem)
 }
 
-/// Whether a load, a viscous material, friction or the transfer of velocities dissipates energy.
-/// Plasticity does so only while a material flows, and elastic oscillations remain.
+/// Whether a load, a viscous material, friction or the velocity transfer dissipates energy.
+/// Plasticity does so only while the material flows, and elastic oscillations remain.
 fn removes_energy(scene: &Scene, case: &Case) -> bool {
     let terms = scene.terms();
     let resists = |share: f64| {
@@ -75,10 +75,11 @@ fn keeps_energy(transfer: TransferChoice) -> bool {
     [Flip, Apic, Mls, Tpic, Tls].into_iter().any(|name| transfer == name.into())
 }
 
-/// Whether a particle of the coarsest level starts away from its equilibrium, or moves.
+/// Whether a particle of the coarsest level starts away from its equilibrium position or with a
+/// velocity.
 fn starts_away(plan: &ConvergencePlan, case: &Case, problem: &Problem) -> bool {
     let Some(level) = plan.refine.levels.first() else { return false };
-    // A level whose set-up fails is reported when it is run.
+    // If the set-up of a level fails, its run reports the reason.
     let Ok(start) = level_problem("", plan, case, *level) else { return false };
     let (d, particles) = (plan.scene.dimension(), start.particles);
     let mut most = [0.0_f64; 2];
@@ -95,7 +96,7 @@ fn starts_away(plan: &ConvergencePlan, case: &Case, problem: &Problem) -> bool {
     moves || most[0] > AWAY * most[1]
 }
 
-/// Whether body forces and tractions have their full size from the start.
+/// Whether body forces and tractions have their full magnitude from the start.
 fn is_loaded_at_once(plan: &ConvergencePlan, case: &Case) -> bool {
     let Some(problem) = &plan.exact else { return true };
     let labels = raster(problem, INTERVALS);

@@ -1,4 +1,4 @@
-//! Converts a plan to the FEM bar: subject, and reference.
+//! Creates the FEM bar of a plan, as a subject or as a reference.
 
 use super::initial_state::Initial;
 use crate::exact::{Forcing, Problem};
@@ -12,7 +12,7 @@ use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene};
 use crate::suite::scene::grid_size::cell_size;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
-/// The FEM bar of `method`, which is also used for references.
+/// Creates the FEM bar of `method`; also used for references.
 pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, SubjectError> {
     let Method::Fem { element, mass, law, start, sampling } = method else {
         return Err("not an FEM method".into());
@@ -27,7 +27,7 @@ pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
         cells: elements as usize,
         element,
         mass,
-        // A varying density is refused with FEM, see `compile::run`.
+        // `compile::run` rejects a varying density with FEM.
         density: scene.density.largest(),
         law: piola(law, &scene.material)?,
         fixed: [&scene.faces[0], &scene.faces[1]].map(|face| !face.hold.is_free()),
@@ -62,7 +62,7 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
     }))
 }
 
-/// Adds the stated forces (m/s2) at each place with its displacement `u` (m); uniform forces are
+/// Adds the stated forces (m/s2) at each place with the displacement `u` (m). Uniform forces are
 /// computed once.
 fn add_stated(loads: &[ListedLoad], t: f64, places: &[f64], u: &[f64], values: &mut [f64]) {
     for load in loads.iter().filter(|load| load.is_uniform()) {
@@ -78,7 +78,8 @@ fn add_stated(loads: &[ListedLoad], t: f64, places: &[f64], u: &[f64], values: &
     }
 }
 
-/// A suite states forces along +X; the FEM uses tension, which acts along the outward normal.
+/// Converts a traction to tension. Suites state tractions along +X, while the FEM uses tension
+/// along the outward normal.
 fn end_traction(scene: &Scene, end: usize) -> Option<fem::TimeFunction> {
     let (x, outwards) = if end == 0 { (scene.from[0], -1.0) } else { (scene.to[0], 1.0) };
     scene.loads_on(LoadTarget::Face(end)).find_map(|load| load.tension(x, outwards))
@@ -92,7 +93,7 @@ fn piola(law: EquationName, material: &MaterialPlan) -> Result<fem::ScalarFuncti
     Ok(law.piola(young, poisson))
 }
 
-/// The method that a reference is computed with.
+/// The method for computing a reference.
 pub(crate) fn reference_method(plan: &ReferencePlan) -> Method {
     Method::Fem {
         element: plan.element,
@@ -115,7 +116,7 @@ mod tests {
     /// Reference density (kg/m3).
     const DENSITY: f64 = 1.75;
 
-    /// `J sigma F^-T` (Pa) of the MPM's material.
+    /// `J sigma F^-T` (Pa) of the MPM material.
     fn piola_of_mpm<const D: usize>(plan: &MaterialPlan, f: &Matrix<D>) -> Matrix<3> {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
         let mut one = Particles::<D>::fill(&Block { from, to, density: DENSITY }, 1.0, 1);
@@ -129,7 +130,7 @@ mod tests {
         sigma * space.try_inverse().unwrap().transpose() * space.determinant()
     }
 
-    /// One plan of every material with an exact law for finite strains.
+    /// One plan for every material with an exact law for finite strains.
     fn known(hardening: f64) -> impl Iterator<Item = (MaterialPlan, Equation)> {
         let every = MaterialPlan::every(|parameter| match parameter.symbol {
             "nu" => 0.3,
@@ -146,7 +147,8 @@ mod tests {
         known.filter(|(_, truth)| truth.is_finite())
     }
 
-    /// A law is written three times, in three ways: no part can agree with another's slip.
+    /// A law is implemented three times in different ways, so an error in one implementation is
+    /// detected.
     #[test]
     fn mpm_fem_and_truth_mean_the_same_law() {
         let elastic = known(0.0).filter(|(plan, _)| plan.properties().is_elastic());
@@ -170,15 +172,15 @@ mod tests {
         }
     }
 
-    /// In uniaxial strain: the elastic range and beyond, with loading that never reverses; a fluid
-    /// at rest.
+    /// Uniaxial strain in the elastic range and beyond, with loading that never reverses. For a
+    /// fluid: at rest.
     #[rstest]
     fn mpm_and_truth_mean_the_same_law(
         #[values(0.0, 40.0)] hardening: f64,
         #[values(0.7, 0.97, 1.0, 1.03, 1.4)] stretch: f64,
     ) {
-        // The return of clay has order 1 in the step, so that one step does not give the exact
-        // stress; `mpm::material::clay_paths` compares both.
+        // The return mapping of clay has order 1 in the step, so one step does not give the exact
+        // stress. `mpm::material::clay_paths` compares the two.
         let exact = known(hardening).filter(|(plan, _)| plan.name() != "cam_clay");
         for (plan, truth) in exact.filter(|(_, truth)| truth.admits(1, true).is_ok()) {
             let mut grad = [[0.0; 3]; 3];
@@ -191,7 +193,7 @@ mod tests {
         }
     }
 
-    /// P (Pa) of the MPM's material in a bar that has been stretched in one step and is at rest.
+    /// P (Pa) of the MPM material in a bar that has been stretched in one step and is at rest.
     fn piola_at(plan: &MaterialPlan, stretch: f64) -> f64 {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
         let mut one = Particles::<1>::fill(&Block { from, to, density: DENSITY }, 1.0, 1);

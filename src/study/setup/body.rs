@@ -1,4 +1,4 @@
-//! Converts the model to the inputs of the solver of one body, in any number of dimensions.
+//! Converts the model of one body to solver inputs, in any number of dimensions.
 
 use super::initial_state::Initial;
 use crate::exact::heat::Conduction;
@@ -18,25 +18,25 @@ use crate::suite::scene::lattice::{LatticeOffsets, block};
 use crate::suite::scene::load;
 use crate::suite::scene::load::{BodySite, ListedLoad, LoadTarget};
 
-/// A body at the start of a run.
+/// Model of a body at the start of a run.
 pub(crate) struct Body<'a> {
     /// The scene of all bodies, with the grid and its walls.
     pub(crate) scene: &'a Scene,
-    /// The scene of this body, with its place, material and loads.
+    /// The scene of this body, with its shape, material and loads.
     pub(crate) own: &'a Scene,
     pub(crate) initial: Initial,
-    /// The problem whose force is manufactured.
+    /// Problem with a manufactured force, if any.
     pub(crate) manufactured: Option<&'a Problem>,
-    /// The problem that the temperature solves.
+    /// Problem that the temperature solves, if any.
     pub(crate) heat: Option<&'a Conduction>,
-    /// Whether F is stored even if neither law nor basis reads it.
+    /// Whether F is stored even if neither law nor basis uses it.
     pub(crate) keeps_deformation: bool,
-    /// Changes of particles from the lattice.
+    /// Displaced and additional particles, relative to the lattice.
     pub(crate) lattice: LatticeEdits,
 }
 
 impl<'a> Body<'a> {
-    /// One of the bodies of a convergence study.
+    /// A body of a convergence study.
     pub(crate) fn of(plan: &'a ConvergencePlan, own: &'a Scene) -> Self {
         Self {
             scene: &plan.scene,
@@ -50,10 +50,10 @@ impl<'a> Body<'a> {
     }
 }
 
-/// The parts of the solver of `body`, on the cells of `level`.
+/// Creates the solver inputs of `body` on the cells of `level`.
 ///
 /// # Errors
-/// One line with the reason why there is no such solver.
+/// The reason why there is no such solver.
 pub(crate) fn setup<const D: usize>(
     body: &Body<'_>,
     method: Method,
@@ -92,7 +92,7 @@ pub(crate) fn setup<const D: usize>(
     })
 }
 
-/// The kernel, the grid and the particles of `body` on the cells of `level`.
+/// Creates the kernel, the grid and the particles of `body` on the cells of `level`.
 fn discretisation<const D: usize>(
     body: &Body<'_>,
     basis: BasisName,
@@ -107,10 +107,10 @@ fn discretisation<const D: usize>(
     Ok((kernel, grid, particles))
 }
 
-/// The body of `plan`, with its load in `load_steps` steps.
+/// Creates the quasi-static solver of `plan`, with the load applied in `load_steps` steps.
 ///
 /// # Errors
-/// One line with the reason why there is no such solver.
+/// The reason why there is no such solver.
 pub(crate) fn quasi_static<const D: usize>(
     plan: &ConvergencePlan,
     basis: BasisName,
@@ -133,10 +133,10 @@ pub(crate) fn quasi_static<const D: usize>(
     })?)
 }
 
-/// The effects that the scene of `suite` lists, on `particles` and a `grid` of the caller's.
+/// Creates the effects that the scene of `suite` lists, for `particles` and a `grid` of the caller.
 ///
 /// # Errors
-/// One line with the reason why there are none.
+/// The reason why the effects cannot be created.
 pub fn effects<const D: usize>(
     suite: &Suite,
     (grid, basis): (&Grid<D>, BasisName),
@@ -147,7 +147,7 @@ pub fn effects<const D: usize>(
     built(&plan.scene.loads, site)
 }
 
-/// A body at rest.
+/// Creates the heat solver of a body at rest.
 pub(crate) fn conductor<const D: usize>(
     plan: &ConvergencePlan,
     basis: BasisName,
@@ -174,7 +174,8 @@ fn manufactured_force<const D: usize>(
     })))
 }
 
-/// The grid that the suite states, or the box of the body with spare cells beyond free faces.
+/// The grid that the suite states, or the bounding box of the body with additional cells beyond
+/// free faces.
 fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D> {
     let axes: [(f64, f64); D] = std::array::from_fn(|axis| grid_axis(scene, axis, h));
     let origin = Vector::from_fn(|axis, _| axes[axis].0);
@@ -182,7 +183,7 @@ fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D
     kernel.grid(origin, h, cells, std::array::from_fn(|axis| periodic(scene, axis)))
 }
 
-/// The loads of the body as effects; a manufactured force comes before those on sets.
+/// Creates the effects of the body's loads. A manufactured force precedes loads on sets.
 fn effects_of<const D: usize>(
     body: &Body<'_>,
     (grid, basis): (&Grid<D>, BasisName),
@@ -205,13 +206,13 @@ fn built<const D: usize>(
     loads.iter().map(|load| Ok(load::build(load, &mut site)?)).collect()
 }
 
-/// Whether an axis has no end. A round body has no faces.
+/// Whether an axis is periodic. A round body has no faces.
 pub(crate) fn periodic(scene: &Scene, axis: usize) -> bool {
     scene.faces.get(2 * axis).is_some_and(|face| face.hold.is_periodic())
 }
 
-/// Boundary conditions on the faces of the grid. If faces share a node, a later condition overrides
-/// an earlier one, so that stronger conditions come last.
+/// Creates boundary conditions on the faces of the grid. If faces share a node, later conditions
+/// override earlier ones, so stronger conditions come last.
 pub(crate) fn boundary<const D: usize>(
     scene: &Scene,
     grid: &Grid<D>,
@@ -226,7 +227,7 @@ pub(crate) fn boundary<const D: usize>(
     faces.into_iter().filter_map(build).collect()
 }
 
-/// The particles of a scene on a grid that starts at `origin`, with cells of size `h`.
+/// Creates the particles of a scene on a grid with the origin `origin` and cells of size `h`.
 pub(crate) fn seeded_particles<const D: usize>(
     scene: &Scene,
     origin: &Vector<D>,
@@ -265,8 +266,8 @@ pub(crate) fn seeded_particles<const D: usize>(
     particles
 }
 
-/// Sets the mass of each particle to the integral of a density that varies, over the part of the
-/// lattice cell of the particle that is inside the body.
+/// Sets each particle mass for a varying density: its integral over the part of the particle's
+/// lattice cell that is inside the body.
 fn weigh<const D: usize>(scene: &Scene, particles: &mut Particles<D>) {
     if scene.density.uniform().is_some() {
         return;
@@ -278,7 +279,7 @@ fn weigh<const D: usize>(scene: &Scene, particles: &mut Particles<D>) {
     }
 }
 
-/// The particle of a piece of a body in the plane; a further axis would be its thickness of one.
+/// Particle of a piece of a body in the plane. Along a third axis it has unit thickness.
 fn fragment<const D: usize>(piece: &Piece) -> Fragment<D> {
     let domain = piece.domain();
     Fragment {

@@ -1,4 +1,4 @@
-//! Conversion of names to types: the only file that uses every family.
+//! Converts names to types. Only this file uses all families.
 
 use super::bar::bar;
 use super::body::{Body, conductor, quasi_static, setup};
@@ -9,10 +9,10 @@ use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 
-/// Builds the subject of `method` for one level.
+/// Creates the subject of `method` for one level.
 ///
 /// # Errors
-/// One line with the reason why there is no such subject.
+/// The reason why there is no such subject.
 pub fn subject(
     plan: &ConvergencePlan,
     method: Method,
@@ -32,7 +32,7 @@ pub fn subject(
     }
 }
 
-/// Profile of a step of `method` on one level: of the second step, because the first one allocates.
+/// Profile of the second step of `method` on one level, because the first step allocates memory.
 /// `None` for FEM, and if the solver fails earlier.
 pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) -> Option<Profile> {
     fn of_second_step<const D: usize>(
@@ -80,12 +80,11 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
     })
 }
 
-/// Predicted stable time step (s) of `method` on one level, from `rounds` rounds of a power
-/// iteration: the minimum over the bodies. Sharing nodes with other bodies does not make a body
-/// less stable.
+/// Predicted stable time step (s) of `method` on one level: the minimum over the bodies, from
+/// `rounds` power iterations. Sharing nodes with other bodies does not make a body less stable.
 ///
 /// # Errors
-/// One line with the reason why it cannot be computed.
+/// The reason why the time step cannot be computed.
 pub(crate) fn stable_time_step(
     plan: &ConvergencePlan,
     method: Method,
@@ -93,14 +92,14 @@ pub(crate) fn stable_time_step(
     rounds: u32,
 ) -> Result<f64, SubjectError> {
     plan.scene.each().iter().try_fold(f64::INFINITY, |least, own| {
-        // A given force does not affect the result, and is expensive to prepare.
+        // The manufactured force does not affect the result and is expensive to prepare.
         let body = Body { manufactured: None, ..Body::of(plan, own) };
         Ok(least.min(stable_time_step_of(&body, method, level, rounds)?))
     })
 }
 
-/// Predicted stable time step (s) of one body with `method` on one level, from `rounds` rounds of a
-/// power iteration.
+/// Predicted stable time step (s) of one body with `method` on one level, from `rounds` power
+/// iterations.
 pub(crate) fn stable_time_step_of(
     body: &Body<'_>,
     method: Method,
@@ -121,10 +120,11 @@ pub(crate) fn stable_time_step_of(
     with_dimension!(body.scene.dimension(), D => of::<D>(body, method, level, rounds))
 }
 
-/// An MPM subject that can be perturbed: `bodies` of one scene on the cells of `level`.
+/// Creates an MPM subject that can be perturbed, with the `bodies` of one scene on the cells of
+/// `level`.
 ///
 /// # Errors
-/// One line with the reason why there is no such subject.
+/// The reason why there is no such subject.
 pub(crate) fn perturbable(
     bodies: &[Body<'_>],
     method: Method,
@@ -173,7 +173,7 @@ fn mpm<const D: usize>(
     })
 }
 
-/// Set-ups of the solvers, one for each body.
+/// Solver inputs for each body.
 fn setups<const D: usize>(
     plan: &ConvergencePlan,
     method: Method,

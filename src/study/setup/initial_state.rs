@@ -1,18 +1,18 @@
-//! The state in which bodies start.
+//! Initial states of bodies.
 //!
-//! If the exact solution is a motion and the stress of the material depends on the deformation
-//! only, the initial state is that of the motion at t = 0: `x = X + u(X, 0)`, `F = I + grad u`,
-//! `v = u_t`. Otherwise it is the state in the scene, by default at rest and undeformed. The
-//! initial stress is always that of the scene.
+//! The initial state is that of the exact motion at t = 0, `x = X + u(X, 0)`, `F = I + grad u`,
+//! `v = u_t`, if the exact solution is a motion and the stress depends on the deformation only.
+//! Otherwise it is the state in the scene, by default at rest and undeformed. The initial stress is
+//! always that of the scene.
 
 use crate::exact::formula::Formula;
 use crate::exact::{Derivatives, InitialStress, Motion};
 use crate::mpm::{Material, Matrix, Particles, Prestressed, Vector};
 use crate::suite::model::{ConvergencePlan, Scene};
 
-/// An initial state.
+/// Initial state of a body.
 pub(crate) struct Initial {
-    /// The motion that is followed from t = 0 on.
+    /// Exact motion that determines the initial state, if any.
     motion: Option<Motion>,
     displacement: Option<Motion>,
     velocity: Option<Motion>,
@@ -20,18 +20,18 @@ pub(crate) struct Initial {
 }
 
 impl Initial {
-    /// The initial state of a subject of `plan` with one body.
+    /// Initial state of a subject of `plan` with one body.
     pub(crate) fn of(plan: &ConvergencePlan) -> Self {
         Self::of_body(plan, &plan.scene)
     }
 
-    /// The initial state of one of the bodies of `plan`.
+    /// Initial state of one of the bodies of `plan`.
     pub(crate) fn of_body(plan: &ConvergencePlan, body: &Scene) -> Self {
         let exact = plan.exact.as_ref().filter(|problem| problem.follows_motion);
         Self { motion: exact.map(|problem| problem.motion.clone()), ..Self::stated(body) }
     }
 
-    /// The stated initial state only.
+    /// Initial state that the scene states.
     pub(crate) fn stated(scene: &Scene) -> Self {
         let Scene { initial_stress, initial_displacement, initial_velocity, .. } = scene;
         let formulas = |all: &Vec<Formula>| (!all.is_empty()).then(|| Motion::new(all.clone()));
@@ -43,7 +43,7 @@ impl Initial {
         }
     }
 
-    /// u, the velocity and their gradients at `label`.
+    /// Displacement, velocity and their gradients at `label`.
     pub(crate) fn at(&self, label: &[f64]) -> Derivatives {
         if let Some(motion) = &self.motion {
             return motion.derivatives(label, 0.0);
@@ -57,7 +57,7 @@ impl Initial {
         now
     }
 
-    /// The `law` of `particles`, with their initial stress, if any.
+    /// The `law` of `particles` with their initial stress, if any.
     pub(crate) fn stressed<const D: usize>(
         &self,
         law: Box<dyn Material<D>>,
@@ -74,7 +74,7 @@ impl Initial {
         Box::new(Prestressed::new(law, stress, particles))
     }
 
-    /// Puts `particles` into this state.
+    /// Sets `particles` to this state.
     pub(crate) fn put<const D: usize>(&self, particles: &mut Particles<D>) {
         let states: Vec<Derivatives> =
             particles.x0.iter().map(|x0| self.at(x0.as_slice())).collect();
@@ -84,7 +84,7 @@ impl Initial {
         for (grad_v, now) in particles.grad_v.iter_mut().zip(&states) {
             let f: Matrix<D> = Matrix::from_fn(|i, j| now.grad[i][j]) + Matrix::identity();
             let rate = Matrix::from_fn(|i, j| now.grad_rate[i][j]);
-            // If F has no inverse, the solver refuses the start.
+            // If F has no inverse, the solver rejects the initial state.
             *grad_v = f.try_inverse().map_or_else(Matrix::zeros, |inverse| rate * inverse);
         }
         if self.motion.is_some() || self.displacement.is_some() {
@@ -114,8 +114,8 @@ mod tests {
         InitialStress::new(stated.into())
     }
 
-    /// The solver and the exact solution add equal terms of the initial stress to the stress of the
-    /// law.
+    /// The solver and the exact solution add equal terms for the initial stress to the stress of
+    /// the law.
     #[rstest]
     #[case(MaterialPlan::LinearElastic { young: 100.0, poisson: 0.3 })]
     #[case(MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 })]

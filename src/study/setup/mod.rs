@@ -1,4 +1,4 @@
-//! From the model to subjects: names become types.
+//! Creates subjects from the model: converts names to types.
 
 pub(crate) mod bar;
 pub(crate) mod body;

@@ -1,4 +1,5 @@
-//! The start of a run of a stability study, and the run as a problem for an external solver.
+//! The initial state of a run of a stability study, and the run as a problem for an external
+//! solver.
 
 use crate::exact::Random;
 use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};
@@ -10,13 +11,13 @@ use crate::suite::compile::stability::setup::RunSetup;
 use crate::suite::model::Scene;
 use crate::verify::is_looked_at;
 
-/// The needs of a run.
+/// Capabilities that a run requires.
 pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
     let start = handed("", setup).map(|problem| problem.particles);
     let mut needs = ProblemNeeds {
-        // The energy that a trial watches is partly stored.
+        // A trial observes the stored energy, which requires stresses.
         column: Some("stress"),
-        // A run that cannot be passed to a solver is reported when it is run.
+        // If a run cannot be passed to a solver, the run reports the reason.
         initial_deformation: start.is_ok_and(|start| is_deformed(&start, setup.scene.dimension())),
         ..of_scene(&setup.scene)
     };
@@ -32,10 +33,10 @@ pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
     needs
 }
 
-/// The solver at the start of a run of the suite named `suite`.
+/// The solver at the start of a run. `suite` is the name of the suite.
 ///
 /// # Errors
-/// One line with the reason why it cannot be observed.
+/// The reason why the solver cannot be observed.
 pub(super) fn subject(
     solver: &dyn SolverFactory,
     suite: &str,
@@ -44,7 +45,7 @@ pub(super) fn subject(
     let subject = solver.subject(handed(suite, setup)?)?;
     let mut samples = Samples::default();
     subject.sample(&mut samples);
-    // Without either, growth of the energy could not be detected.
+    // Without totals or stresses, growth of the energy could not be detected.
     match (subject.totals(), samples.stress.is_empty()) {
         (None, _) => Err("it gives no totals, from which the kinetic energy is read".into()),
         (_, true) => {
@@ -54,10 +55,11 @@ pub(super) fn subject(
     }
 }
 
-/// The problem of a run of the suite named `suite`. Its state is compared at the checks of a trial.
+/// The problem of a run. `suite` is the name of the suite. States are compared at the checks of a
+/// trial.
 ///
 /// # Errors
-/// One line with the reason why there is none.
+/// The reason why there is no such problem.
 fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, SubjectError> {
     let dt = *setup.dt.first().ok_or("the run has no time step")?;
     let bare = unloaded(&setup.scene);
@@ -81,7 +83,7 @@ fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, SubjectError> {
 /// Seed of the perturbations at the start.
 const SEED: u64 = 8;
 
-/// The bodies at the start of a run, each in its own scene.
+/// The bodies at the start of a run, each with its own scene.
 pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>> {
     let body = |own| Body {
         scene: &setup.scene,
@@ -95,8 +97,8 @@ pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>
     each.iter().map(body).collect()
 }
 
-/// Adds a random number to each number of the state, so that every mode is present, if the run
-/// requests it.
+/// Adds a random number to each number of the state if the run requests it, so that every mode is
+/// present.
 pub(super) fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
     if !(setup.perturb > 0.0) {
         return;

@@ -1,4 +1,4 @@
-//! The stability study: runs and judges every row of every case.
+//! The stability study: runs and judges the rows of every case.
 
 mod handed;
 pub(crate) mod run;
@@ -29,7 +29,7 @@ impl Study for StabilityPlan {
     }
 }
 
-/// Runs cases of a stability study.
+/// Runs the cases of a stability study.
 struct StabilityRunner<'a> {
     plan: &'a StabilityPlan,
     context: RunContext<'a>,
@@ -58,7 +58,7 @@ impl CaseRunner for StabilityRunner<'_> {
             row
         };
         let rows: Vec<StabilityRow> = plan.values.par_iter().map(row).collect();
-        // A problem that the solver refuses is not a failure.
+        // If the solver refuses the problem, the case does not fail.
         let refused = rows.iter().find_map(|row| row.refused.clone());
         if let Some(reason) = refused.filter(|_| context.solver.is_some()) {
             return described(&run).not_applicable(vec![reason], "refuses the problem:");
@@ -92,7 +92,7 @@ impl CaseRunner for StabilityRunner<'_> {
 /// The part of an outcome that is known before the case runs.
 fn described(run: &CaseRun<'_>) -> CaseOutcome {
     let case = run.case;
-    // Without a fixed face there is no statement about walls.
+    // Without a fixed face, settings of walls have no effect.
     let walls = run.setup(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
     let mut settings = case.method.settings();
     settings.retain(|(key, _)| walls || key != "walls");
@@ -105,7 +105,7 @@ fn described(run: &CaseRun<'_>) -> CaseOutcome {
     }
 }
 
-/// The outcome of a case, from its rows.
+/// Creates the outcome of a case from its rows.
 fn outcome(run: &CaseRun<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
     let CaseRun { plan, case, .. } = run;
     let unmet: Vec<String> = case
@@ -132,7 +132,7 @@ fn outcome(run: &CaseRun<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
     }
 }
 
-/// Rows of the study, with the set-up of its first row.
+/// Rows that describe the study, with the set-up of its first row.
 pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
     let mut rows = Rows::new();
     let first = |value: &f64| plan.template.setup(&[(&plan.swept, *value)]).ok();

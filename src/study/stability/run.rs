@@ -1,4 +1,4 @@
-//! One case of a stability study: runs, predictions and limits, row by row.
+//! Runs one case of a stability study: runs, predictions and limits for each row.
 
 use super::handed;
 use super::handed::{bodies, perturb};
@@ -17,24 +17,24 @@ use crate::verify::{
     spectral_radius, stability_limit, trial,
 };
 
-/// Number of values at which stability is tested before the first unstable interval is bisected.
+/// Number of tested values before the first unstable interval is bisected.
 const SCAN: u32 = 48;
 
-/// Number of values at which stability is tested if each test is a whole run.
+/// Number of tested values if each test is a whole run.
 const SCAN_OF_RUNS: u32 = 16;
 
 /// Relative accuracy of predicted limits.
 const SHARP: f64 = 1e-5;
 
-/// Relative accuracy of limits found by runs.
+/// Relative accuracy of limits from runs.
 const SHARP_OF_RUNS: f64 = 5e-3;
 
 /// Shares of a predicted limit at which runs confirm it: agreement within 2 %, and the usual 5 %.
-/// Below the limit the nearer share is the stronger test; a full run, with all its steps, uses
+/// Below the limit the nearer share is the stronger test. A full run, with all its steps, uses
 /// both.
 const SHARES: [f64; 4] = [0.95, 0.98, 1.02, 1.05];
 
-/// Effect of rounding on a defective eigenvalue 1, as that of rigid motion.
+/// Effect of rounding on a defective eigenvalue 1, such as that of rigid motion.
 const DEFECT: f64 = 1e-5;
 
 /// One case of a study.
@@ -45,7 +45,7 @@ pub(super) struct CaseRun<'a> {
 }
 
 impl CaseRun<'_> {
-    /// The row of one value of the swept parameter.
+    /// Result row for one value of the swept parameter.
     pub(super) fn row(&self, value: f64) -> StabilityRow {
         let empty = StabilityRow { value, trial: None, critical: None, refused: None };
         let found = match &self.plan.sought {
@@ -59,7 +59,7 @@ impl CaseRun<'_> {
         found.unwrap_or_else(|reason| StabilityRow { refused: Some(reason.to_string()), ..empty })
     }
 
-    /// The set-up with these values of the parameters.
+    /// Set-up with the given parameter values.
     pub(super) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, SubjectError> {
         let setup = self.plan.template.setup(values);
         let mut setup = setup.map_err(|diagnostic| diagnostic.one_line())?;
@@ -72,7 +72,8 @@ impl CaseRun<'_> {
         Ok(setup)
     }
 
-    /// The stable time step (s); for an external solver, the transit time of a wave through a cell.
+    /// Stable time step (s). For an external solver, this is the time in which a wave crosses a
+    /// cell.
     fn stable_time_step(&self, setup: &RunSetup) -> Result<f64, SubjectError> {
         let of_body = |body: &Body<'_>| match self.case.method {
             Method::External { .. } => Ok(setup.level.h / body.own.wave_speed()),
@@ -91,7 +92,7 @@ impl CaseRun<'_> {
         Ok(subject)
     }
 
-    /// The run with these values of the parameters.
+    /// Runs the case with the given parameter values.
     fn run(&self, values: &ParameterValues<'_>) -> Result<Trial, SubjectError> {
         let run = || {
             let setup = self.setup(values)?;
@@ -106,7 +107,7 @@ impl CaseRun<'_> {
         self.context.cached(&key, &name, broken, run)
     }
 
-    /// The subject of a run, at its start.
+    /// The subject at the start of a run.
     fn started(&self, setup: &RunSetup) -> Result<Box<dyn Subject>, SubjectError> {
         if let Some(solver) = self.context.solver {
             return handed::subject(solver, self.context.suite, setup);
@@ -116,7 +117,7 @@ impl CaseRun<'_> {
         Ok(subject)
     }
 
-    /// The run with these values of the parameters, for output as files.
+    /// The run with the given parameter values, for output as files.
     pub(super) fn shown(
         &self,
         values: &ParameterValues<'_>,
@@ -131,8 +132,8 @@ impl CaseRun<'_> {
         })
     }
 
-    /// The limit of the sought parameter: predicted and confirmed if the particles are frozen,
-    /// otherwise observed.
+    /// Limit of the parameter whose limit is sought. If the particles are frozen, it is predicted
+    /// and confirmed by runs; otherwise it is observed in runs.
     fn critical(
         &self,
         value: f64,
@@ -182,7 +183,7 @@ impl CaseRun<'_> {
     }
 }
 
-/// `a = 1, b = 2`.
+/// Text of parameter values: `a = 1, b = 2`.
 fn said(values: &ParameterValues<'_>) -> String {
     let said: Vec<String> =
         values.iter().map(|(name, value)| format!("{name} = {value}")).collect();

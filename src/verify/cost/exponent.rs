@@ -1,31 +1,33 @@
-//! Cost of one more digit: work ~ error^exponent, observed and in theory.
+//! Cost of one more digit: the exponent of work ~ error^exponent, observed and theoretical.
 //!
-//! With an error ~ h^p and a work ~ h^-g the exponent is -g/p: g = D + 1 if cells are refined and
-//! time steps are proportional to h, D if the steps are constant, 1 if only time steps are refined.
+//! With error ~ h^p and work ~ h^-g the exponent is -g/p. Here g = D + 1 if cells are refined and
+//! time steps are proportional to h, g = D if the steps are constant, and g = 1 if only time steps
+//! are refined.
 //!
 //! The line is fitted to `ln error` over `ln work`, because work is counted and has no noise. The
-//! exponent is the inverse of its slope, and so are the ends of the interval (the fiducial limits
-//! of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed., section 3.2).
+//! exponent and the ends of its interval are the inverses of the slope and its interval (the
+//! fiducial limits of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed.,
+//! section 3.2).
 
 use super::sample::{ConvergingPart, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
 
-/// Minimum number of points with an interval.
+/// Minimum number of points for an interval.
 const FEWEST: usize = 3;
 
-/// Minimum relative width of an interval, for series without noise.
+/// Minimum relative half-width of an interval, for series without noise.
 const ROUNDING: f64 = 1e-9;
 
-/// Maximum relative difference between observed and theoretical growth of work that does not
-/// explain a departure of the exponent.
+/// Relative difference between observed and theoretical growth of work that is too small to explain
+/// a different exponent.
 const SAME: f64 = 0.02;
 
-/// The marginal cost of accuracy.
+/// Marginal cost of accuracy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exponent {
-    /// Observed value, with its 95 % confidence interval.
+    /// Observed exponent, with its 95 % confidence interval.
     pub observed: Interval,
-    /// Value in theory.
+    /// Theoretical exponent.
     pub theory: f64,
     /// Observed order of the error over the same levels, and the formal order.
     pub order: (f64, f64),
@@ -36,18 +38,18 @@ pub struct Exponent {
 /// Agreement of an exponent with theory, or the main cause of the difference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Agreement {
-    /// Theory is within the interval.
+    /// The theoretical value is within the interval.
     Agrees,
-    /// The error has another order.
+    /// The order of the error differs from theory.
     Order,
-    /// The work grows at another rate.
+    /// The growth of the work differs from theory.
     Growth,
 }
 
 impl Exponent {
     /// The exponent over the asymptotic levels of `part`, or over all its levels if fewer than
-    /// three are asymptotic; `order` and `growth` are the theoretical values. `None` without three
-    /// levels, or if the interval of the order contains zero.
+    /// three are asymptotic. `order` and `growth` are the theoretical values. `None` with fewer
+    /// than three levels, or if the interval of the slope contains zero.
     pub fn of(samples: &[Sample], part: &ConvergingPart, order: f64, growth: f64) -> Option<Self> {
         let levels = &samples[part.levels.clone()];
         let asymptotic: Vec<Sample> = levels.iter().filter(|one| one.asymptotic).copied().collect();
@@ -70,7 +72,7 @@ impl Exponent {
         let errors = slope(|one| one.spacing, |one| one.error)?.slope;
         let works = slope(|one| one.spacing, |one| one.work)?.slope;
         Some(Self {
-            // The steep end of a falling slope gives the low cost.
+            // The steeper bound of the falling slope gives the lower cost.
             observed: Interval {
                 value: 1.0 / fall.value,
                 low: 1.0 / fall.high,
@@ -82,7 +84,7 @@ impl Exponent {
         })
     }
 
-    /// Whether theory is within the interval, and if not, why.
+    /// Whether the theoretical value is within the interval, and if not, the main cause.
     pub fn agreement(&self) -> Agreement {
         let Interval { low, high, .. } = self.observed;
         let spare = ROUNDING * self.theory.abs();

@@ -1,16 +1,16 @@
-//! Cost of accuracy: the method that reaches an error for the least work.
+//! Cost of accuracy: the method that reaches an error with the least work.
 //!
-//! | module | holds |
+//! | module | contents |
 //! |---|---|
 //! | [`sample`](Sample) | levels, the converging part, the front, the work at an error |
 //! | [`exponent`](Exponent) | cost of one more digit, compared with theory |
-//! | [`ranking`](Ranking) | all of it for the methods of one problem |
+//! | [`ranking`](Ranking) | these figures for the methods of one problem |
 //! | [`timing`](Timing) | measured seconds, and a suite with timed levels |
-//! | [`model`](Model) | seconds that are predicted |
-//! | [`predicted_error`](PredictedError) | errors that are predicted, with an interval |
+//! | [`model`](Model) | predicted seconds |
+//! | [`predicted_error`](PredictedError) | predicted errors, with an interval |
 //!
-//! Work is any additive number: particle-node transfers, which are the same on every machine, or
-//! seconds. Rankings do not extrapolate: an error below that of every level is not reached.
+//! Work is any additive number: particle-node transfers, which are equal on all machines, or
+//! seconds. Rankings do not extrapolate: an error below the errors of all levels is not reached.
 
 mod exponent;
 mod model;

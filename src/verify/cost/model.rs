@@ -4,13 +4,13 @@
 //! seconds = a transfers + b particle updates + c steps x nodes + d steps
 //! ```
 //!
-//! with non-negative coefficients, fitted to measured levels with least relative errors. Within one
-//! refinement the four columns grow nearly in proportion, and noise would give some negative
-//! coefficients. So every subset of columns is solved, and the best one without a negative
-//! coefficient is kept (non-negative least squares, Lawson & Hanson 1974, chapter 23; four columns
-//! have only fifteen subsets).
+//! The coefficients are non-negative and minimise the relative errors at measured levels. Within
+//! one refinement the four columns grow nearly in proportion, and noise would make some
+//! coefficients negative. So every subset of columns is solved, and the best solution without a
+//! negative coefficient is used (non-negative least squares, Lawson & Hanson 1974, chapter 23; four
+//! columns have only fifteen subsets).
 
-/// Counts of work of a run.
+/// Amounts of work of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Workload {
     /// Particle-node transfers.
@@ -39,7 +39,7 @@ impl Workload {
 }
 
 impl Model {
-    /// The model fitted to runs with their times (s); `None` if no run took any time.
+    /// Fits the model to runs and their times (s); `None` if no run took any time.
     pub fn fit(runs: &[(Workload, f64)]) -> Option<Self> {
         let rows: Vec<[f64; COLUMNS]> = runs
             .iter()
@@ -65,7 +65,7 @@ impl Model {
         best.map(|(_, seconds)| Self { seconds })
     }
 
-    /// Seconds of a run.
+    /// Predicted seconds of a run.
     pub fn predict(&self, load: &Workload) -> f64 {
         load.columns().iter().zip(&self.seconds).map(|(x, s)| x * s).sum()
     }
@@ -80,8 +80,8 @@ fn residual(rows: &[[f64; COLUMNS]], seconds: &[f64; COLUMNS]) -> f64 {
     rows.iter().map(off).sum()
 }
 
-/// Solves least squares over the chosen columns by the normal equations, each column scaled to
-/// length 1; `None` if the columns are linearly dependent.
+/// Solves the least-squares problem for the chosen columns by the normal equations, with each
+/// column scaled to length 1; `None` if the columns are linearly dependent.
 fn solve(rows: &[[f64; COLUMNS]], chosen: &[usize]) -> Option<[f64; COLUMNS]> {
     let n = chosen.len();
     let length = |k: &usize| rows.iter().map(|row| row[*k] * row[*k]).sum::<f64>().sqrt();
@@ -107,10 +107,10 @@ fn solve(rows: &[[f64; COLUMNS]], chosen: &[usize]) -> Option<[f64; COLUMNS]> {
     Some(seconds)
 }
 
-/// Gauss-Jordan elimination with pivots from the diagonal, which serve a matrix of this kind; the
-/// last column becomes the solution.
+/// Gauss-Jordan elimination. Diagonal pivots suffice for this kind of matrix. The last column
+/// becomes the solution.
 fn eliminate(matrix: &mut [Vec<f64>]) -> Option<()> {
-    /// Squared sine of the angle between columns that are one.
+    /// Squared sine of the angle below which two columns count as linearly dependent.
     const LEAST_PIVOT: f64 = 1e-9;
     for i in 0..matrix.len() {
         let pivot = matrix[i][i];
@@ -133,7 +133,7 @@ mod tests {
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
-    /// A level of a study in 2-D, with spare cells around the body.
+    /// A level of a study in 2-D, with additional cells around the body.
     fn load(cells: f64) -> Workload {
         let (particles, steps) = (4.0 * cells * cells, 10.0 * cells);
         Workload {
@@ -186,7 +186,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 
-        /// On any machine, with 3 % of noise, a grid twice as fine is predicted within 15 %.
+        /// On any machine, with 3 % noise, the time on a grid twice as fine is predicted to 15 %.
         #[test]
         fn a_finer_level_is_predicted(
             a in 1e-10..1e-8_f64, b in 0.0..1e-7_f64, c in 0.0..1e-7_f64, d in 0.0..1e-5_f64,

@@ -1,18 +1,18 @@
-//! The error of a level that has not run, with an interval.
+//! Predicts the error of a level that has not run, with an interval.
 //!
-//! Beyond the finest of n levels that the judge fits an order to, with x = ln h,
+//! Beyond the finest of the n levels of the judge's fit, with x = ln h:
 //!
 //! ```text
 //! ln error = line(x) -+ (t(0.975, n - 2) s sqrt(1 + 1/n + (x - mean)^2 / Sxx) + 0.25 (finest - x))
 //! ```
 //!
 //! The first term is the prediction interval of a regression (Draper & Smith, Applied Regression
-//! Analysis, 3rd ed., section 3.1). The second one covers systematic changes: an order that counts
-//! as settled may change by 0.25 beyond the levels. Between levels the error is interpolated on
-//! logarithmic axes, with the second term for the distance to the nearer level.
+//! Analysis, 3rd ed., section 3.1). The second term covers systematic changes: a settled order may
+//! change by 0.25 beyond the levels. Between levels the error is interpolated on logarithmic axes.
+//! Its interval has the second term only, for the distance to the nearer level.
 //!
-//! There is no prediction beyond levels that do not converge, that end in a floor, or whose order
-//! falls at the end, which is the first sign of a floor.
+//! No error is predicted beyond levels that do not converge or end in a floor. Nor is one predicted
+//! if the order falls at the end, which is the first sign of a floor.
 
 use super::sample::{ConvergingPart, End, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
@@ -21,28 +21,29 @@ use crate::verify::verdict::judge::SETTLED;
 use crate::verify::verdict::name::Verdict;
 use std::fmt;
 
-/// Minimum number of levels with a prediction interval.
+/// Minimum number of levels for a prediction interval.
 const FEWEST: usize = 3;
 
 /// Predicted errors of a method.
 #[derive(Debug, Clone)]
 pub struct PredictedError {
-    /// The levels over which it converges.
+    /// Levels over which the method converges.
     levels: Vec<Sample>,
-    /// The line beyond them, and its order or the formal one if that is lower.
+    /// The fitted line, and its order or the formal order, whichever is lower; or the reason for no
+    /// prediction beyond the levels.
     beyond: Result<(FittedLine, f64), Unpredicted>,
 }
 
 /// Reason why no error is predicted beyond the levels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unpredicted {
-    /// The levels have another verdict than converging.
+    /// The verdict on the levels is not "converging".
     Verdict(Verdict),
-    /// The levels over which the error falls end before the finest.
+    /// The converging part ends before the finest level.
     End(End),
     /// Fewer than three levels.
     TooFew,
-    /// The order between the two finest levels is below that of all levels.
+    /// The order between the two finest levels is below the order of all levels.
     Falling,
 }
 
@@ -58,7 +59,7 @@ impl fmt::Display for Unpredicted {
 }
 
 impl PredictedError {
-    /// The prediction from levels that have a verdict and converge over `part`.
+    /// Predicts from levels with their verdict and their converging part `part`.
     pub fn of(
         samples: &[Sample],
         part: &ConvergingPart,
@@ -74,19 +75,20 @@ impl PredictedError {
         Self { levels, beyond }
     }
 
-    /// Why no error is predicted beyond the finest level; `None` if one is predicted.
+    /// Reason why no error is predicted beyond the finest level; `None` if one is predicted.
     pub fn obstacle(&self) -> Option<Unpredicted> {
         self.beyond.err()
     }
 
-    /// The error at a spacing; `None` if it is not predicted.
+    /// Predicted error at a spacing; `None` without a prediction.
     pub fn at(&self, spacing: f64) -> Option<Interval> {
         let finest = self.levels.last()?;
         if spacing < finest.spacing {
             let (line, order) = self.beyond.ok()?;
             let (x, end) = (libm::log(spacing), libm::log(finest.spacing));
             let Interval { value, low, high } = line.another(x);
-            // An observed order above the formal order on coarse grids will not continue.
+            // An observed order above the formal order on coarse grids is not expected on finer
+            // grids.
             let lost = (line.slope - order) * (end - x);
             let more = SETTLED * (end - x);
             return exp(Interval {
@@ -106,7 +108,7 @@ impl PredictedError {
     }
 }
 
-/// The line beyond levels whose order does not fall at their end.
+/// Fits the line beyond the levels; fails if the order falls at their end.
 fn line(levels: &[Sample], formal_order: f64) -> Result<(FittedLine, f64), Unpredicted> {
     let fitted = levels.iter().enumerate().filter(|(_, one)| one.asymptotic);
     let points: Vec<LogPoint> = fitted
@@ -122,7 +124,7 @@ fn line(levels: &[Sample], formal_order: f64) -> Result<(FittedLine, f64), Unpre
     holds.then_some((line, order)).ok_or(Unpredicted::Falling)
 }
 
-/// Exponential of each figure; `None` if a result is not finite.
+/// Exponential of each value; `None` if a result is not finite.
 fn exp(Interval { value, low, high }: Interval) -> Option<Interval> {
     let [value, low, high] = [value, low, high].map(libm::exp);
     (low <= value && value <= high).then_some(Interval { value, low, high })

@@ -1,4 +1,4 @@
-//! The methods of one problem, the cheapest first.
+//! Ranks the methods of one problem by cost.
 
 use super::TARGETS;
 use super::exponent::Exponent;
@@ -10,51 +10,51 @@ use std::cmp::Ordering;
 /// A method with its levels, coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MethodCost {
-    /// Its name.
+    /// Name of the method.
     pub name: String,
-    /// Its levels.
+    /// Levels, coarse to fine.
     pub samples: Vec<Sample>,
-    /// The order of the error in theory.
+    /// Theoretical order of the error.
     pub formal_order: f64,
-    /// Theoretical growth of the work, see [`ErrorScale`](crate::verify::ErrorScale).
+    /// Theoretical growth of the work (see [`ErrorScale`](crate::verify::ErrorScale)).
     pub growth: f64,
 }
 
-/// A method with its cost of accuracy.
+/// A method with the cost of its accuracy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranked {
     /// The method.
     pub method: MethodCost,
-    /// The levels over which it converges.
+    /// Levels over which the method converges.
     pub part: ConvergingPart,
-    /// Spacing and work at which it reaches each target error.
+    /// Spacing and work at each target error.
     pub reaches: Vec<Reach>,
-    /// Work over the least work of all methods at each target error; `None` if it does not reach
-    /// the target.
+    /// Ratio of the work to the minimum over all methods, at each target error; `None` if the
+    /// method does not reach the target.
     pub times: Vec<Option<f64>>,
     /// Smallest error of the converging part, or of all levels if there is no such part.
     pub best: Option<f64>,
     /// Cost of one more digit.
     pub exponent: Option<Exponent>,
-    /// Indices of its levels on the Pareto front.
+    /// Indices of the method's levels on the Pareto front.
     pub front: Vec<usize>,
 }
 
 /// The methods of one problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking {
-    /// The problem, as text.
+    /// Description of the problem.
     pub problem: String,
     /// Divisor of the errors.
     pub size: f64,
     /// Target errors, from coarse to fine.
     pub targets: Vec<f64>,
-    /// The methods: by the work at the finest target, then at the next coarser one.
+    /// Methods, sorted by the work at the finest target, then at the next coarser one.
     pub rows: Vec<Ranked>,
 }
 
 impl Ranking {
-    /// Ranks `methods` by their work for each of `targets`.
+    /// Ranks `methods` by their work at each of `targets`.
     pub fn new(problem: String, size: f64, targets: &[f64], methods: Vec<MethodCost>) -> Self {
         let all: Vec<(usize, usize, Sample)> = methods
             .iter()
@@ -101,14 +101,14 @@ fn ranked(method: MethodCost, targets: &[f64], front: Vec<usize>) -> Ranked {
 }
 
 impl Ranked {
-    /// Why it does not reach the finest target; `None` if it does.
+    /// Reason why the method does not reach the finest target; `None` if it does.
     pub fn obstacle(&self) -> Option<End> {
         let reached = self.reaches.last().is_some_and(|reach| reach.work().is_some());
         (!reached).then_some(self.part.end)
     }
 }
 
-/// By the work at the finest target that either reaches.
+/// Compares methods by the work at the finest target that at least one of them reaches.
 fn order(a: &[Reach], b: &[Reach]) -> Ordering {
     let pairs = a.iter().zip(b).rev();
     let compare = |(a, b): (&Reach, &Reach)| match (a.work(), b.work()) {
@@ -120,9 +120,9 @@ fn order(a: &[Reach], b: &[Reach]) -> Ordering {
     pairs.map(compare).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
 }
 
-/// Rankings of the comparable cases of a suite, one per problem; `work` returns the work of a
-/// level. Excludes cases without exact solution or reference, problems without an error scale, and
-/// cases with fewer than three levels.
+/// Rankings of the comparable cases of a suite, one for each problem; `work` returns the work of a
+/// level. Excluded are cases without exact solution or reference, problems without an error scale,
+/// and cases with fewer than three levels.
 pub fn rankings<'a>(
     cases: impl IntoIterator<Item = &'a CaseOutcome>,
     work: impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,
@@ -150,8 +150,8 @@ pub fn rankings<'a>(
     problems.into_iter().map(rank).collect()
 }
 
-/// Rankings of the cases of a suite by transfers, which are the same on every machine. Excludes
-/// external solvers, which do not count them.
+/// Rankings of the cases of a suite by transfers, which are equal on all machines. External solvers
+/// are excluded, because they do not count transfers.
 pub fn by_transfers(cases: &[CaseOutcome]) -> Vec<Ranking> {
     let is_counted = |case: &&CaseOutcome| {
         let levels = case.convergence().map(|study| study.levels.as_slice());

@@ -1,24 +1,24 @@
-//! Levels of one method: error and work of each, the levels over which the method converges, the
-//! Pareto front, and the work at which an error is reached.
+//! Levels of one method: error and work of each level, the converging part, the Pareto front, and
+//! the work needed to reach an error.
 //!
 //! Between two levels of the converging part an error may be interpolated. Elsewhere a small error
-//! may be accidental (a sign change of the error, fluctuations on a floor), and not be confirmed on
-//! the next finer grid.
+//! may be accidental: a sign change of the error, or fluctuations on a floor. The next finer grid
+//! may not confirm it.
 
 use std::ops::Range;
 
 /// Result of one level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// The spacing that is refined.
+    /// Refined spacing.
     pub spacing: f64,
-    /// Error over the size of the solution.
+    /// Error relative to the size of the solution.
     pub error: f64,
     /// Work: transfers, or seconds.
     pub work: f64,
     /// Whether the judge may count the level.
     pub usable: bool,
-    /// Whether the judge fits the order to this level.
+    /// Whether the judge uses the level in the fit of the order.
     pub asymptotic: bool,
     /// Whether the run failed.
     pub failed: bool,
@@ -31,46 +31,46 @@ impl Sample {
         self.usable && !self.failed && sound && self.work > 0.0 && self.work.is_finite()
     }
 
-    /// Whether the level has a point on logarithmic axes.
+    /// Whether the level can be plotted on logarithmic axes.
     pub(crate) fn has_logarithm(&self) -> bool {
         self.counts() && self.error > 0.0 && self.spacing > 0.0 && self.spacing.is_finite()
     }
 }
 
-/// Minimum order between neighbouring levels that counts as a fall of the error.
+/// Minimum order between neighbouring levels that counts as a decrease of the error.
 const LEAST_ORDER: f64 = 0.2;
 
-/// Minimum number of levels of a converging part, as in the judge: an error falls over two levels
-/// by chance.
+/// Minimum number of levels of a converging part, as in the judge: over two levels an error may
+/// decrease by chance.
 const FEWEST: usize = 3;
 
-/// Minimum ratio of the error to that of the previous level that counts as growth; smaller changes
+/// Minimum ratio of the error to that of the previous level that counts as growth. Smaller changes
 /// are fluctuations on a floor.
 const GROWS: f64 = 1.25;
 
-/// Neighbouring levels over which the error falls.
+/// Neighbouring levels over which the error decreases.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConvergingPart {
-    /// The levels, as indices from coarse to fine.
+    /// Indices of the levels, from coarse to fine.
     pub levels: Range<usize>,
-    /// Reason of its end.
+    /// Reason for the end of the part.
     pub end: End,
 }
 
-/// Reason for the end of a converging part.
+/// Reasons for the end of a converging part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
     /// No finer level was run.
     Levels,
-    /// The error does not fall further.
+    /// The error stops decreasing.
     Floor,
-    /// The error grows.
+    /// The error grows on the next level.
     Grows,
-    /// The run failed.
+    /// The next level failed.
     Failed,
-    /// A level that does not count.
+    /// The next level does not count.
     Crossings,
-    /// There are not three levels in a row over which the error falls.
+    /// There are no three consecutive levels over which the error decreases.
     NoTrend,
 }
 
@@ -89,9 +89,9 @@ impl End {
 }
 
 impl ConvergingPart {
-    /// The converging part of levels from coarse to fine; if there are several, the one with the
-    /// largest fall of the error. Without a converging part, `levels` is empty and `end` has the
-    /// reason.
+    /// The converging part of levels from coarse to fine. Of several such parts, the one with the
+    /// largest decrease of the error is returned. Without a converging part, `levels` is empty and
+    /// `end` has the reason.
     pub fn of(samples: &[Sample]) -> Self {
         let mut best: Option<(f64, Range<usize>)> = None;
         let mut start = 0;
@@ -123,7 +123,7 @@ fn falls(coarse: &Sample, fine: &Sample) -> bool {
     libm::log(coarse.error / fine.error) >= LEAST_ORDER * refinement && refinement > 0.0
 }
 
-/// Reason why the level `next` is not in the part.
+/// Reason why level `next` is not in the part.
 fn end(samples: &[Sample], next: usize) -> End {
     let Some(finer) = samples.get(next) else { return End::Levels };
     if finer.failed || !finer.error.is_finite() {
@@ -137,11 +137,11 @@ fn end(samples: &[Sample], next: usize) -> End {
     }
 }
 
-/// Minimum relative decrease of the error that justifies more work: smaller differences are
+/// Minimum relative decrease of the error that justifies more work. Smaller differences are
 /// negligible.
 pub(super) const WORTH: f64 = 0.01;
 
-/// Indices of the samples on the Pareto front, from the least work to the least error. Of equal
+/// Indices of the samples on the Pareto front, from the least work to the smallest error. Of equal
 /// samples only the first is included.
 pub fn pareto_front(samples: &[Sample]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..samples.len()).filter(|k| samples[*k].counts()).collect();
@@ -161,21 +161,21 @@ pub fn pareto_front(samples: &[Sample]) -> Vec<usize> {
     order
 }
 
-/// Work and spacing at which an error is reached.
+/// Work and spacing at which the error reaches a target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reach {
     /// Between two levels of the converging part, by linear interpolation on logarithmic axes.
     At {
-        /// The work.
+        /// Interpolated work.
         work: f64,
-        /// The spacing.
+        /// Interpolated spacing.
         spacing: f64,
     },
-    /// On the coarsest level of the converging part: an upper bound of the work.
+    /// On the coarsest level of the converging part, whose work is an upper bound.
     Already {
-        /// Its work.
+        /// Work of the coarsest level.
         work: f64,
-        /// Its spacing.
+        /// Spacing of the coarsest level.
         spacing: f64,
     },
     /// On no level of the converging part.
@@ -183,8 +183,8 @@ pub enum Reach {
 }
 
 impl Reach {
-    /// Work and spacing at which levels from coarse to fine, converging over `part`, reach the
-    /// error `target`.
+    /// Work and spacing at which the levels reach the error `target`. The levels are ordered from
+    /// coarse to fine and converge over `part`.
     pub fn of(samples: &[Sample], part: &ConvergingPart, target: f64) -> Self {
         let mut counted = samples.iter().filter(|one| one.counts());
         let unbroken = samples.iter().all(|one| !one.failed);

@@ -1,4 +1,4 @@
-//! Series whose answers are known.
+//! Series with known answers.
 
 use super::{
     Agreement, ConvergingPart, End, Exponent, MethodCost, PredictedError, Ranking, Reach, Sample,
@@ -80,7 +80,7 @@ fn targets(#[case] series: &[f64], #[case] target: f64, #[case] work: Option<f64
     assert_eq!(reach(&errors(series), target).work(), work);
 }
 
-/// Levels that break may not be passed over because the coarsest one was good.
+/// A good coarsest level does not hide a failure on a finer level.
 #[test]
 fn what_breaks_is_not_reached_already() {
     let mut samples = errors(&[1e-5, 1e-6, 1e-7]);
@@ -132,7 +132,7 @@ fn predicted(samples: &[Sample]) -> PredictedError {
     PredictedError::of(samples, &ConvergingPart::of(samples), Verdict::Converging, 2.0)
 }
 
-/// Without noise the interval is that of an order which may change by 0.25 over an octave.
+/// Without noise the interval is that of an order that may change by 0.25 over an octave.
 #[test]
 fn a_power_law_goes_on_within_what_counts_as_settled() {
     let found = predicted(&power(2.0, 3.0, 5)).at(1.0 / 64.0).unwrap();
@@ -142,8 +142,8 @@ fn a_power_law_goes_on_within_what_counts_as_settled() {
     assert_relative_eq!(found.high, wanted * libm::exp2(0.25), max_relative = 1e-12);
 }
 
-/// By hand: four levels with +- 0.1 about the order 2 have rss = 0.04 - 0.2^2/5 = 0.032, and
-/// 1 + 1/4 + 2.5^2/5 = 5/2 one octave on; t(0.975, 2) = 4.3027.
+/// By hand: four levels with +- 0.1 about the order 2 have rss = 0.04 - 0.2^2/5 = 0.032. One octave
+/// beyond them, 1 + 1/4 + 2.5^2/5 = 5/2; t(0.975, 2) = 4.3027.
 #[test]
 fn noise_widens_the_interval_of_a_predicted_error() {
     let mut samples = power(2.0, 3.0, 4);
@@ -159,8 +159,8 @@ fn noise_widens_the_interval_of_a_predicted_error() {
     assert_relative_eq!(found[1], half_width, max_relative = 1e-4);
 }
 
-/// The predicted error follows the theoretical order; a continuation of the observed order is
-/// within the interval.
+/// The predicted error follows the theoretical order. The interval includes a continuation of the
+/// observed order.
 #[test]
 fn what_is_better_than_theory_is_not_expected_to_stay_so() {
     let found = predicted(&power(3.0, 3.0, 4)).at(1.0 / 32.0).unwrap();
@@ -249,8 +249,8 @@ fn series() -> impl Strategy<Value = Vec<Sample>> {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
 
-    /// An error that counts as reached was reached: a level that counts has at most this error, and
-    /// the work is between those of levels.
+    /// An error is reached only if a level that counts has at most this error. The work is between
+    /// the values of levels.
     #[test]
     fn nothing_is_extrapolated(samples in series(), target in 1e-9..1.0_f64) {
         if let Some(work) = reach(&samples, target).work() {
@@ -273,7 +273,7 @@ proptest! {
     }
 
     /// No level dominates one on the front. Every level that counts is dominated or equalled by one
-    /// on the front, up to negligible differences of the error.
+    /// on the front, except for negligible differences of the error.
     #[test]
     fn the_front_is_the_front(samples in series()) {
         let front = super::pareto_front(&samples);
@@ -291,7 +291,7 @@ proptest! {
         }
     }
 
-    /// No unit of work or spacing changes an answer.
+    /// Units of work and spacing do not change the result.
     #[test]
     fn units_do_not_matter(samples in series(), unit in 1e-6..1e6_f64, target in 1e-6..1.0_f64) {
         let other: Vec<Sample> = samples

@@ -1,11 +1,11 @@
-//! Measured seconds: their spread, the machine, and a suite whose levels have been timed.
+//! Measured seconds: their spread, the machine, and a suite with timed levels.
 
 use super::model::{Model, Workload};
 use super::ranking::{Ranking, by_transfers, rankings};
 use crate::verify::order::fit::Interval;
 use crate::verify::outcome::SuiteOutcome;
 
-/// Repeated measurements of one quantity, in seconds.
+/// Repeated measurements of one time (s).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timing {
     /// The median.
@@ -26,9 +26,9 @@ pub struct Machine {
     /// Load average over a minute, before and after, if the system reports it.
     pub load: Option<[f64; 2]>,
     /// Share of the time for which the measuring thread waited for a core. This time is excluded
-    /// from all seconds; if the system does not report it (`None`), it is included.
+    /// from all measured seconds. `None` if the system does not report it: then it is included.
     pub waited: Option<f64>,
-    /// A constant loop, timed between all other measurements: its spread is the noise of clock
+    /// A constant loop, timed between all other measurements. Its spread is the noise of the clock
     /// frequency and of other processes.
     pub fixed_loop: Option<Timing>,
 }
@@ -50,45 +50,45 @@ impl Timing {
         Some(Self { median: at(0.5), low: at(0.25), high: at(0.75), repeats: sorted.len() })
     }
 
-    /// The interquartile range over the median.
+    /// Interquartile range divided by the median.
     pub fn spread(&self) -> f64 {
         (self.high - self.low) / self.median
     }
 }
 
-/// A suite with the seconds of its levels.
+/// A suite with the measured times of its levels.
 #[derive(Debug, Clone)]
 pub struct TimedSuite {
-    /// Results of the cases of the suite, and of variants of them.
+    /// Results of the suite's cases and of their variants.
     pub outcome: SuiteOutcome,
-    /// For each case and level the workload, and the time that it took; `None` if the set-up
-    /// failed. The time of a failed run ends at the failure.
+    /// Workload and time of each level of each case. The time is `None` if the set-up failed; for a
+    /// failed run it ends at the failure.
     pub levels: Vec<Vec<(Workload, Option<Timing>)>>,
     /// State of the machine.
     pub machine: Machine,
 }
 
 impl TimedSuite {
-    /// The rankings by seconds.
+    /// Rankings by measured seconds.
     pub fn by_seconds(&self) -> Vec<Ranking> {
         rankings(&self.outcome.cases, |case, level, _| {
             self.timing(&case.case, level).map_or(f64::NAN, |timing| timing.median)
         })
     }
 
-    /// The rankings by transfers.
+    /// Rankings by transfers.
     pub fn by_transfers(&self) -> Vec<Ranking> {
         by_transfers(&self.outcome.cases)
     }
 
-    /// Time of a level.
+    /// Measured time of a level.
     pub fn timing(&self, case: &str, level: usize) -> Option<Timing> {
         let index = self.outcome.cases.iter().position(|known| known.case == case)?;
         self.levels.get(index)?.get(level)?.1
     }
 
-    /// The cost model of a case, and its relative error at the finest level if it is fitted to the
-    /// other levels only: a prediction before that level runs.
+    /// Cost model of a case, and its relative error at the finest level when it is fitted to the
+    /// other levels only. This error shows how well the model predicts a level that has not run.
     pub fn model(&self, case: usize) -> Option<(Model, Option<f64>)> {
         let levels = self.levels.get(case)?.iter();
         let runs: Vec<(Workload, f64)> =
@@ -100,7 +100,7 @@ impl TimedSuite {
     }
 }
 
-/// The most accurate setting whose predicted time is within a budget, and its measured result.
+/// The most accurate setting whose predicted time is within a budget, with its measured result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BestCandidate {
     /// The budget (s).
@@ -113,19 +113,19 @@ pub struct BestCandidate {
     pub dt: f64,
     /// Particles per cell.
     pub ppc: Option<u64>,
-    /// Seconds of the steps, predicted and measured.
+    /// Predicted and measured seconds of the steps.
     pub seconds: [f64; 2],
-    /// Error over the size of the solution: predicted, and measured.
+    /// Predicted and measured error relative to the size of the solution.
     pub error: (Interval, f64),
-    /// Whether the setting is finer than all levels that the suite lists.
+    /// Whether the setting is finer than all levels of the suite.
     pub beyond: bool,
-    /// Why no finer setting was considered, if the budget is not the reason.
+    /// Reason why no finer setting was considered, if it is not the budget.
     pub limit: Option<String>,
-    /// Reason if the run ended early.
+    /// Reason why the run ended early, if it did.
     pub failure: Option<String>,
-    /// The model that predicted.
+    /// Model of the prediction.
     pub model: Model,
-    /// Levels that the model was fitted to.
+    /// Number of levels in the fit of the model.
     pub fitted: usize,
 }
 

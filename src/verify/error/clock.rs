@@ -1,7 +1,7 @@
-//! Computes a time step near the requested one that ends the run exactly at its end.
+//! Chooses a time step near the requested one that divides the run into whole steps.
 
-/// The steps of one run, and the instants at which errors are measured. Each instant is the end of
-/// a step. The spacing of instants is as uniform as the steps allow.
+/// Steps of one run, and the instants at which errors are measured. Each instant is the end of a
+/// step. The instants are as evenly spaced as the steps allow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clock {
     /// End of the run (s).
@@ -22,34 +22,35 @@ pub enum StepKind {
     Load,
 }
 
-/// Maximum number of steps of a run, so that a misspelt dt does not run for years.
+/// Maximum number of steps of a run, so that a mistyped dt does not run for years.
 pub const MOST_STEPS: f64 = 1e9;
 
-/// Maximum relative difference between the requested step and the actual one. An error of second
-/// order in the step differs by twice this from one level to the next: 0.03 in an order.
+/// Maximum relative difference between the requested step and the actual one. A second-order error
+/// in the step then changes from level to level by at most twice this difference: 0.03 in an order.
 pub const STEP_TOLERANCE: f64 = 0.01;
 
 impl Clock {
-    /// The number of steps is nearest to `until / wanted` (s), so that instants do not change the
-    /// step. A run of fewer steps than `instants` has an instant after each step. `None` if
-    /// `wanted` or `until` is not positive and finite, or if more than [`MOST_STEPS`] steps would
-    /// be needed.
+    /// A clock whose number of steps is nearest to `until / wanted` (s), so that instants do not
+    /// change the step. A run with fewer steps than `instants` has an instant after each step.
+    /// `None` if `wanted` or `until` is not positive and finite, or if more than [`MOST_STEPS`]
+    /// steps would be needed.
     pub fn new(until: f64, wanted: f64, instants: u64) -> Option<Self> {
         let steps = Self::usable(until, wanted, instants, libm::round(until / wanted))?;
         Some(Self { until, steps, instants: instants.min(steps) })
     }
 
-    /// The largest step, at most `wanted` (s), that divides the time between equally spaced
-    /// instants. Runs with different steps then share their instants. `None` as for [`Clock::new`].
+    /// A clock with the largest step, at most `wanted` (s), that divides the time between equally
+    /// spaced instants. Runs with different steps then share their instants. `None` as for
+    /// [`Clock::new`].
     pub fn with_common_instants(until: f64, wanted: f64, instants: u64) -> Option<Self> {
         let between = until / (wanted * instants as f64);
-        // A ratio that is whole up to rounding is rounded to it.
+        // A ratio that is an integer up to rounding is rounded to this integer.
         let between = libm::ceil(between * (1.0 - 1e-12)).max(1.0);
         let steps = Self::usable(until, wanted, instants, between * instants as f64)?;
         Some(Self { until, steps, instants })
     }
 
-    /// `steps`, at least one; `None` if they are invalid.
+    /// `steps`, but at least one; `None` if the arguments are invalid.
     fn usable(until: f64, wanted: f64, instants: u64, steps: f64) -> Option<u64> {
         let positive = |time: f64| time > 0.0 && time.is_finite();
         let usable = positive(until) && positive(wanted) && instants > 0;
@@ -61,7 +62,7 @@ impl Clock {
         self.until / self.steps as f64
     }
 
-    /// Time after `step` steps, without accumulated rounding.
+    /// Time after `step` steps, without accumulated rounding errors.
     pub fn time(&self, step: u64) -> f64 {
         self.until * step as f64 / self.steps as f64
     }
@@ -72,10 +73,10 @@ impl Clock {
     }
 }
 
-/// Whether step number `step` of `steps` ends at one of `instants`, which are as equally spaced as
+/// Whether step number `step` of `steps` ends at one of `instants`. They are as evenly spaced as
 /// the steps allow; the last one ends the run.
 pub(crate) fn is_instant(step: u64, steps: u64, instants: u64) -> bool {
-    // Number of instants up to the end of a step: it grows by one at an instant.
+    // Number of instants up to the end of a step. It grows by one at an instant.
     let passed = |step: u64| u128::from(step) * u128::from(instants) / u128::from(steps);
     step > 0 && passed(step) > passed(step - 1)
 }

@@ -1,39 +1,40 @@
 //! Declarations of the judged quantities: values at labels, and sums over the body and its walls.
 //!
-//! Errors of sums are relative to a size that is zero only for a body at rest: an energy to itself,
-//! a vector to the sum of the lengths of its terms. An energy is the first of three components.
+//! Errors of sums are relative to a size that is zero only for a body at rest. For an energy this
+//! is its value, for a vector the sum of the lengths of its terms. An energy is stored as the first
+//! of three components.
 
 use crate::exact::{SumDensity, SumPoint, Truth};
 use crate::subject::{Samples, Totals};
 use std::borrow::Cow;
 
-/// Exact values at all labels in the given number of dimensions, at a time.
+/// Writes exact values at all labels, in the given number of dimensions and at a given time.
 pub(super) type ExactAtAll = fn(&dyn Truth, usize, &[f64], f64, &mut [f64]);
 
-/// Properties of a quantity, without its name.
+/// Properties of a judged quantity, without its name.
 #[expect(clippy::struct_excessive_bools, reason = "four independent questions, each asked by name")]
 pub(super) struct Declaration {
-    /// Its unit; empty for a number.
+    /// Unit; empty for a dimensionless quantity.
     pub(super) unit: &'static str,
     pub(super) shape: TensorShape,
-    /// Values of a subject, label after label; empty if the subject has none.
+    /// Values of a subject, label by label; empty if the subject reports none.
     pub(super) computed: fn(&Samples) -> Cow<'_, [f64]>,
-    /// Writes the exact value at the label X at time t; false if the exact solution does not define
-    /// it.
+    /// Writes the exact value at the label X at time t. Returns false if the exact solution does
+    /// not define it.
     pub(super) exact: fn(&dyn Truth, &[f64], f64, &mut [f64]) -> bool,
-    /// Exact values at all labels in D dimensions at once, for exact solutions with a faster
-    /// method.
+    /// Writes exact values at all labels in D dimensions, if the exact solution has a faster method
+    /// for many labels.
     pub(super) exact_at_all: Option<ExactAtAll>,
-    /// Natural size of exact values, which errors are compared with.
+    /// Natural size of exact values, which scales errors.
     pub(super) size: SolutionSize,
-    /// Size of the numbers whose difference is the value, on a body of length L (m); NaN if it is
-    /// unknown.
+    /// Size of the numbers that are subtracted to compute the value, on a body of length L (m). NaN
+    /// if it is unknown.
     pub(super) rounding_size: fn(f64) -> f64,
-    /// Whether it is a primary unknown of a subject: tables show its errors.
+    /// Whether the quantity is a primary unknown of a subject. Tables show errors of these.
     pub(super) is_primary: bool,
-    /// Whether only some subjects and some truths have it.
+    /// Whether only some subjects and exact solutions define the quantity.
     pub(super) is_optional: bool,
-    /// Whether only a body that moves has it.
+    /// Whether only moving bodies have the quantity.
     pub(super) is_of_motion: bool,
     /// Whether a subject must store F for the quantity.
     pub(super) needs_deformation_gradient: bool,
@@ -44,23 +45,22 @@ pub(super) struct Declaration {
 /// A sum over the body or its walls.
 #[derive(Clone, Copy)]
 pub(super) struct SumDeclaration {
-    /// Value of a subject; components beyond the dimension are zero.
+    /// Value from a subject; components beyond the dimension are zero.
     pub(super) computed: ComputedSum,
     /// Exact value per unit of volume or area.
     pub(super) density: SumDensity,
     pub(super) needs: SumNeed,
 }
 
-/// Value of a sum over a subject.
+/// How a subject's value of a sum is computed.
 #[derive(Clone, Copy)]
 pub(super) enum ComputedSum {
     /// From the totals over the body.
     OfTotals(fn(&Totals) -> Option<[f64; 3]>),
-    /// A function of the second moments of the body and of those of its reference configuration
-    /// (kg m2), one for each axis. It also gives the exact value from the exact sums, whose density
-    /// is that of the second moments.
+    /// A function of the second moments (kg m2) of the body and of its reference configuration, one
+    /// for each axis. The same function gives the exact value from the exact second moments.
     OfMoments(fn([f64; 3], [f64; 3]) -> [f64; 3]),
-    /// The reaction of walls.
+    /// The reaction force of walls.
     Reaction,
 }
 
@@ -71,37 +71,37 @@ pub(crate) enum SumNeed {
     Nothing,
     /// A law that stores energy.
     StoredEnergy,
-    /// A plane or space around an origin.
+    /// A plane or three-dimensional body, which can rotate about the origin.
     Rotation,
-    /// A face on which the body is at rest.
+    /// A face with prescribed zero displacement.
     Wall,
 }
 
 /// Natural size of a field.
 pub(super) enum SolutionSize {
-    /// Largest magnitude.
+    /// Largest magnitude of a value.
     Magnitude,
-    /// Largest magnitude of the difference from the identity.
+    /// Largest magnitude of the difference from the identity tensor.
     FromIdentity,
-    /// Largest less smallest value.
+    /// Difference between the largest and the smallest value.
     Range,
 }
 
-/// Components of a field at a label in D dimensions.
+/// Shape of a field's value at a label, in D dimensions.
 pub(super) enum TensorShape {
-    /// 1.
+    /// One component.
     Scalar,
-    /// D.
+    /// D components.
     Vector,
-    /// D * D, row after row.
+    /// D * D components, row by row.
     Tensor,
 }
 
 impl TensorShape {
-    /// Numbers at each label in `d` dimensions.
+    /// Number of components at each label in `d` dimensions.
     pub(super) fn components(&self, d: usize) -> usize {
         match self {
-            // In zero dimensions there is nothing to compare, also for a scalar.
+            // In zero dimensions there is nothing to compare, not even a scalar.
             Self::Scalar => d.min(1),
             Self::Vector => d,
             Self::Tensor => d * d,
@@ -119,7 +119,7 @@ pub(super) const DISPLACEMENT: Declaration = Declaration {
     },
     exact_at_all: Some(|truth, d, labels, t, into| truth.displacements(d, labels, t, into)),
     size: SolutionSize::Magnitude,
-    // The difference of two positions, each rounded.
+    // A displacement is the difference of two positions, each of them rounded.
     rounding_size: |length| length,
     is_primary: true,
     is_optional: false,
@@ -173,7 +173,7 @@ pub(super) const TEMPERATURE: Declaration = Declaration {
     ..STRESS
 };
 
-/// Common part of the declarations of sums, which have no values at labels.
+/// Common part of the declarations of sums. Sums have no values at labels.
 const SUM: Declaration = Declaration {
     unit: "J",
     shape: TensorShape::Scalar,
@@ -261,12 +261,12 @@ pub(super) const SEMI_AXIS: Declaration = Declaration {
     ..SUM
 };
 
-/// `sqrt(now/reference)`; zero on an axis that the body does not have.
+/// `sqrt(now/reference)`; zero on axes that the body does not have.
 fn root_of_ratio(now: f64, reference: f64) -> f64 {
     if reference == 0.0 { 0.0 } else { (now / reference).sqrt() }
 }
 
-/// Second moments, with their sum as the size.
+/// Second moments, with their sum as the size for errors.
 pub(super) fn moments(values: [f64; 3]) -> ([f64; 3], f64) {
     (values, values.iter().sum())
 }

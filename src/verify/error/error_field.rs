@@ -1,4 +1,4 @@
-//! Errors over the body at the end of a run, thinned for a picture.
+//! Errors over the body at the end of a run, reduced to the resolution of a figure.
 
 use super::norm::{larger, length};
 use super::quantity::Quantity;
@@ -7,29 +7,31 @@ use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Number of parts along the longer side of a body: the resolution of a figure.
+/// Number of parts along the longer side of the body in a plane; this is the resolution of a
+/// figure.
 const SQUARES: f64 = 20.0;
 const PARTS: f64 = 80.0;
 
-/// Share of a part that counts as rounding error.
+/// Share of a part below which a distance counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// The largest error in each part of the body. In 3-D the parts are those of the first two axes,
-/// with the largest error along the third.
+/// The largest error in each part of the body. In 3-D the body is divided along the first two axes,
+/// and the largest error along the third axis is used.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ErrorField {
-    /// Whether it is a plane, and not a line.
+    /// Whether the parts cover a plane rather than a line.
     pub is_plane: bool,
     /// Size of a part (m).
     pub size: f64,
-    /// Current position (m) and largest magnitude of the error in each part with particles; NaN if
-    /// no error in it is finite. A part is a square of many particles, or one particle.
+    /// Current position (m) and largest error magnitude in each part that contains particles. The
+    /// error is NaN if a part has no finite error. A part is a square with many particles, or one
+    /// particle.
     pub parts: Vec<[f64; 3]>,
 }
 
 impl ErrorField {
-    /// The errors of `of` in `samples` against `truth` at time `t` (s); `None` if there is no such
-    /// error, or if no particle has a position.
+    /// Errors of the quantity `of` in `samples` against `truth` at time `t` (s). `None` if the
+    /// quantity has no such error, or if no particle has a position.
     pub(super) fn of(of: Quantity, samples: &Samples, truth: &dyn Truth, t: f64) -> Option<Self> {
         let (components, errors) = of.differences(samples, truth, t)?;
         let d = samples.dimension;
@@ -51,13 +53,13 @@ impl ErrorField {
         if !(size > 0.0 && size.is_finite()) {
             return None;
         }
-        // Parts would be smaller than particles: each particle is one part.
+        // If parts would be smaller than particles, each particle is one part.
         let volume = samples.weight.iter().sum::<f64>() / samples.len() as f64;
         let spacing = libm::pow(volume, 1.0 / d as f64);
         let is_coarse = spacing >= size;
         let mut parts: BTreeMap<[i64; 2], [f64; 3]> = BTreeMap::new();
-        // The end of the body belongs to the last part, not to one beyond it; this also holds for
-        // particles as parts.
+        // The end of the body belongs to the last part instead of a further one. This also holds if
+        // particles are parts.
         let end = [0, 1].map(|axis| (high[axis] - low[axis]) / size);
         let last = end
             .map(|end| if is_coarse { end } else { (libm::ceil(end - ROUNDING) - 1.0).max(0.0) });
@@ -92,7 +94,8 @@ pub(super) mod tests {
         }
     }
 
-    /// A square of `n` particles a side, displaced by its number times 1e-6.
+    /// A square of `n` particles a side. The displacement of each particle is its number times
+    /// 1e-6.
     fn square(n: usize) -> Samples {
         let mut samples = Samples::default();
         for p in 0..n * n {
@@ -124,7 +127,7 @@ pub(super) mod tests {
         assert_eq!(field.parts.len(), 400);
     }
 
-    /// A particle without a position is excluded; a particle without an error marks its part.
+    /// A particle without a position is excluded. A particle without an error marks its part.
     #[test]
     fn nan_is_seen() {
         let mut samples = square(10);
@@ -140,7 +143,8 @@ pub(super) mod tests {
         assert_eq!(ErrorField::of(Quantity::Displacement, &square(1), &AtRest, 0.0), None);
     }
 
-    /// Four particles; two share a part: the error of the first counts, at its middle.
+    /// Four particles, two of them in one part. The larger of their errors counts, at the middle of
+    /// the part.
     #[test]
     fn a_part_shows_its_largest_error_in_its_middle() {
         let mut samples = Samples::default();

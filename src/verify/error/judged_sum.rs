@@ -1,4 +1,4 @@
-//! A sum over the body of a subject, compared with its exact value.
+//! Compares a sum over the body of a subject with its exact value.
 
 use super::declaration::{ComputedSum, SumDeclaration, moments};
 use super::norm::Norms;
@@ -11,19 +11,18 @@ use crate::subject::Subject;
 pub struct JudgedSum {
     of: Quantity,
     exact: BodySum,
-    /// Exact second moments of the reference configuration (kg m2), for a ratio to them.
+    /// Exact second moments of the reference configuration (kg m2), the divisor of a ratio.
     reference: [f64; 3],
-    /// Axis and end of the face whose reaction is judged; `None`: the reaction of all faces.
+    /// Axis and end of the face with the judged reaction; `None`: the reaction of all faces.
     face: Option<(usize, bool)>,
 }
 
 impl JudgedSum {
-    /// The sum `of` over the body of `problem`; a reaction is that of `walls`: all walls of the
-    /// body, or one of them.
+    /// Creates the sum `of` over the body of `problem`. A reaction is the force of the faces with
+    /// the indices `walls`.
     ///
     /// # Errors
-    /// The reason why the exact value is unknown, as a phrase that follows the name of the
-    /// quantity.
+    /// Why the exact value is unknown, as a phrase that continues the name of the quantity.
     pub fn new(of: Quantity, problem: &Problem, walls: &[usize]) -> Result<Self, String> {
         let SumDeclaration { computed, density, .. } = of.sum().ok_or("is a field")?;
         let region = match computed {
@@ -46,7 +45,7 @@ impl JudgedSum {
         Ok(Self { of, exact, reference, face })
     }
 
-    /// Largest size of the exact sum during the run, which errors are relative to.
+    /// Largest size of the exact sum during the run. Errors are relative to this size.
     pub fn size(&self) -> f64 {
         let size = self.exact.size();
         match self.of.sum().map(|sum| sum.computed) {
@@ -55,7 +54,7 @@ impl JudgedSum {
         }
     }
 
-    /// The difference from the exact sum at time `t` (s); NaN if the subject does not report it.
+    /// Difference from the exact sum at time `t` (s); NaN if the subject does not report the sum.
     pub(super) fn error(&self, subject: &dyn Subject, t: f64) -> [f64; 3] {
         let found = match self.of.sum().map(|sum| sum.computed) {
             Some(ComputedSum::OfTotals(value)) => {
@@ -78,7 +77,7 @@ impl JudgedSum {
     }
 }
 
-/// Norms over instants of the same weight.
+/// Norms over instants of equal weight.
 pub(super) fn over_instants(errors: &[[f64; 3]]) -> Norms {
     Norms::of(errors.as_flattened(), 3, &vec![1.0; errors.len()])
 }

@@ -1,4 +1,4 @@
-//! The error of one level: quantities, norms, and the run that yields them.
+//! The error of one level: quantities, norms, and the run that measures them.
 
 pub(crate) mod clock;
 pub(crate) mod declaration;

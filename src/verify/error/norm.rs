@@ -1,7 +1,7 @@
 //! Norms of the error of one level.
 //!
-//! With `|e_p|` the Euclidean length of the error at label `p` (a particle, followed by its
-//! reference position), `w_p` its weight (reference volume), `m_p` its mass and `n` the number of
+//! `|e_p|` is the Euclidean length of the error at label `p` (a particle, identified by its
+//! reference position), `w_p` its weight (reference volume), `m_p` its mass, and `n` the number of
 //! labels:
 //!
 //! ```text
@@ -12,7 +12,7 @@
 //! mass_l2 = sqrt(sum m_p |e_p|^2 / sum m_p)
 //! ```
 //!
-//! Squares are taken of `|e_p| / linf`, so that they neither overflow nor vanish.
+//! The squares are those of `|e_p| / linf`, which can neither overflow nor underflow.
 
 use crate::named::named;
 use serde::{Deserialize, Serialize};
@@ -46,41 +46,41 @@ named! {
 }
 
 impl NormName {
-    /// Whether it is the maximum of another norm over the instants.
+    /// Whether the norm is the maximum of another norm over the instants.
     pub(crate) fn is_over_instants(self) -> bool {
         matches!(self, Self::MaxRms | Self::MaxL1 | Self::MaxL2 | Self::MaxLinf | Self::MaxMassL2)
     }
 
-    /// Whether it is weighted by masses, which only some subjects report.
+    /// Whether the norm is weighted by masses, which only some subjects report.
     pub(crate) fn is_by_mass(self) -> bool {
         matches!(self, Self::MassL2 | Self::MaxMassL2)
     }
 }
 
-/// Norms of one field of errors. All are NaN for an empty field.
+/// Norms of one field of errors; all NaN for an empty field.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Norms {
     /// Root of the unweighted mean square.
     pub rms: f64,
-    /// Weighted mean.
+    /// Mean, weighted by volume.
     pub l1: f64,
-    /// Root of the weighted mean square.
+    /// Root of the mean square, weighted by volume.
     pub l2: f64,
-    /// Largest length.
+    /// Largest error length.
     pub linf: f64,
     /// Root of the mean square weighted by mass; `None` if masses are unknown.
     pub mass_l2: Option<f64>,
 }
 
 impl Norms {
-    /// No error at all.
+    /// Norms of a zero error.
     pub const ZERO: Self = Self { rms: 0.0, l1: 0.0, l2: 0.0, linf: 0.0, mass_l2: Some(0.0) };
 
-    /// Nothing was measured: all NaN.
+    /// Norms without a measurement: NaN.
     pub const NONE: Self =
         Self { rms: f64::NAN, l1: f64::NAN, l2: f64::NAN, linf: f64::NAN, mass_l2: None };
 
-    /// The larger of two, norm by norm; NaN if either is.
+    /// The larger value of each norm; NaN if either value is NaN.
     #[must_use]
     pub fn larger(self, other: Self) -> Self {
         Self {
@@ -92,19 +92,20 @@ impl Norms {
         }
     }
 
-    /// These norms of `errors` with the norm that is weighted by `masses`, one for each label; none
-    /// if there are no masses.
+    /// These norms with the addition of the norm of `errors` that is weighted by `masses`, one for
+    /// each label. Without masses the addition is `None`.
     #[must_use]
     pub fn with_masses(self, errors: &[f64], dimension: usize, masses: &[f64]) -> Self {
         let by_mass = || Self::of(errors, dimension, masses).l2;
         Self { mass_l2: (!masses.is_empty()).then(by_mass), ..self }
     }
 
-    /// The norms of `errors`, with `dimension` components for each label, label after label, and
-    /// one weight for each label.
+    /// Norms of `errors`, which contains `dimension` components for each label, label by label,
+    /// with one weight for each label.
     ///
-    /// Not finite if an error or weight is not finite. NaN if there are no labels, if the lengths
-    /// of the slices do not match, if a weight is negative or if all are zero.
+    /// A norm is not finite if an error or weight is not finite. All norms are NaN if there are no
+    /// labels, if the lengths of the slices do not match, if a weight is negative, or if all are
+    /// zero.
     pub fn of(errors: &[f64], dimension: usize, weights: &[f64]) -> Self {
         let total: f64 = weights.iter().sum();
         let fits = dimension > 0 && errors.len() == dimension * weights.len();
@@ -135,12 +136,12 @@ impl Norms {
     }
 }
 
-/// Errors of one quantity in a run, one for each norm and time. All are NaN if the run failed.
+/// Errors of one quantity in a run, for each norm and time; all NaN if the run failed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunErrors {
-    /// Errors at the end; errors of a sum over the body are norms over the instants.
+    /// Errors at the end. For a sum over the body: norms over the instants.
     pub at_end: Norms,
-    /// Largest errors over the instants, norm by norm.
+    /// Largest errors over the instants, for each norm.
     pub largest: Norms,
 }
 
@@ -174,33 +175,33 @@ impl RunErrors {
     }
 }
 
-/// Euclidean length.
+/// Euclidean length of a vector.
 pub(super) fn length(error: &[f64]) -> f64 {
     error.iter().fold(0.0, |sum, &e| libm::hypot(sum, e))
 }
 
-/// Largest length of vectors in `dimension` dimensions; NaN if any is.
+/// Largest length of vectors in `dimension` dimensions; NaN if any length is NaN.
 pub(super) fn largest_length(vectors: &[f64], dimension: usize) -> f64 {
     vectors.chunks_exact(dimension.max(1)).map(length).fold(0.0, larger)
 }
 
-/// The larger of two lengths; NaN if either is (`f64::max` would drop it).
+/// The larger of two lengths; NaN if either is NaN (`f64::max` would ignore NaN).
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
-/// Scale that errors of a case are compared by, and growth of its work.
+/// Scale for comparing the errors of cases, and growth of the work.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ErrorScale {
-    /// The problem as text: the end of the run, and the kind of solution. Only cases of one problem
-    /// are compared.
+    /// Description of the problem: the end of the run, and the kind of solution. Only cases with
+    /// the same problem are compared.
     pub problem: String,
-    /// Divisor that makes an error a share of the solution, in the unit of the judged error: 1 if
-    /// the suite states a scale, which is already applied, otherwise the largest exact magnitude.
-    /// NaN if there is none.
+    /// Divisor that turns an error into a share of the solution, in the unit of the judged error.
+    /// If the suite states a scale, it is already applied, and this divisor is 1. Otherwise it is
+    /// the largest exact magnitude, or NaN if there is none.
     pub size: f64,
-    /// Work grows like spacing^-growth: one power for each refined axis of the body, and one for
-    /// the time step.
+    /// Exponent of the work, which grows like spacing^-growth: one for each refined axis of the
+    /// body, and one for the time step.
     pub growth: f64,
 }
 
@@ -222,7 +223,7 @@ mod tests {
         assert_eq!(norms.mass_l2, None);
     }
 
-    /// Lengths 5 and 1 with masses 1 and 3: the mean square is (25 + 3)/4.
+    /// Errors of length 5 and 1 with masses 1 and 3 have the mean square (25 + 3)/4.
     #[test]
     fn norm_by_mass_ignores_volumes() {
         let errors = [3.0, 4.0, 0.0, -1.0];
@@ -279,7 +280,7 @@ mod tests {
         assert_relative_eq!(tiny.l2, 1e-200, max_relative = 1e-15);
     }
 
-    /// A rod that is stretched and heated over time, without exact stress.
+    /// A rod that is stretched and heated over time. It has no exact stress.
     struct Rod;
 
     impl Truth for Rod {

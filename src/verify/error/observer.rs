@@ -1,22 +1,23 @@
-//! Displacement and velocity at one place of the body over time.
+//! Records the velocity at one label over time, and interpolates the displacement at a point.
 
 use crate::exact::Truth;
 use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
 
-/// Velocity at one label during a run.
+/// Velocity at one label over a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
-    /// Reference position of the observed label (m): the nearest to the requested one.
+    /// Reference position of the observed label (m), which is the nearest one to the requested
+    /// point.
     pub label: Vec<f64>,
-    /// Time (s), first velocity component of the subject and of the truth (m/s), at t = 0 and
-    /// at each instant.
+    /// Time (s), and first velocity component of the subject and of the exact solution (m/s), at
+    /// t = 0 and at each instant.
     pub velocity: Vec<[f64; 3]>,
 }
 
 impl History {
-    /// Starts the history of the label of `samples` that is nearest to `wanted`; the first one of
-    /// two equally near labels. `None` for a subject without labels.
+    /// Starts the history of the label of `samples` that is nearest to `wanted`. Of two equally
+    /// near labels the first one is observed. `None` for a subject without labels.
     pub fn start(samples: &Samples, wanted: &[f64]) -> Option<(usize, Self)> {
         let d = samples.dimension;
         let distance = |p: usize| -> f64 {
@@ -36,8 +37,8 @@ impl History {
         self.velocity.push([t, samples.velocity[at * samples.dimension], exact[0]]);
     }
 
-    /// RMS over time of the velocity error, relative to the largest exact speed; `None` if the
-    /// exact solution does not move.
+    /// RMS of the velocity error over time, relative to the largest exact speed; `None` if the
+    /// exact velocity is always zero.
     pub fn relative_error(&self) -> Option<f64> {
         let square: f64 = self.velocity.iter().map(|[_, v, e]| (v - e) * (v - e)).sum();
         let largest = self.velocity.iter().map(|[_, _, e]| e.abs()).fold(0.0, f64::max);
@@ -45,13 +46,13 @@ impl History {
     }
 }
 
-/// Number of labels on each axis in an interpolation.
+/// Number of labels that an interpolation uses on each axis.
 const NEAR: usize = 4;
 
-/// The displacement at a fixed point of a body whose labels form a lattice: cubic Lagrange
-/// interpolation, axis by axis, through the four labels around it (all labels of an axis with
-/// fewer), so that the same point is compared on every level. `None` if there is no lattice around
-/// the point.
+/// Displacement at a fixed point of a body whose labels form a lattice, by cubic Lagrange
+/// interpolation on each axis. Each axis contributes the four labels around the point, or all
+/// labels if it has fewer. So the same point is compared on every level. `None` if no lattice
+/// surrounds the point.
 pub fn displacement_at(samples: &Samples, place: &[f64]) -> Option<Vec<f64>> {
     let d = samples.dimension;
     if d == 0 || place.len() != d || samples.is_empty() {
@@ -76,7 +77,7 @@ pub fn displacement_at(samples: &Samples, place: &[f64]) -> Option<Vec<f64>> {
     Some(interpolated)
 }
 
-/// The coordinates of the lattice around `x` on an axis, each with its Lagrange weight.
+/// Lattice coordinates around `x` on an axis, each with its Lagrange weight.
 fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
     let mut all: Vec<f64> =
         samples.label.iter().skip(axis).step_by(samples.dimension).copied().collect();
@@ -86,8 +87,8 @@ fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
     all[first..].iter().copied().zip(weights).collect()
 }
 
-/// Lagrange interpolation at `x` over the `count` nearest of the ascending coordinates `sorted`
-/// (all, if there are fewer): index of the first coordinate, and the weight of each.
+/// Lagrange interpolation at `x` over the `count` nearest of the ascending coordinates `sorted`, or
+/// over all if there are fewer. Returns the index of the first coordinate used, and the weights.
 pub(crate) fn lagrange_weights(sorted: &[f64], x: f64, count: usize) -> (usize, Vec<f64>) {
     let count = sorted.len().min(count);
     let above = sorted.partition_point(|c| *c < x);
@@ -127,7 +128,7 @@ mod tests {
         assert_relative_eq!(u[0], 1.0 - x + 3.0 * x * x * x, max_relative = 1e-12);
     }
 
-    /// Five labels along X and two along Y, for a displacement that is cubic in X and linear in Y.
+    /// Five labels along X and two along Y. The displacement is cubic in X and linear in Y.
     fn plate() -> Samples {
         let labels = (0..10).map(|p| [f64::from(p % 5) / 4.0, f64::from(p / 5)]);
         let field = |[x, y]: [f64; 2]| [x * x * x * (1.0 + y), 2.0 * y - x];
@@ -208,7 +209,7 @@ mod tests {
         assert_eq!(history.velocity, [[2.0, 6.0, 0.5]]);
     }
 
-    /// As many points on one side as on the other, except at the ends of the lattice.
+    /// Both sides contribute equally many points, except at the ends of the lattice.
     #[rstest]
     #[case::inside(3.5, 2)]
     #[case::at_the_low_end(0.2, 0)]

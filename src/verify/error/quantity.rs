@@ -1,10 +1,10 @@
 //! Registry of the quantities that can be judged.
 //!
-//! To add one, add its name to [`Quantity`], its [`Declaration`] to the constants of
-//! [`declaration`](super::declaration), and the line of [`Quantity::declaration`] that joins them.
+//! To add a quantity, add its name to [`Quantity`], its [`Declaration`] to the constants of
+//! [`declaration`](super::declaration), and a line to [`Quantity::declaration`] that links the two.
 //!
-//! The error of a tensor at a label is its Frobenius norm, the error of a vector its length: the
-//! square root of the sum of the squares of all components.
+//! The error at a label is the square root of the sum of the squares of all components: the length
+//! of a vector, the Frobenius norm of a tensor.
 
 use super::declaration::{
     ANGULAR_MOMENTUM, DEFORMATION_GRADIENT, DISPLACEMENT, Declaration, ENERGY, KINETIC_ENERGY,
@@ -70,32 +70,32 @@ impl Quantity {
         }
     }
 
-    /// The quantity of this name.
+    /// The quantity with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|known| known.name() == name)
     }
 
-    /// The name in a sentence.
+    /// Name in running text.
     pub fn words(self) -> String {
         self.name().replace('_', " ")
     }
 
-    /// Its unit; empty for a number.
+    /// Unit; empty for a dimensionless quantity.
     pub fn unit(self) -> &'static str {
         self.declaration().unit
     }
 
-    /// Whether it is a primary unknown of a subject, whose errors tables show.
+    /// Whether the quantity is a primary unknown of a subject. Tables show errors of these.
     pub fn is_primary(self) -> bool {
         self.declaration().is_primary
     }
 
-    /// Whether only some subjects and some truths have it.
+    /// Whether only some subjects and exact solutions define the quantity.
     pub fn is_optional(self) -> bool {
         self.declaration().is_optional
     }
 
-    /// Whether only a body that moves has it.
+    /// Whether only moving bodies have the quantity.
     pub fn is_of_motion(self) -> bool {
         self.declaration().is_of_motion
     }
@@ -105,12 +105,13 @@ impl Quantity {
         self.declaration().needs_deformation_gradient
     }
 
-    /// Whether it is a sum over the body, whose errors are taken over the instants.
+    /// Whether the quantity is a sum over the body. Norms of its errors are taken over the
+    /// instants.
     pub fn is_sum(self) -> bool {
         self.sum().is_some()
     }
 
-    /// The quantity with values at labels that is shown: for a sum, the displacement.
+    /// The quantity to plot at labels: the quantity itself, or the displacement for a sum.
     #[must_use]
     pub fn at_labels(self) -> Self {
         if self.is_sum() { Self::default() } else { self }
@@ -121,7 +122,7 @@ impl Quantity {
         self.sum().map(|sum| sum.needs)
     }
 
-    /// A divisor of its error as captions write it, to four digits.
+    /// A divisor of the error as written in captions, to four digits.
     pub(crate) fn shown_scale(self, scale: f64) -> String {
         if self.is_sum() { format!("{scale:.3e}") } else { format_number(scale) }
     }
@@ -130,18 +131,19 @@ impl Quantity {
         self.declaration().sum
     }
 
-    /// Size of the numbers whose rounding is a lower bound of its error, on a body of length
-    /// `length` (m); NaN if it is unknown.
+    /// Size of the numbers whose rounding limits the error from below, on a body of length `length`
+    /// (m). NaN if it is unknown.
     pub fn rounding_size(self, length: f64) -> f64 {
         (self.declaration().rounding_size)(length)
     }
 
-    /// Numbers at each label in `d` dimensions.
+    /// Number of components at each label in `d` dimensions.
     fn components(self, d: usize) -> usize {
         self.declaration().shape.components(d)
     }
 
-    /// Writes the exact values at all labels; false if the exact solution does not define them.
+    /// Writes the exact values at all labels. Returns false if the exact solution does not define
+    /// them.
     fn exact_at_all(self, truth: &dyn Truth, samples: &Samples, t: f64, into: &mut [f64]) -> bool {
         let (d, declaration) = (samples.dimension, self.declaration());
         if let Some(exact_at_all) = declaration.exact_at_all {
@@ -152,10 +154,10 @@ impl Quantity {
         places.all(|(label, into)| (declaration.exact)(truth, label, t, into))
     }
 
-    /// The largest magnitude of the exact values at `places` (m) and `times` (s): length of a
-    /// vector, Frobenius norm of a tensor. For a quantity without a natural zero it is the change:
-    /// F minus the identity, the range of a temperature. NaN if the exact solution does not define
-    /// the quantity, or if it is zero everywhere.
+    /// Largest magnitude of the exact values at `places` (m) and `times` (s): length of a vector,
+    /// Frobenius norm of a tensor. Quantities without a natural zero are measured by their change:
+    /// F by its difference from the identity, a temperature by its range. NaN if the exact solution
+    /// does not define the quantity, or if the magnitude is zero everywhere.
     pub fn largest_exact(self, truth: &dyn Truth, places: &[Vec<f64>], times: &[f64]) -> f64 {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for place in places {
@@ -172,7 +174,7 @@ impl Quantity {
         if size > 0.0 && size.is_finite() { size } else { f64::NAN }
     }
 
-    /// The magnitude at one place; for a quantity that is measured by its range, the value itself.
+    /// Magnitude at one place, or the value itself if the quantity is measured by its range.
     fn magnitude(self, truth: &dyn Truth, place: &[f64], t: f64) -> Option<f64> {
         let (d, declaration) = (place.len(), self.declaration());
         let mut exact = vec![0.0; self.components(d)];
@@ -188,7 +190,7 @@ impl Quantity {
     }
 
     /// Norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the subject
-    /// or the exact solution does not have the quantity.
+    /// or the exact solution does not define the quantity.
     pub fn errors(self, samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
         self.differences(samples, truth, t).map_or(Norms::NONE, |(components, error)| {
             let norms = Norms::of(&error, components, &samples.weight);
@@ -197,7 +199,7 @@ impl Quantity {
     }
 
     /// Number of components at each label, and `computed - exact` at the labels of `samples` at
-    /// time `t`; `None` if the subject or the exact solution does not have the quantity.
+    /// time `t`. `None` if the subject or the exact solution does not define the quantity.
     pub(crate) fn differences(
         self,
         samples: &Samples,
@@ -226,7 +228,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A plane under uniform shear stress that moves along X, without exact F.
+    /// A plane that moves along X under uniform shear stress. It has no exact F.
     struct Sheared;
 
     impl Truth for Sheared {
@@ -245,7 +247,7 @@ mod tests {
         }
     }
 
-    /// Two labels whose every column is off by a vector of length 5, or a tensor of norm 5.
+    /// Two labels. The error of each quantity is a vector of length 5 or a tensor of norm 5.
     fn off_by_five() -> Samples {
         Samples {
             dimension: 2,
@@ -293,7 +295,7 @@ mod tests {
         assert!(norms.rms.is_nan() && norms.linf.is_nan(), "{norms:?}");
     }
 
-    /// F of an exact solution is compared with F of the samples, not with another column.
+    /// The exact F is compared with the F of the samples, not with another quantity.
     #[test]
     fn a_deformation_gradient_is_held_against_its_own() {
         struct Turned;

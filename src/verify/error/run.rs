@@ -1,4 +1,4 @@
-//! One subject on one level: the run, the comparison with the exact solution, and the results.
+//! Runs one subject on one level and compares it with the exact solution.
 
 use super::clock::Clock;
 use super::clock::StepKind;
@@ -15,17 +15,17 @@ use crate::verify::energy_rate::energy_rate;
 use crate::verify::order::fit::Interval;
 use serde::{Deserialize, Serialize};
 
-/// Quantities compared in a run, in addition to the displacement.
+/// Quantities that a run compares in addition to the displacement.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Comparison<'a> {
     /// The judged quantity.
     pub of: Quantity,
-    /// Its exact value, if it is a sum over the body.
+    /// Exact value of the judged quantity, if it is a sum over the body.
     pub sum: Option<&'a JudgedSum>,
-    /// Point to be observed (m).
+    /// Observed point (m).
     pub observe: Option<&'a [f64]>,
-    /// If the exact solution is a state of rest: the speed (m/s) that residual speeds are divided
-    /// by. Errors are then measured at the end only.
+    /// Speed (m/s) by which residual speeds are divided, if the exact solution is a state of rest.
+    /// Errors are then measured at the end only.
     pub at_rest: Option<f64>,
     /// Kind of the steps.
     pub steps: StepKind,
@@ -34,18 +34,18 @@ pub struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// Whether another quantity than the displacement is compared.
+    /// Whether a quantity other than the displacement is compared.
     fn is_of_another(&self) -> bool {
         self.sum.is_some() || self.of != Quantity::default()
     }
 }
 
-/// The last share of a run in which a body must be at rest. An instant would not suffice: an
-/// oscillating body has zero velocity at its turning points.
+/// The last share of a run, in which a body must be at rest. One instant would not suffice, because
+/// an oscillating body has zero velocity at its turning points.
 const LAST: f64 = 0.1;
 
-/// Advances `subject` through `clock` and measures its error against `truth` at every instant, at
-/// the subject's reference labels. Also records the velocity of the label nearest to the observed
+/// Advances `subject` through `clock`. At every instant measures its error against `truth` at the
+/// subject's reference labels. Also records the velocity of the label nearest to the observed
 /// point.
 pub fn run(
     subject: &mut dyn Subject,
@@ -56,8 +56,8 @@ pub fn run(
     RunMonitor::new(subject, truth, comparison).run(subject, clock).0
 }
 
-/// Runs `subject` like [`run`], and records the judged quantity for a comparison with other runs of
-/// the same level in `norm`. The record of a run that failed is empty.
+/// Runs `subject` like [`run`], and records the judged quantity for comparison, in `norm`, with
+/// other runs of the same level. The record of a failed run is empty.
 pub fn run_recorded(
     subject: &mut dyn Subject,
     truth: &dyn Truth,
@@ -70,7 +70,7 @@ pub fn run_recorded(
     monitor.run(subject, clock)
 }
 
-/// The state of the comparison while a subject runs.
+/// State of the comparison during a run.
 struct RunMonitor<'a> {
     truth: &'a dyn Truth,
     comparison: &'a Comparison<'a>,
@@ -109,7 +109,7 @@ impl<'a> RunMonitor<'a> {
         }
     }
 
-    /// Runs to the end of the clock, or to the first failure.
+    /// Runs until the end of the clock or the first failure.
     fn run(mut self, subject: &mut dyn Subject, clock: &Clock) -> (RunResult, RunRecord) {
         for step in 1..=clock.steps {
             if let Err(failure) = subject.step(clock.dt()) {
@@ -200,13 +200,13 @@ impl<'a> RunMonitor<'a> {
         }
     }
 
-    /// The errors over the body at time `t` (s), for quantities with values at labels.
+    /// Errors over the body at time `t` (s), for quantities with values at labels.
     fn field(&self, t: f64) -> Option<ErrorField> {
         let Comparison { of, keeps_field, .. } = *self.comparison;
         keeps_field.then(|| ErrorField::of(of.at_labels(), &self.samples, self.truth, t))?
     }
 
-    /// Result of a failed run, which has a reason and no error.
+    /// Result of a failed run: a reason without errors.
     fn failed(mut self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
         subject.sample(&mut self.samples);
         let field = self.field(t);
@@ -248,33 +248,33 @@ pub struct RunResult {
     pub displacement_errors: Option<RunErrors>,
     /// Drifts of the totals of the body, if the subject reports them; NaN if the run failed.
     pub drift: Option<ConservationError>,
-    /// The totals at t = 0 and at every reported instant (s), if the subject reports them.
+    /// Totals at t = 0 and at every reported instant (s), if the subject reports them.
     pub account: Vec<(f64, Totals)>,
-    /// Rate of the energy, d ln E/dt (1/s), over the run, with its confidence interval.
+    /// Energy rate, d ln E/dt (1/s), over the run, with its confidence interval.
     pub energy_rate: Option<Interval>,
-    /// Counters at the end, or at the failure.
+    /// Counters at the end or at the failure.
     pub counters: RunCounters,
     /// Number of steps.
     pub steps: u64,
-    /// Reason and time if the run ended early.
+    /// Reason and time of the failure, if the run ended early.
     pub failure: Option<String>,
-    /// The observed label, if one was requested and the run reached its end.
+    /// History at the observed label, if one was requested and the run reached its end.
     pub history: Option<History>,
-    /// Errors over the body at the end, or at the failure, if they were requested.
+    /// Errors over the body at the end or at the failure, if they were requested.
     pub field: Option<ErrorField>,
     /// Displacement at the observed place at the end (m), if it could be interpolated.
     pub displacement: Option<Vec<f64>>,
-    /// Its distance (m) from the exact one.
+    /// Distance (m) between the computed and the exact displacement at the observed place.
     pub observed_error: Option<f64>,
-    /// The exact displacement at the observed place at the end (m).
+    /// Exact displacement at the observed place at the end (m).
     pub observed_exact: Option<Vec<f64>>,
-    /// Largest speed towards the end, over
+    /// Largest speed near the end, divided by
     /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest), if that is set.
     pub residual_speed: Option<f64>,
 }
 
 impl RunResult {
-    /// Errors of the displacement (m), for any judged quantity.
+    /// Errors of the displacement (m), regardless of the judged quantity.
     pub fn errors_of_displacement(&self) -> &RunErrors {
         self.displacement_errors.as_ref().unwrap_or(&self.errors)
     }
@@ -286,7 +286,7 @@ mod tests {
     use crate::subject::RunCounters;
     use approx::assert_relative_eq;
 
-    /// One label whose speed oscillates while its displacement decays.
+    /// One label with an oscillating velocity and a decaying displacement.
     struct Swing(f64);
 
     impl Subject for Swing {
@@ -353,7 +353,7 @@ mod tests {
         assert!(in_time.failure.unwrap().ends_with("(step 3, t = 3.0000 s)"));
     }
 
-    /// The run ends at cos t = 0, and errors before the end do not count.
+    /// The run ends at cos t = 0. Errors before the end do not count.
     #[test]
     fn a_body_that_turns_is_not_at_rest() {
         let until = 2.5 * std::f64::consts::PI;

@@ -1,9 +1,9 @@
 //! Differences between repeated runs of one level.
 //!
 //! Solvers that add in no fixed order, for instance with atomic additions on a GPU, give different
-//! bits in each run. The spread of a level is the largest difference between two of its runs: the
-//! norm of the suite, applied to the difference of the judged quantity at each label. Errors with
-//! equal norms can differ at every label, so the norms themselves are not compared.
+//! bits in each run. The spread of a level is the largest difference between two of its runs. The
+//! norm of the suite is applied to the difference of the judged quantity at each label. The norms
+//! of two runs are not compared, because errors with equal norms can differ at every label.
 
 use super::norm::{NormName, Norms, RunErrors};
 use super::quantity::Quantity;
@@ -11,18 +11,17 @@ use crate::exact::Truth;
 use crate::subject::Samples;
 use std::cmp::Ordering;
 
-/// The judged quantity of one run, as the difference from its exact value, which is equal in all
-/// runs of a level.
+/// The judged quantity of one run, minus its exact value, which is the same in all runs of a level.
 #[derive(Debug, Clone, Default)]
 pub struct RunRecord {
-    /// Whether all instants are recorded, and not the last one only.
+    /// Whether all instants are recorded, instead of the last one only.
     over_instants: bool,
     instants: Vec<Instant>,
-    /// Differences of a judged sum over the body, at each instant.
+    /// Error of a judged sum over the body at each instant.
     sums: Vec<[f64; 3]>,
 }
 
-/// The differences from the exact value at one instant, sorted by label.
+/// Differences from the exact value at one instant, sorted by label.
 #[derive(Debug, Clone)]
 struct Instant {
     /// Reference positions (m).
@@ -31,14 +30,14 @@ struct Instant {
     weights: Vec<f64>,
     /// Masses (kg); empty if they are unknown.
     masses: Vec<f64>,
-    /// Numbers at each label.
+    /// Number of components at each label.
     components: usize,
     /// `computed - exact`.
     differences: Vec<f64>,
 }
 
 impl RunRecord {
-    /// An empty record for a norm.
+    /// Creates an empty record for a norm.
     pub(super) fn for_norm(norm: NormName) -> Self {
         Self { over_instants: norm.is_over_instants(), ..Self::default() }
     }
@@ -55,13 +54,13 @@ impl RunRecord {
         self.instants.push(instant.sorted(samples.dimension));
     }
 
-    /// Records the differences of a sum over the body at all instants.
+    /// Records the errors of a sum over the body at all instants.
     pub(super) fn add_sums(&mut self, sums: Vec<[f64; 3]>) {
         self.sums = sums;
     }
 
-    /// The difference of two runs in `norm`, in the unit of the judged quantity. NaN if the runs
-    /// have other labels or other instants.
+    /// Difference between two runs in `norm`, in the unit of the judged quantity. NaN if the runs
+    /// have different labels or instants.
     fn difference(&self, other: &Self, norm: NormName) -> f64 {
         let is_alike = self.instants.len() == other.instants.len()
             && self.sums.len() == other.sums.len()
@@ -83,8 +82,8 @@ impl RunRecord {
 }
 
 impl Instant {
-    /// The instant with its labels in lexicographic order: a solver may return its particles in
-    /// another order in each run.
+    /// Sorts the labels in lexicographic order, because a solver may return its particles in a
+    /// different order in each run.
     fn sorted(self, dimension: usize) -> Self {
         let d = dimension.max(1);
         let count = self.weights.len();
@@ -127,8 +126,8 @@ fn subtract(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
-/// The largest difference between two of `runs` in `norm`, in the unit of the judged quantity. NaN
-/// if any two runs cannot be compared.
+/// Largest difference between two of `runs` in `norm`, in the unit of the judged quantity. NaN if
+/// any two runs cannot be compared.
 pub fn spread(runs: &[RunRecord], norm: NormName) -> f64 {
     let pairs = runs.iter().enumerate().flat_map(|(k, a)| runs[..k].iter().map(move |b| (a, b)));
     pairs.map(|(a, b)| a.difference(b, norm)).fold(0.0, super::norm::larger)
@@ -141,7 +140,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A run of one instant with these labels (m) and displacements (m).
+    /// A run with one instant, with the given labels (m) and displacements (m).
     fn record(points: &[(f64, f64)], norm: NormName) -> RunRecord {
         let mut samples = Samples::default();
         for (label, u) in points {

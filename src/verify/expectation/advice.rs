@@ -1,4 +1,4 @@
-//! Comparison of an observed order with the range that a suite could expect, and advice for a
+//! Compares an observed order with the range that a suite could expect, and advises how to obtain a
 //! stronger expectation.
 
 use crate::verify::convergence::{Convergence, LevelOutcome};
@@ -12,7 +12,7 @@ use crate::verify::order::window::FEWEST_LEVELS;
 use crate::verify::verdict::judge::judge;
 use crate::verify::verdict::name::Verdict;
 
-/// Maximum distance of an order from the middle of an interval, as a share of the half-width.
+/// Maximum distance of an order from the middle of a range, as a share of the range's half-width.
 const COMFORTABLE: f64 = 0.75;
 
 /// Whether the usual range around `order` contains the observed interval with a margin.
@@ -28,15 +28,15 @@ pub(crate) fn range(order: f64) -> String {
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
-/// The levels that count.
+/// Levels that count.
 pub(crate) fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome> {
     study.levels.iter().filter(|level| level.usable)
 }
 
-/// An interval of the order wider than this to each side gains from more levels.
+/// Half-width of an order's interval above which more levels are advised.
 const WIDE: f64 = 0.03;
 
-/// The reasons why an expectation cannot be stronger, and remedies: more levels, or another norm.
+/// Reasons why an expectation cannot be stronger, and remedies: more levels, or another norm.
 pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     let mut advice = Vec::new();
     let usable = counted(study).count();
@@ -55,7 +55,7 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     }
     let points = study.judgement.window.as_ref().map_or(0, Vec::len);
     if order.half_width() > WIDE && points >= FEWEST_LEVELS {
-        // For equal scatter about the line, and equal ratios of spacing: Sxx ~ n (n^2 - 1).
+        // Sxx ~ n (n^2 - 1), for equal scatter about the line and equal ratios of spacing.
         let width = |n: usize| {
             let n_f = n as f64;
             two_sided_95(n - 2) / (n_f * (n_f * n_f - 1.0)).sqrt()
@@ -70,7 +70,8 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     advice
 }
 
-/// The norm with the clearest order, if it is much clearer than in the judged norm.
+/// The norm with the narrowest interval of the order, if it is much narrower than in the judged
+/// norm.
 fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     const CLEARLY: f64 = 0.5;
     if judged.half_width() <= WIDE {
@@ -88,7 +89,7 @@ fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     let (norm, order) = NormName::ALL
         .iter()
         .copied()
-        // With a uniform density a norm by mass is that by volume.
+        // With a uniform density, norms weighted by mass and by volume are equal.
         .filter(|norm| *norm != study.norm && !norm.is_by_mass())
         .filter_map(order)
         .min_by(|(_, a), (_, b)| a.half_width().total_cmp(&b.half_width()))?;
@@ -133,7 +134,7 @@ mod tests {
         study
     }
 
-    /// With t(4) = 2.776 and t(6) = 2.447, and Sxx ~ n (n^2 - 1) of n levels at equal ratios.
+    /// t(4) = 2.776 and t(6) = 2.447; Sxx ~ n (n^2 - 1) for n levels with equal ratios.
     #[test]
     fn more_levels_narrow_an_interval_as_those_of_a_line() {
         let width = 2.447 / 2.776 * (6.0 * 35.0 / (8.0 * 63.0_f64)).sqrt();
@@ -143,7 +144,7 @@ mod tests {
         assert!(advice(&uncertain()).contains(&expected), "{:?}", advice(&uncertain()));
     }
 
-    /// The norm with the narrowest interval is of no use if its order is another one.
+    /// The norm with the narrowest interval must not be advised if its order is wrong.
     #[test]
     fn a_norm_is_advised_only_if_it_converges() {
         let mut study = uncertain();

@@ -1,11 +1,11 @@
 //! Requirements of `run --gate` on external solvers.
 //!
-//! The expectations of a suite bound the order of its own methods on both sides: an order that is
-//! too high shows a defect of the suite. For an external solver there is only a lower bound,
-//! because superconvergence at its sample points is not a defect. The 95 % interval of the order
-//! must reach this bound, and must exclude orders that are lower by 0.5, which is the typical
-//! effect of a defect. The interval may extend below the bound: with few levels, a correct solver
-//! has an interval of 0.1 and more to each side.
+//! The expectations of a suite bound the order of its own methods on both sides, because an order
+//! that is too high shows a defect of the suite. External solvers have only a lower bound, because
+//! superconvergence at their sample points is not a defect. The 95 % interval of the order must
+//! reach this bound. It must also exclude orders that are lower by 0.5, the typical effect of a
+//! defect. The interval may extend below the bound: with few levels, a correct solver has an
+//! interval of 0.1 and more to each side.
 
 use crate::verify::order::fit::Interval;
 use crate::verify::order::format_number::{format_number, rounded};
@@ -16,35 +16,35 @@ use crate::verify::verdict::judge::{Judgement, judge};
 use crate::verify::verdict::name::Verdict;
 use thiserror::Error;
 
-/// Minimum loss of order due to a defect.
+/// Loss of order that a defect typically causes.
 const FAULT: f64 = 0.5;
 
-/// Treatment of a case of an external solver by `run --gate`.
+/// Treatment of an external solver's case by `run --gate`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Gating {
     /// The case has a requirement.
     Required(Requirement),
     /// The case runs without requirement, for this reason.
     NotGated(String),
-    /// The case does not run, for this reason of the solver's author.
+    /// The case does not run, for this reason given by the solver's author.
     Excepted(String),
 }
 
-/// An order or a bound on errors; either is enough.
+/// Required order or bound on errors; meeting either is enough.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Requirement {
-    /// Order that is required, less [`OrderHypothesis::TOLERANCE`].
+    /// Required order, before [`OrderHypothesis::TOLERANCE`] is subtracted.
     pub order: Option<f64>,
-    /// Errors at or below this bound are accepted without an order.
+    /// Bound at or below which errors are accepted without an order.
     pub error_below: Option<f64>,
-    /// Bound on the errors of the suite's own methods, if no other bound is stated. It does not
-    /// apply to other methods if the levels are too few for an order.
+    /// Bound on the errors of the suite's own methods, if no other bound is stated. It is not
+    /// required of other methods whose levels are too few for an order.
     pub own_error_below: Option<f64>,
     /// The reason, in one line.
     pub because: String,
 }
 
-/// Reason for which a requirement is met.
+/// Reason why a requirement is met.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Acceptance {
     /// The order is at least the required one.
@@ -56,7 +56,7 @@ pub enum Acceptance {
 }
 
 impl Acceptance {
-    /// The verdict as text; an observed order keeps the verdict of the judge.
+    /// Text of the verdict. If the order was accepted, the verdict of the judge is used.
     pub(crate) fn verdict(self, judged: Verdict) -> String {
         match self {
             Self::Order if judged == Verdict::Converging => judged.to_string(),
@@ -67,17 +67,17 @@ impl Acceptance {
     }
 }
 
-/// A requirement that is not met: one line with the requirement and the observation.
+/// An unmet requirement: one line with the requirement and the observation.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct UnmetRequirement(String);
 
-/// Result of a requirement.
+/// Result of the check of a requirement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GateResult {
-    /// Why the requirement is met; otherwise the requirement and the observation.
+    /// Reason why the requirement is met, or an error with the requirement and the observation.
     pub result: Result<Acceptance, UnmetRequirement>,
-    /// A remark on time steps that restored the order.
+    /// Remark on a smaller time step that restored the order.
     pub remark: Option<String>,
 }
 
@@ -95,13 +95,13 @@ impl Requirement {
         parts.join(", or ")
     }
 
-    /// The bound at which errors are accepted without an order.
+    /// Bound at which errors are accepted without an order.
     fn bound(&self) -> Option<f64> {
         self.error_below.or(self.own_error_below)
     }
 
-    /// Why these levels cannot test the requirement; `None` if they can. A failed level is never a
-    /// reason: the gate rejects it.
+    /// Reason why these levels cannot test the requirement; `None` if they can. The failure of a
+    /// level is never such a reason, because the gate rejects failures.
     pub(crate) fn untestable(&self, levels: &[Level]) -> Option<String> {
         let has_failed =
             levels.iter().any(|level| level.failed.is_some() || !level.error.is_finite());
@@ -123,8 +123,8 @@ impl Requirement {
         Some(format!("{count}, and an order needs {FEWEST_LEVELS}{own}"))
     }
 
-    /// How the errors of `levels` meet the requirement, given their judgement and the error due to
-    /// rounding.
+    /// Returns the reason why the errors of `levels` meet the requirement. Arguments are their
+    /// judgement and the error due to rounding.
     ///
     /// # Errors
     /// One line with the requirement and the observation.
@@ -148,7 +148,7 @@ impl Requirement {
             && match above {
                 0 => true,
                 // Coarse levels that are too few for an order may be pre-asymptotic. Without a
-                // bound they must fall until they are rounding errors.
+                // bound their errors must fall until they reach rounding.
                 1..FEWEST_LEVELS => {
                     bound.is_some() || coarse.windows(2).all(|pair| pair[1].error <= pair[0].error)
                 }
@@ -167,13 +167,13 @@ impl Requirement {
         Err(UnmetRequirement(self.unmet(judgement, &counted)))
     }
 
-    /// The hypothesis that the judge tests.
+    /// The hypothesis for the judge.
     pub(crate) fn hypothesis(&self, axis: Axis) -> OrderHypothesis {
         OrderHypothesis::formal(self.order.unwrap_or(2.0)).over(axis)
     }
 
-    /// Whether the 95 % interval of the order reaches the lowest order that is accepted, and
-    /// excludes orders that are lower by a half, and zero.
+    /// Whether the 95 % interval of the order reaches the lowest accepted order and excludes zero
+    /// and orders that are lower by a half.
     fn has_order(&self, judgement: &Judgement) -> bool {
         use Verdict::{Converging, PreAsymptotic, TooGood, TooLow};
         let (Some(lowest), Some(order)) = (self.lowest(), judgement.order) else { return false };
@@ -236,7 +236,7 @@ mod tests {
         assert_eq!(check(Some(2.0), None, &of_order(order, 5)).ok(), met);
     }
 
-    /// An order of 2 on five levels, with an error that is off by a factor on the finest.
+    /// Errors of order 2 on five levels, with the finest error multiplied by a factor.
     #[rstest]
     #[case::a_little_noise(1.2, Some(Acceptance::Order))]
     #[case::noise_that_hides_the_order(2.5, None)]
@@ -299,7 +299,7 @@ mod tests {
         assert_eq!(untestable(&requirement(Some(2.0), Some(1e-3)), &[1.0]), "");
     }
 
-    /// A bound of the suite's own methods is required of no other method.
+    /// A bound on the suite's own methods is not required of other methods.
     #[rstest]
     #[case::within(&[1e-13], "")]
     #[case::above(&[0.2], "one level, and an order needs 4; only the suite's own methods must have errors at most 1e-12")]

@@ -1,35 +1,35 @@
-//! Bounds on figures, for expectations that name no order: one level is enough for them.
+//! Bounds on figures, for expectations without an order. They need only one level.
 
 use crate::verify::conservation::{ConservationError, Conserved};
 use crate::verify::figure::{BoundKind, CaseFigure};
 use crate::verify::order::format_number::{format_number, rounded};
 
-/// Bounds, which are themselves allowed values. All stated bounds must hold.
+/// Bounds on figures, drifts and rates. The bounds themselves are allowed values. All must hold.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Limits {
     /// Bounds on figures, in the order of [`CaseFigure::ALL`].
     pub bounds: Vec<(CaseFigure, f64)>,
-    /// Largest relative drifts on any level that counts.
+    /// Maximum relative drifts on the levels that count.
     pub drift: Vec<(Conserved, f64)>,
-    /// Range that must contain the whole confidence interval of the rate of the energy (1/s) on
-    /// every level that counts.
+    /// Range of the energy rate (1/s). It must contain the whole confidence interval on every level
+    /// that counts.
     pub energy_rate: Option<(f64, f64)>,
 }
 
-/// Measured values that are limited.
+/// Measured values that bounds are compared with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
     /// Values of [`CaseFigure::ALL`]; `None` if the levels do not have the figure.
     pub figures: [Option<f64>; CaseFigure::ALL.len()],
     /// Largest drifts of the levels that count; `None` if the subject reports no totals.
     pub drift: Option<ConservationError>,
-    /// Union of the confidence intervals of the rate of the energy (1/s) on the levels that count;
-    /// `None` if one level has no interval.
+    /// Union of the confidence intervals of the energy rate (1/s) on the levels that count; `None`
+    /// if a level has no interval.
     pub energy_rate: Option<(f64, f64)>,
 }
 
 impl Measured {
-    /// Neither figures nor drifts nor rates.
+    /// No figures, drifts and rates.
     pub const NONE: Self =
         Self { figures: [None; CaseFigure::ALL.len()], drift: None, energy_rate: None };
 
@@ -39,10 +39,10 @@ impl Measured {
     }
 }
 
-/// A figure that is not as expected.
+/// A figure that violates its bound.
 #[derive(Debug)]
 pub(crate) struct UnmetFigure {
-    /// The expectation, and the observed figure.
+    /// The bound and the observed figure, in one line.
     pub(crate) line: String,
     /// Whether the figure was measured.
     pub(crate) measured: bool,
@@ -56,7 +56,7 @@ struct Check {
 }
 
 impl Check {
-    /// Written so that NaN never holds.
+    /// Whether the bound holds. The comparison fails for NaN.
     fn holds(&self) -> bool {
         self.got.is_some_and(|got| match self.figure.bound_kind() {
             BoundKind::Minimum => got >= self.limit,
@@ -77,11 +77,11 @@ impl Check {
     }
 }
 
-/// Digits of a bound in a text.
+/// Number of digits of a bound in a text.
 const DIGITS: usize = 4;
 
 impl Limits {
-    /// Whether there are no limits.
+    /// Whether there are no bounds.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
@@ -91,12 +91,12 @@ impl Limits {
         self.bounds.iter().find(|(bounded, _)| *bounded == figure).map(|(_, limit)| *limit)
     }
 
-    /// The sums whose drift is limited.
+    /// Sums with a bound on their drift.
     pub fn drifts(&self) -> Vec<Conserved> {
         self.drift.iter().map(|(sum, _)| *sum).collect()
     }
 
-    /// Limits that do not hold.
+    /// Bounds that do not hold.
     pub(crate) fn unmet(&self, measured: &Measured) -> Vec<UnmetFigure> {
         let broken = self.checks(Some(measured)).into_iter().filter(|check| !check.holds());
         let mut unmet: Vec<UnmetFigure> = broken
@@ -129,7 +129,7 @@ impl Limits {
         unmet
     }
 
-    /// The limits, as text.
+    /// Text of each bound.
     pub(crate) fn summary(&self) -> Vec<String> {
         let mut parts: Vec<String> = self.checks(None).iter().map(Check::bound).collect();
         let mut grouped: Vec<(f64, Vec<String>)> = Vec::new();
@@ -146,7 +146,7 @@ impl Limits {
         parts
     }
 
-    /// Measured values as text; empty without limits.
+    /// Text of the measured values; empty without bounds.
     pub fn found(&self, measured: &Measured) -> String {
         let said = |check: &Check| format!("{} {}", check.figure.text(), check.got());
         let mut parts: Vec<String> = self.checks(Some(measured)).iter().map(said).collect();
@@ -183,7 +183,7 @@ fn rates(interval: (f64, f64)) -> String {
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
-/// One digit of a drift is enough: it is either rounding or far too large.
+/// Text of a drift. One digit is enough: a drift is either rounding or far too large.
 fn rounding(drift: f64) -> String {
     format!("{drift:.0e}")
 }

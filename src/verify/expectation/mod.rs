@@ -1,4 +1,4 @@
-//! Expectations of a suite for a case, and their check.
+//! Expectations of a suite for a case, and the check whether they are met.
 
 pub(crate) mod advice;
 pub(crate) mod gate;
@@ -10,11 +10,11 @@ use super::order::hypothesis::OrderHypothesis;
 use super::verdict::floor::FloorCause;
 use super::verdict::name::Verdict;
 
-/// Bounds, both included.
+/// Lower and upper bound; both are allowed values.
 pub type Bounds = (f64, f64);
 
-/// An expectation. Expected failures are as binding as expected orders. Every part that is present
-/// must hold.
+/// An expectation of a suite. Expected failures are as binding as expected orders. All present
+/// parts must hold.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expectation {
     /// The expected verdict; `None` for a case with limits only.
@@ -33,7 +33,7 @@ pub struct Expectation {
     pub because: String,
 }
 
-/// Findings of a case that expectations speak of.
+/// Findings of a case that expectations are compared with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CaseFindings {
     /// The judge's verdict.
@@ -44,14 +44,14 @@ pub struct CaseFindings {
     pub finest_pair: Option<f64>,
     /// Crossings on the finest level.
     pub crossings: Option<u64>,
-    /// Measured values that are limited.
+    /// Measured values with bounds.
     pub measured: Measured,
     /// Cause of the error floor, if it was requested and could be determined.
     pub floor: Option<FloorCause>,
 }
 
 impl Expectation {
-    /// Convergence with the order `p`, to the usual tolerance.
+    /// Expects convergence with order `p`, within the usual tolerance.
     pub fn of_order(p: f64, because: &str) -> Self {
         let around = (p - OrderHypothesis::TOLERANCE, p + OrderHypothesis::TOLERANCE);
         Self {
@@ -65,7 +65,8 @@ impl Expectation {
         }
     }
 
-    /// One sentence per unmet expectation, each failure once; empty if all are met.
+    /// One sentence for each unmet expectation, without repetition of a failure; empty if all are
+    /// met.
     pub fn unmet(&self, found: &CaseFindings) -> Vec<String> {
         let judged = self.unmet_judgement(found);
         // A failed run has no figures, and its failure is already reported.
@@ -75,7 +76,8 @@ impl Expectation {
         judged.into_iter().chain(told.map(|figure| figure.line)).collect()
     }
 
-    /// The unmet verdict or observed order: one sentence, because both describe one finding.
+    /// Describes an unmet verdict or observed order, in one sentence because both describe one
+    /// finding.
     fn unmet_judgement(&self, found: &CaseFindings) -> Option<String> {
         let verdict = self.verdict.filter(|verdict| found.verdict != *verdict);
         let holds = |bounds: &Bounds| {
@@ -147,7 +149,7 @@ impl Expectation {
     }
 }
 
-/// Written so that NaN is never within.
+/// Whether `value` is within bounds. The comparison fails for NaN.
 fn within(value: f64, (low, high): Bounds) -> bool {
     low <= value && value <= high
 }

@@ -1,9 +1,9 @@
-//! Proposed expectations for a suite that states none, from its runs.
+//! Proposes expectations for a suite that states none, from its runs.
 //!
 //! Theory comes first: if the observed order agrees with the formal one, the formal order is
-//! proposed. Other values are taken from the run, and marked as such. Intervals that the run meets
-//! only narrowly are not proposed: twice the uncertainty must fit between the observed order and
-//! either end.
+//! proposed. Other values come from the run and are marked accordingly. Intervals that the run
+//! meets only narrowly are not proposed: twice the uncertainty must fit between the observed order
+//! and either bound.
 
 use super::advice::{advice, counted, is_inside, range};
 use crate::named::named;
@@ -17,11 +17,11 @@ use crate::verify::verdict::name::Verdict;
 /// Maximum drift that counts as rounding of the sums.
 const ROUNDING: f64 = 1e-11;
 
-/// Minimum ratio of a proposed bound to the observed value: other processors and settings sum in
-/// another order.
+/// Minimum ratio of a proposed bound to the observed value, because other processors and settings
+/// add in another order.
 const ROOM_OF_DRIFT: f64 = 30.0;
 
-/// Ratio of a proposed bound on an error to the largest that was found.
+/// Ratio of a proposed error bound to the largest observed error.
 const ROOM_OF_ERROR: f64 = 2.0;
 
 named! {
@@ -37,7 +37,7 @@ named! {
 /// One key of a proposed entry of `expect`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProposedKey {
-    /// The key, with its value as a suite writes it.
+    /// Key and value in the notation of suites.
     pub text: String,
     /// Origin of the value.
     pub ground: Ground,
@@ -46,24 +46,24 @@ pub struct ProposedKey {
 /// A proposed entry of `expect` for one case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proposal {
-    /// The keys, apart from `case` and `because`.
+    /// Keys other than `case` and `because`.
     pub keys: Vec<ProposedKey>,
-    /// The reason, which an author has to complete if theory gives none.
+    /// Reason, which the author of the suite must complete if theory gives none.
     pub because: String,
     /// Verdict and figures of the run.
     pub seen: String,
-    /// Reasons why the expectation is not stronger, and ways to a stronger one.
+    /// Reasons why the expectation is not stronger, and ways to obtain a stronger one.
     pub stronger: Vec<String>,
 }
 
-/// The claim on the order, its ground and its reason.
+/// Proposed expectation of the order, with its origin and reason.
 struct ProposedOrder {
     key: String,
     ground: Ground,
     because: String,
 }
 
-/// The entry of `expect` that the results of a case support.
+/// Proposes the entry of `expect` that the results of a case support.
 pub fn propose(study: &Convergence) -> Proposal {
     let claim = claim(study).filter(|_| study.compared);
     let is_claimed = claim.is_some();
@@ -96,7 +96,7 @@ fn seen(study: &Convergence) -> String {
     format!("{}{}", study.verdict(), order.unwrap_or_default())
 }
 
-/// The expected verdict to propose, if a repetition of the run would meet it.
+/// Expected verdict or order, if a repetition of the run would meet it.
 fn claim(study: &Convergence) -> Option<ProposedOrder> {
     let formal = study.formal_order;
     let theory = match study.axis {
@@ -151,7 +151,7 @@ fn error_bound(study: &Convergence) -> Option<String> {
     (bound > 0.0 && bound.is_finite()).then(|| format!("error_below: {bound:e}"))
 }
 
-/// The number with one significant digit, rounded up.
+/// The number rounded up to one significant digit.
 fn rounded_up(value: f64) -> f64 {
     let text = format!("{value:.0e}");
     let nearest: f64 = text.parse().unwrap_or(value);
@@ -163,7 +163,8 @@ fn rounded_up(value: f64) -> f64 {
     format!("{}e{exponent}", digit + 1).parse().unwrap_or(value)
 }
 
-/// Proposed bounds on the conserved sums. Mass is excluded: particles carry it in every method.
+/// Proposed bounds on the conserved sums. Bounds on mass are attributed to theory, because
+/// particles carry it in every method.
 fn drifts(study: &Convergence) -> Vec<ProposedKey> {
     let worst = |sum: Conserved| {
         let drift = |level: &LevelOutcome| level.run.drift.map(|drift| drift.of(sum));
@@ -219,7 +220,7 @@ mod tests {
         assert_eq!(halves(1.25), ["verdict: too_low"]);
     }
 
-    /// Crossings are proposed only for runs that reach their end.
+    /// Crossings are proposed only from runs that reach their end.
     #[test]
     fn crossings_are_proposed_of_runs_that_end() {
         let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);

@@ -1,4 +1,4 @@
-//! Judging of the derivatives that a differentiable solver reports.
+//! Judges the derivatives that a differentiable solver reports.
 //!
 //! ```text
 //! taylor   the remainder of a derivative at one value of the parameter
@@ -35,8 +35,8 @@ named! {
     }
 }
 
-/// Value of the functional as the solver reports it with the gradient, and as the harness computes
-/// it from the state of a run without derivatives.
+/// Two values of the functional: the solver reports one with the gradient; the harness computes the
+/// other from the state of a run without derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ValueCheck {
     /// Value reported with the gradient.

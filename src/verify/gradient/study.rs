@@ -6,10 +6,10 @@ use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::{Level, observed_order};
 
-/// Allowed difference between the order of the derivative and the formal order.
+/// Maximum difference between the order of the derivative and the formal order.
 const ORDER: f64 = 0.15;
 
-/// Allowed difference between the order of the finest pair of levels and the formal order.
+/// Maximum difference between the order of the finest pair of levels and the formal order.
 const FINEST: f64 = 0.25;
 
 /// One level of refinement.
@@ -21,7 +21,8 @@ pub struct GradientLevel {
     pub h: f64,
     /// Time step (s).
     pub dt: f64,
-    /// The reported derivative, total where the suite's initial velocity depends on the parameter.
+    /// Reported derivative. It is the total derivative if the suite's initial velocity depends on
+    /// the parameter.
     pub gradient: f64,
     /// The exact derivative.
     pub exact: f64,
@@ -41,7 +42,7 @@ pub struct GradientStudy {
     pub functional: &'static str,
     /// Name of the parameter.
     pub parameter: &'static str,
-    /// Check 1, on the level on which the parameter is perturbed.
+    /// Check 1: the value, on the level with the perturbed parameter.
     pub value: ValueCheck,
     /// Check 2: the Taylor remainder.
     pub taylor: Taylor,
@@ -51,7 +52,7 @@ pub struct GradientStudy {
     pub sweep: Option<Sweep>,
     /// The points of the sweep.
     pub points: Vec<SweepPoint>,
-    /// Figures of further runs without derivatives, if the derivative is wrong.
+    /// Figures from additional runs without derivatives, if the derivative is wrong.
     pub evidence: Option<GradientEvidence>,
 }
 
@@ -62,8 +63,8 @@ impl StudyResults for GradientStudy {
 }
 
 impl GradientStudy {
-    /// The state of the derivative, and the figures that lead to it, with the cause of a wrong one
-    /// if runs without derivatives show it.
+    /// State of the derivative, and the figures that led to it. For a wrong derivative also its
+    /// cause, if runs without derivatives reveal it.
     pub fn state(&self) -> (GradientState, String) {
         let (state, reason) = self.measured_state();
         let evidence = self.evidence.as_ref().filter(|_| state == GradientState::Wrong);
@@ -95,15 +96,15 @@ impl GradientStudy {
         }
     }
 
-    /// Orders of the error of the derivative between consecutive levels; NaN if undefined.
+    /// Orders of the derivative error between consecutive levels; NaN if undefined.
     pub fn pairwise_orders(&self) -> Vec<f64> {
         let level = |level: &GradientLevel| Level::new(level.h, level.error());
         let order = |pair: &[GradientLevel]| observed_order(&level(&pair[0]), &level(&pair[1]));
         self.levels.windows(2).map(|pair| order(pair).unwrap_or(f64::NAN)).collect()
     }
 
-    /// Order of the error of the derivative: slope of the least-squares line of log error over
-    /// log h. NaN with fewer than two levels, and if an error is zero or not finite.
+    /// Order of the derivative error: slope of the least-squares line of log error over log h. NaN
+    /// with fewer than two levels, or if an error is zero or not finite.
     pub fn order(&self) -> f64 {
         let point = |(index, level): (usize, &GradientLevel)| LogPoint {
             level: index,
@@ -118,7 +119,7 @@ impl GradientStudy {
 /// Requirements of a derivative.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct GradientTerms {
-    /// The state.
+    /// Required state.
     pub state: Option<GradientState>,
     /// Lowest and highest order of the error of the derivative.
     pub order: Option<(f64, f64)>,
@@ -127,13 +128,14 @@ pub struct GradientTerms {
 }
 
 impl GradientTerms {
-    /// The requirements of a gate on a solver of this formal order: not `wrong`, and the order.
+    /// Requirements of the gate on a solver with this formal order: a state other than `wrong`, and
+    /// the order.
     pub fn of_gate(formal_order: f64) -> Self {
         let around = |width: f64| Some((formal_order - width, formal_order + width));
         Self { state: None, order: around(ORDER), finest: around(FINEST) }
     }
 
-    /// The requirements in one line.
+    /// Requirements in one line.
     pub fn summary(&self) -> String {
         let range = |name: &str, range: (f64, f64)| {
             format!("{name} {} to {}", format_number(range.0), format_number(range.1))
@@ -144,7 +146,7 @@ impl GradientTerms {
         [Some(state), order, finest].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
-    /// The requirements that `study` does not meet, each in one line.
+    /// Requirements that `study` does not meet, each in one line.
     pub fn unmet(&self, study: &GradientStudy) -> Vec<String> {
         let (state, reason) = study.state();
         let state_is_met = match self.state {
@@ -174,7 +176,8 @@ mod tests {
     use super::*;
     use crate::verify::gradient::Perturbed;
 
-    /// A study of J = q^2 at q = 1 on three levels, with `factor` times the derivative.
+    /// A study of J = q^2 at q = 1 on three levels. The reported derivative is `factor` times the
+    /// correct one.
     fn study(factor: f64, error: impl Fn(f64) -> f64) -> GradientStudy {
         let perturbed = |level: i32| {
             let by = libm::exp2(-f64::from(level));

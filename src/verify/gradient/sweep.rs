@@ -1,11 +1,11 @@
-//! A derivative over an interval of the parameter.
+//! Checks a derivative over an interval of the parameter.
 
-/// Largest difference between the integral of the derivative and the change of the function,
-/// relative to the change.
+/// Maximum difference between the integral of the derivative and the change of the function,
+/// relative to this change.
 const SMOOTH: f64 = 1e-3;
 
-/// Smallest jump between neighbouring values of the parameter that counts, relative to the change
-/// of the function.
+/// Minimum jump between neighbouring values of the parameter that counts, relative to the change of
+/// the function.
 const JUMP: f64 = 5e-4;
 
 /// One value of the parameter.
@@ -24,15 +24,15 @@ pub struct SweepPoint {
 pub struct Sweep {
     /// Change of the function from the first value of the parameter to the last.
     pub change: f64,
-    /// Sum of trapezia of the derivative, over `change`.
+    /// Trapezoidal sum of the derivative, divided by `change`.
     pub share: f64,
-    /// Jumps of the function between neighbouring values of the parameter, over `change`.
+    /// Jumps of the function between neighbouring values of the parameter, divided by `change`.
     pub jumps: Vec<f64>,
 }
 
 impl Sweep {
-    /// Integrates the derivative over `points`, which are in the order of the parameter. `rounding`
-    /// is that of a value. `None` if the function changes by no more than rounding.
+    /// Integrates the derivative over `points`, which are sorted by the parameter. `rounding` is
+    /// the rounding error of a value. `None` if the function changes by no more than rounding.
     pub fn new(points: &[SweepPoint], rounding: f64) -> Option<Self> {
         let (first, last) = (points.first()?, points.last()?);
         let change = last.value - first.value;
@@ -48,7 +48,7 @@ impl Sweep {
         Some(Self { change, share, jumps })
     }
 
-    /// Whether the integral of the derivative is the change of the function.
+    /// Whether the integral of the derivative equals the change of the function.
     pub fn is_smooth(&self) -> bool {
         (self.share - 1.0).abs() <= SMOOTH && self.jumps.is_empty()
     }

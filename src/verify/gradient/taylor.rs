@@ -1,11 +1,11 @@
-//! The Taylor remainder of a reported derivative.
+//! Checks a reported derivative by its Taylor remainder.
 
 use super::GradientState;
 
-/// Smallest share of the parameter by which it is perturbed, as a power of 1/2.
+/// Level of the smallest perturbation, which is the parameter times 2^-level.
 pub const LAST_LEVEL: u32 = 16;
 
-/// Largest share of the parameter by which it is perturbed, as a power of 1/2.
+/// Level of the largest perturbation, which is the parameter times 2^-level.
 pub const FIRST_LEVEL: u32 = 4;
 
 /// Orders of the remainder of a correct derivative of a smooth function.
@@ -14,26 +14,26 @@ const SECOND: (f64, f64) = (1.9, 2.1);
 /// Orders of the remainder of a wrong derivative.
 const FIRST: (f64, f64) = (0.9, 1.1);
 
-/// Orders of a remainder that does not fall.
+/// Orders of a remainder that does not decrease.
 const FLAT: (f64, f64) = (-0.1, 0.1);
 
 /// Number of consecutive levels on which an order must hold.
 const LEVELS: usize = 4;
 
-/// Largest relative difference of central differences without a jump between them.
+/// Maximum relative difference between central differences without a jump between them.
 const SPREAD: f64 = 0.05;
 
-/// Share of a central difference that rounding may have for it to be compared.
+/// Maximum rounding error of a usable central difference, relative to its magnitude.
 const NOISE: f64 = 0.01;
 
-/// Difference between the derivative and a central difference that is not explained by the
-/// uncertainty of the latter, relative to the uncertainty.
+/// Maximum ratio of the difference between derivative and central difference to the uncertainty of
+/// the latter.
 const SURE: f64 = 10.0;
 
 /// One perturbation of the parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Perturbed {
-    /// The perturbation e is the parameter times 2 to the power -level.
+    /// Exponent of the perturbation e, which is the parameter times 2^-level.
     pub level: u32,
     /// The perturbation e.
     pub by: f64,
@@ -43,7 +43,7 @@ pub struct Perturbed {
     pub below: f64,
 }
 
-/// Values of a function around a point, and its reported derivative there.
+/// Values of a function around a point, and the derivative reported at this point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Taylor {
     /// J(q).
@@ -63,8 +63,8 @@ impl Taylor {
         self.perturbed.iter().map(remainder).collect()
     }
 
-    /// Orders of the remainder between consecutive levels; `None` where a remainder is not above
-    /// the rounding level.
+    /// Orders of the remainder between consecutive levels; `None` if a remainder is not above the
+    /// rounding level.
     pub fn orders(&self) -> Vec<Option<f64>> {
         let all: Vec<(f64, f64)> =
             self.perturbed.iter().map(|p| p.by).zip(self.remainders()).collect();
@@ -82,7 +82,7 @@ impl Taylor {
         self.perturbed.iter().map(|p| (p.above - p.below) / (2.0 * p.by)).collect()
     }
 
-    /// The state of the derivative, and the figures that lead to it.
+    /// State of the derivative, and the figures that led to it.
     pub fn judge(&self) -> (GradientState, String) {
         let (remainders, orders) = (self.remainders(), self.orders());
         let above = remainders.iter().filter(|r| **r > self.rounding).count();
@@ -130,10 +130,11 @@ impl Taylor {
         (GradientState::Wrong, "the Taylor remainder does not have order 2".to_owned())
     }
 
-    /// Whether the derivative differs from the most accurate central difference by more than the
-    /// uncertainty of the latter: its change from the next larger perturbation, which is three
-    /// times its truncation error in a smooth function, and rounding. A small relative error of the
-    /// derivative leaves order 2 on the coarse levels, and shows here.
+    /// Whether the derivative differs significantly from the most accurate central difference. The
+    /// uncertainty of a central difference is its rounding error plus its change from the next
+    /// larger perturbation. In a smooth function this change is three times the truncation error.
+    /// The check detects small relative errors of the derivative, which leave order 2 on the coarse
+    /// levels.
     fn is_off(&self) -> bool {
         let all: Vec<(f64, f64)> =
             self.perturbed.iter().map(|p| p.by.abs()).zip(self.differences()).collect();
@@ -145,7 +146,7 @@ impl Taylor {
         best.is_some_and(|(error, now)| !((now - self.gradient).abs() <= SURE * error))
     }
 
-    /// Central differences whose rounding error is small.
+    /// Central differences with a small rounding error.
     fn usable_differences(&self) -> Vec<f64> {
         let all = self.perturbed.iter().zip(self.differences());
         let usable = all.filter(|(p, d)| !(self.rounding > NOISE * (p.by * d).abs()));
@@ -153,8 +154,8 @@ impl Taylor {
     }
 }
 
-/// Difference of the largest and the smallest number, relative to the largest magnitude; NaN if a
-/// number is NaN.
+/// Difference between the largest and the smallest number, relative to the largest magnitude; NaN
+/// if a number is NaN.
 fn spread(numbers: &[f64]) -> f64 {
     if numbers.iter().any(|number| number.is_nan()) {
         return f64::NAN;
@@ -190,7 +191,8 @@ fn longest_run(orders: &[Option<f64>], range: (f64, f64)) -> usize {
 mod tests {
     use super::*;
 
-    /// The test of `f` at q = 2 with the derivative `gradient`, at a rounding level of `rounding`.
+    /// Taylor test of `f` at q = 2 with the derivative `gradient` and the rounding level
+    /// `rounding`.
     fn taylor(f: impl Fn(f64) -> f64, gradient: f64, rounding: f64) -> Taylor {
         let q = 2.0;
         let perturbed = |level: u32| {

@@ -1,7 +1,7 @@
-//! The observed order by regression, with its confidence interval.
+//! Computes the observed order by regression, with its confidence interval.
 //!
-//! An error `C h^p` with multiplicative noise is the straight line `ln error = ln C + p ln h`.
-//! A fit by least squares over `n` points gives
+//! An error `C h^p` with multiplicative noise is the straight line `ln error = ln C + p ln h`. A
+//! least-squares fit to `n` points gives
 //!
 //! ```text
 //! p   = Sxy / Sxx
@@ -9,9 +9,9 @@
 //! interval = p -+ t(0.975, n - 2) s / sqrt(Sxx)
 //! ```
 //!
-//! which contains the true order with a probability of 95 % if the noise is log-normal (Draper &
-//! Smith, Applied Regression Analysis, 3rd ed., section 1.4). A systematic departure from the line,
-//! such as a drift of the order, also widens the interval.
+//! If the noise is log-normal, the interval contains the true order with a probability of 95 %
+//! (Draper & Smith, Applied Regression Analysis, 3rd ed., section 1.4). A systematic departure from
+//! the line, such as a drift of the order, also widens the interval.
 
 use super::{t_quantile, variance_ratio};
 use serde::{Deserialize, Serialize};
@@ -28,7 +28,7 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// The interval to two decimals, as tables show an order: `2.00 [1.99, 2.01]`.
+    /// The interval to two decimals, as in tables of orders: `2.00 [1.99, 2.01]`.
     pub fn shown(&self) -> String {
         format!("{:.2} [{:.2}, {:.2}]", self.value, self.low, self.high)
     }
@@ -42,7 +42,7 @@ impl Interval {
 /// One level on logarithmic axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LogPoint {
-    /// Its place among the sorted levels.
+    /// Index among the sorted levels.
     pub(crate) level: usize,
     /// `ln h`
     pub(crate) x: f64,
@@ -50,7 +50,7 @@ pub(crate) struct LogPoint {
     pub(crate) y: f64,
 }
 
-/// The line of least squares.
+/// A least-squares line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FittedLine {
     pub(crate) slope: f64,
@@ -63,7 +63,7 @@ pub(crate) struct FittedLine {
 }
 
 impl FittedLine {
-    /// None if the points have no two distinct `x`.
+    /// Fits a line; `None` unless two points have distinct `x`.
     pub(crate) fn through(points: &[LogPoint]) -> Option<Self> {
         let n = points.len() as f64;
         let mean_x = points.iter().map(|p| p.x).sum::<f64>() / n;
@@ -76,12 +76,12 @@ impl FittedLine {
         (sxx > 0.0 && line.slope.is_finite()).then_some(line)
     }
 
-    /// Distance of a point above the line: `ln` of its error over the error of the line.
+    /// Distance of a point above the line: `ln` of the ratio of its error to that of the line.
     pub(crate) fn departure(&self, point: &LogPoint) -> f64 {
         (point.y - self.mean_y) - self.slope * (point.x - self.mean_x)
     }
 
-    /// The slope with its confidence interval; NaN ends for fewer than three points.
+    /// The slope with its confidence interval, whose ends are NaN for fewer than three points.
     pub(crate) fn order(&self) -> Interval {
         let freedom = self.points.saturating_sub(2);
         let deviation = (self.rss / freedom as f64 / self.sxx).sqrt();
@@ -89,8 +89,8 @@ impl FittedLine {
         Interval { value: self.slope, low: self.slope - half_width, high: self.slope + half_width }
     }
 
-    /// The value of another point at `x`, with its 95 % prediction interval:
-    /// `line(x) -+ t s sqrt(1 + 1/n + (x - mean)^2 / Sxx)`; the ends are NaN for fewer than three
+    /// Predicted value of another point at `x`, with its 95 % prediction interval
+    /// `line(x) -+ t s sqrt(1 + 1/n + (x - mean)^2 / Sxx)`. The ends are NaN for fewer than three
     /// points.
     pub(crate) fn another(&self, x: f64) -> Interval {
         let (freedom, offset) = (self.points.saturating_sub(2), x - self.mean_x);
@@ -101,8 +101,8 @@ impl FittedLine {
         Interval { value, low: value - half_width, high: value + half_width }
     }
 
-    /// The drift of the order over the points of this line: fits the parabola `line + c q(x)`,
-    /// where `q` is `x^2` made orthogonal to the line.
+    /// Drift of the order over the points of this line, from a fit of the parabola `line + c q(x)`.
+    /// Here `q` is `x^2` made orthogonal to the line.
     pub(crate) fn drift(&self, points: &[LogPoint]) -> Option<Trend> {
         let parabola: Vec<LogPoint> =
             points.iter().map(|p| LogPoint { y: square(p.x - self.mean_x), ..*p }).collect();
@@ -121,9 +121,9 @@ impl FittedLine {
 /// A steady change of the order along a window.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Trend {
-    /// Order at the finest level less the order at the coarsest.
+    /// Order at the finest level minus the order at the coarsest level.
     pub(crate) change: f64,
-    /// The probability that noise about a straight line shows a change at least as large.
+    /// Probability that noise about a straight line shows a change at least this large.
     pub(crate) p_value: f64,
 }
 
@@ -165,7 +165,8 @@ mod tests {
         assert_abs_diff_eq!(order.half_width(), half_width, epsilon = 1e-4);
     }
 
-    /// By hand: the line above is -1/2 + 3/2 x, and 1 + 1/3 + 2^2/2 = 10/3 at x = 3.
+    /// By hand: the line of `three_points_by_hand` is -1/2 + 3/2 x, and 1 + 1/3 + 2^2/2 = 10/3 at
+    /// x = 3.
     #[test]
     fn another_point_by_hand() {
         let y = [0.0, 0.0, 3.0];

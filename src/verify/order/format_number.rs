@@ -1,8 +1,8 @@
-//! Numbers as a sentence shows them.
+//! Formats numbers for running text.
 
 use super::fit::Interval;
 
-/// Significant digits of a spacing or an error.
+/// Number of significant digits of a spacing or an error.
 const DIGITS: usize = 4;
 
 /// A number to four significant digits: `0.4167`, `25`, `1.563e-14`.
@@ -32,7 +32,7 @@ pub(crate) fn order(order: &Interval) -> String {
     format!("{value:.3} [{low:.3}, {high:.3}]")
 }
 
-/// Without the zeros that end a decimal fraction.
+/// The number without trailing zeros of a decimal fraction.
 fn trimmed(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }

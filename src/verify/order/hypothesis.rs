@@ -1,4 +1,4 @@
-//! The hypothesis that a series of errors is tested against.
+//! The hypothesis that is tested on a series of errors.
 
 use super::format_number::format_number;
 use super::level::Axis;
@@ -6,33 +6,33 @@ use super::level::Axis;
 /// A theoretical order, and the range in which the observed order must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrderHypothesis {
-    /// The order of the method in theory.
+    /// Theoretical order of the method.
     pub formal_order: f64,
-    /// The range of the observed order; default `formal_order` -+ [`OrderHypothesis::TOLERANCE`].
+    /// Range for the observed order; default `formal_order` -+ [`OrderHypothesis::TOLERANCE`].
     pub expected: Option<(f64, f64)>,
-    /// Axis of refinement: names the spacing in sentences, changes no figure.
+    /// Axis of refinement. It determines the name of the spacing in texts and changes no result.
     pub axis: Axis,
 }
 
 impl OrderHypothesis {
-    /// Maximum distance of the observed order from the formal one without stated range: a fifth of
+    /// Maximum distance of the observed order from the formal one if no range is stated: a fifth of
     /// the gap between two methods whose orders differ by 0.5.
     pub const TOLERANCE: f64 = 0.1;
 
-    /// Maximum width of a range: a wider one could not distinguish neighbouring integer orders.
+    /// Maximum width of a range. A wider range could not distinguish neighbouring integer orders.
     pub const WIDEST: f64 = 1.0;
 
-    /// The formal order, with the usual tolerance.
+    /// Hypothesis of the formal order with the usual tolerance.
     pub const fn formal(order: f64) -> Self {
         Self { formal_order: order, expected: None, axis: Axis::Space }
     }
 
-    /// The formal order, with a stated range.
+    /// Hypothesis of the formal order with a stated range.
     pub const fn within(order: f64, low: f64, high: f64) -> Self {
         Self { formal_order: order, expected: Some((low, high)), axis: Axis::Space }
     }
 
-    /// This hypothesis for another axis of refinement.
+    /// The hypothesis for another axis of refinement.
     #[must_use]
     pub const fn over(self, axis: Axis) -> Self {
         Self { axis, ..self }
@@ -45,8 +45,8 @@ impl OrderHypothesis {
         self.expected.unwrap_or(usual)
     }
 
-    /// The reason if this hypothesis cannot be tested: the range is not finite and positive, or so
-    /// wide that nearly every order passes.
+    /// Reason why this hypothesis cannot be tested: the range is not finite and positive, or is so
+    /// wide that nearly every order is inside. `None` if it can be tested.
     pub(crate) fn diagnostic(&self) -> Option<String> {
         let (low, high) = self.range();
         let orders = [self.formal_order, low, high];

@@ -1,12 +1,12 @@
-//! Levels of a refinement: axes, errors, and the order between two levels.
+//! Refinement levels: axes, errors, and the order between two levels.
 
 use super::format_number::format_number;
 use crate::named::named;
 use std::cmp::Ordering;
 
 named! {
-    /// An axis of refinement. Errors of the axes add up, so that refining a single axis ends at the
-    /// error of the others.
+    /// Axis of refinement. The errors of all axes add up, so refinement of a single axis ends at
+    /// the error of the others.
     pub enum Axis {
         /// Cells. The time step may follow as a formula of h.
         Space = "space",
@@ -18,7 +18,7 @@ named! {
 }
 
 impl Axis {
-    /// The symbol of the refined spacing, for sentences and tables.
+    /// Symbol of the refined spacing, for texts and tables.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Space => "h",
@@ -27,7 +27,7 @@ impl Axis {
         }
     }
 
-    /// Noun for the spacing.
+    /// Name of the refined spacing.
     pub fn noun(self) -> &'static str {
         match self {
             Self::Space => "cell size",
@@ -37,17 +37,17 @@ impl Axis {
     }
 }
 
-/// One level of refinement: a spacing and the error measured there.
+/// One refinement level: a spacing and the error measured with it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
-    /// The spacing that was refined: of the grid, of time or of particles. Not a number of cells.
+    /// Refined spacing of the grid, of time or of particles; not a number of cells.
     pub h: f64,
-    /// A norm of the error.
+    /// Norm of the error.
     pub error: f64,
-    /// False for a level that is shown but does not count, for instance because particles crossed
-    /// cells there and the theory does not cover this.
+    /// False for a level that is reported but does not count. An example is a level on which
+    /// particles change their cell, if the theory does not cover this.
     pub usable: bool,
-    /// Reason if the run of this level failed.
+    /// Reason for the failure of the run, if it failed.
     pub failed: Option<String>,
 }
 
@@ -57,19 +57,19 @@ impl Level {
         Self { h, error, usable: true, failed: None }
     }
 
-    /// This level, marked as shown but not counted.
+    /// The level, marked as reported but not counted.
     #[must_use]
     pub fn unusable(self) -> Self {
         Self { usable: false, ..self }
     }
 
-    /// This level, marked as failed for `reason`.
+    /// The level, marked as failed for `reason`.
     #[must_use]
     pub fn failing(self, reason: impl Into<String>) -> Self {
         Self { failed: Some(reason.into()), ..self }
     }
 
-    /// Defect that makes this level invalid, whether it counts or not.
+    /// Defect that makes the level invalid, whether it counts or not.
     fn diagnostic(&self, axis: Axis) -> Option<String> {
         let (name, h) = (axis.symbol(), format_number(self.h));
         if let Some(reason) = &self.failed {
@@ -86,9 +86,8 @@ impl Level {
     }
 }
 
-/// Sorts from coarse to fine and merges identical levels; if one of these does not count, the
-/// merged level does not count. The diagnostic names the first defect that makes the series
-/// invalid.
+/// Sorts from coarse to fine and merges identical levels. A merged level does not count if one of
+/// its parts does not. The diagnostic names the first defect that makes the series invalid.
 pub(crate) fn arrange(levels: &[Level], axis: Axis) -> (Vec<Level>, Option<String>) {
     let mut sorted = levels.to_vec();
     sorted.sort_by(|a, b| b.h.total_cmp(&a.h).then(a.error.total_cmp(&b.error)));
@@ -120,14 +119,14 @@ fn same(a: f64, b: f64) -> bool {
     a.partial_cmp(&b) == Some(Ordering::Equal)
 }
 
-/// The observed order between two levels, with the true ratio of `h` and with its sign:
+/// Observed order between two levels, with its sign and with the actual ratio of `h`:
 ///
 /// ```text
 /// p = ln(error_coarse / error_fine) / ln(h_coarse / h_fine)
 /// ```
 ///
-/// Negative if the error grows under refinement. `None` if it is undefined: for a zero, negative or
-/// non-finite figure, or for equal spacings.
+/// It is negative if the error grows under refinement. `None` if a number is zero, negative or not
+/// finite, or if the spacings are equal.
 pub fn observed_order(coarse: &Level, fine: &Level) -> Option<f64> {
     let fall = logarithm(coarse.error)? - logarithm(fine.error)?;
     let ratio = logarithm(coarse.h)? - logarithm(fine.h)?;
@@ -135,7 +134,7 @@ pub fn observed_order(coarse: &Level, fine: &Level) -> Option<f64> {
     order.is_finite().then_some(order)
 }
 
-/// The observed order between each level and the previous one; `None` for the first level.
+/// Observed order between each level and the previous one; `None` for the first level.
 pub(crate) fn pairwise(levels: &[Level]) -> Vec<Option<f64>> {
     let pairs = levels.windows(2);
     let orders = pairs.map(|pair| observed_order(&pair[0], &pair[1]));

@@ -1,56 +1,58 @@
-//! The limit of a series of values under refinement, with an interval, without an exact solution.
+//! Estimates the limit of a series of values under refinement, with an interval and without an
+//! exact solution.
 //!
-//! The four finest levels `h4 > h3 > h2 > h1` give two triples. Richardson's extrapolation of each
-//! triple ([`Richardson`]) gives an order and a limit: `p`, `u0` from the finest triple, and `q`,
-//! `w0` from the next coarser one. With `delta = u0 - u1`, `r = h2 / h1`, the estimate is
+//! The four finest levels `h4 > h3 > h2 > h1` form two triples. Richardson extrapolation
+//! ([`Richardson`]) yields an order and a limit for each: `p`, `u0` for the finest triple, and `q`,
+//! `w0` for the next coarser one. With `delta = u0 - u1` and `r = h2 / h1`, the estimate is
 //!
 //! ```text
 //! order = p -+ 3 |p - q|
 //! limit = u0 -+ max(|delta|, 3 max(1, 1/(r^p - 1)) |u0 - w0|)
 //! ```
 //!
-//! Reasons for the two terms of the interval of the limit:
+//! Reasons for the two terms in the interval of the limit:
 //!
-//! - If `u = U + C h^p + D h^s` with `s > p`, the extrapolation from a triple misses U by a term of
-//!   order s. Refinement by `r` divides the term by `r^s`, so the distance of the finest
+//! - If `u = U + C h^p + D h^s` with `s > p`, the extrapolation from a triple differs from U by a
+//!   term of order s. Refinement by `r` divides this term by `r^s`. So the distance of the finest
 //!   extrapolation from U is `|u0 - w0| / (r^s - 1)`, at most `|u0 - w0| / (r^p - 1)`. The factor 3
 //!   is the factor of safety for a fit that cannot be checked (Roache 1998, two grids; Eca &
 //!   Hoekstra 2014, J. Comput. Phys. 262, 104, orders outside the expected range).
-//! - The difference of the two extrapolations can vanish by chance. The interval therefore always
-//!   reaches the finest value, as the grid convergence index with a factor of 1 (Roache 1994) does.
+//! - The difference between the two extrapolations can vanish by chance. The interval therefore
+//!   always extends to the finest value, like the grid convergence index with a factor of 1 (Roache
+//!   1994).
 //!
-//! Eca & Hoekstra also widen their estimate by a fit through all levels. Here the second triple
-//! has that role: four values and three unknowns leave one equation, which can contradict the
-//! extrapolation. Their classes of series (oscillating, divergent) give no estimate here.
+//! Eca & Hoekstra also widen their estimate by a fit through all levels. Here the second triple has
+//! this role: four values and three unknowns leave one equation that can contradict the
+//! extrapolation. Series of their oscillating and divergent classes give no estimate here.
 //!
-//! The coverage of the interval was measured over the suites with exact solutions: see
-//! `docs/estimate.md`.
+//! The coverage of the interval was measured over the suites with exact solutions
+//! (`docs/estimate.md`).
 
 use super::fit::Interval;
 use super::richardson::Richardson;
 use serde::Serialize;
 use std::fmt;
 
-/// Number of the finest levels that an estimate uses.
+/// Number of levels in an estimate: the finest ones.
 pub const LEVELS_OF_ESTIMATE: usize = 4;
 
-/// Factor on the difference of two extrapolations, and on the difference of two orders.
+/// Factor on the difference between two extrapolations, and between two orders.
 const SAFETY_FACTOR: f64 = 3.0;
 
-/// Maximum difference of the orders of the two triples.
+/// Maximum difference between the orders of the two triples.
 const ORDER_SCATTER: f64 = 1.0;
 
-/// Minimum order of a triple: below it the extrapolated part exceeds twice the last change.
+/// Minimum order of a triple. Below it the extrapolated part exceeds twice the last change.
 const LEAST_ORDER: f64 = 0.5;
 
-/// Maximum order of a triple: above it the changes shrink faster than by any method here.
+/// Maximum order of a triple. Above it the changes shrink faster than with any method here.
 const LARGEST_ORDER: f64 = 4.5;
 
-/// Minimum last change, in units of the rounding of a value: rounding then changes the ratio of
-/// changes by at most an eighth.
+/// Minimum last change, in units of the rounding error of a value. Rounding then changes the ratio
+/// of changes by at most an eighth.
 const LEAST_CHANGE: f64 = 16.0;
 
-/// Rounding of a computed value, over its size: a sum of several terms.
+/// Relative rounding error of a computed value, which is a sum of several terms.
 const COMPUTED_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// A value of a series under refinement.
@@ -60,20 +62,20 @@ pub struct SeriesPoint {
     pub h: f64,
     /// The value.
     pub value: f64,
-    /// Spacing of the numbers that the value was rounded to, in the unit of the value; zero for a
-    /// value in double precision.
+    /// Distance between the numbers to which the value was rounded, in the unit of the value; zero
+    /// for double precision.
     pub resolution: f64,
 }
 
 /// Order and limit of a series of values.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LimitEstimate {
-    /// The order of the finest three values, with an interval from the order of the next coarser
-    /// triple.
+    /// Order of the finest three values. Its interval is computed from the order of the next
+    /// coarser triple.
     pub order: Interval,
-    /// The extrapolated value, with its interval of nominally 95 %.
+    /// Extrapolated value, with an interval of nominally 95 %.
     pub limit: Interval,
-    /// The value on the finest level.
+    /// Value on the finest level.
     pub finest: f64,
 }
 
@@ -84,7 +86,7 @@ impl LimitEstimate {
     }
 }
 
-/// Reason for which a series has no estimate.
+/// Reason why a series has no estimate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "reason", rename_all = "snake_case")]
 pub enum EstimateRefusal {
@@ -95,25 +97,25 @@ pub enum EstimateRefusal {
     },
     /// A number is not finite, or two levels have the same spacing.
     Unusable,
-    /// The last change is within the rounding of the values.
+    /// The last change is within the rounding errors of the values.
     Rounding {
         /// Size of the last change.
         change: f64,
-        /// Rounding of the values.
+        /// Rounding error of the values.
         rounding: f64,
     },
     /// The changes alternate in sign.
     Oscillation,
     /// The changes do not shrink under refinement.
     Divergence,
-    /// The two triples have different orders.
+    /// The orders of the two triples differ too much.
     OrderScatter {
         /// Order of the coarser triple.
         coarse: f64,
         /// Order of the finest triple.
         fine: f64,
     },
-    /// The order of a triple is not that of a method.
+    /// The order of a triple is not plausible for a numerical method.
     OrderOutOfRange {
         /// The order.
         order: f64,
@@ -169,10 +171,10 @@ impl fmt::Display for EstimateRefusal {
     }
 }
 
-/// Estimates the limit of a series of values, in any order of levels.
+/// Estimates the limit of a series of values. The levels may be in any order.
 ///
 /// # Errors
-/// The reason for which the series shows no limit.
+/// Reason why the series gives no limit.
 pub fn estimate_limit(series: &[SeriesPoint]) -> Result<LimitEstimate, EstimateRefusal> {
     let mut sorted = series.to_vec();
     sorted.sort_by(|a, b| b.h.total_cmp(&a.h));
@@ -246,7 +248,7 @@ mod tests {
         series(&points)
     }
 
-    /// `3 + 2 h^p`: no scatter, and an interval that reaches the finest value.
+    /// `3 + 2 h^p`: the orders do not scatter, and the interval extends to the finest value.
     #[rstest]
     fn a_power_of_h_gives_its_limit(
         #[values(0.6, 1.0, 2.0, 4.4)] order: f64,
@@ -261,8 +263,8 @@ mod tests {
         assert_eq!(estimate.finest, finest);
     }
 
-    /// By hand: 1 + h + h^2 for h = 1, 1/2, 1/4, 1/8. The changes are 5/4, 7/16 and 11/64, so the
-    /// ratios are 20/7 and 28/11, and the limits 7/4 - (7/16)/(13/7) and 73/64 - (11/64)/(17/11).
+    /// By hand: 1 + h + h^2 at h = 1, 1/2, 1/4, 1/8. The changes are 5/4, 7/16 and 11/64, the
+    /// ratios 20/7 and 28/11, and the limits 7/4 - (7/16)/(13/7) and 73/64 - (11/64)/(17/11).
     #[test]
     fn the_interval_by_hand() {
         let estimate = estimate_limit(&halvings(&[3.0, 1.75, 1.3125, 1.140_625])).unwrap();
@@ -281,7 +283,7 @@ mod tests {
         assert!(estimate.covers(1.0) && !estimate.covers(0.85) && !estimate.covers(f64::NAN));
     }
 
-    /// Spacings refined by less than 2 leave more of the second term: the interval is wider.
+    /// Refinement by less than 2 leaves more of the second term, so the interval is wider.
     #[test]
     fn the_interval_grows_for_small_ratios_of_spacing() {
         let value = |h: f64| 1.0 + h + h * h;
@@ -336,7 +338,7 @@ mod tests {
         assert_eq!(estimate_limit(&series(points)), Err(EstimateRefusal::Unusable));
     }
 
-    /// A last change of 0.75 units of the last printed digit is no evidence of an order.
+    /// A last change of 0.75 units in the last printed digit is no evidence of an order.
     #[test]
     fn values_with_few_digits_are_refused() {
         let mut points = halvings(&[1.64, 1.16, 1.04, 1.01]);
@@ -346,7 +348,7 @@ mod tests {
         assert!(matches!(refusal, EstimateRefusal::Rounding { rounding: 0.01, .. }), "{refusal}");
     }
 
-    /// No unit of spacing or value changes the estimate.
+    /// Units of spacing and value do not change the estimate.
     #[test]
     fn units_do_not_change_the_estimate() {
         let points = halvings(&[3.0, 1.75, 1.3125, 1.140_625]);

@@ -1,4 +1,4 @@
-//! The observed order: pairwise, by regression, and by Richardson extrapolation; the limit of a
+//! The observed order (pairwise, by regression, by Richardson extrapolation), and the limit of a
 //! series without an exact solution.
 
 pub(crate) mod fit;

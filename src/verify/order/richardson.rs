@@ -1,6 +1,6 @@
 //! Richardson extrapolation from three values.
 //!
-//! If `u(h) = u0 + C h^p`, then for spacings `h3 > h2 > h1` with `h3 = r32 h2`, `h2 = r21 h1`
+//! If `u(h) = u0 + C h^p`, then spacings `h3 > h2 > h1` with `h3 = r32 h2`, `h2 = r21 h1` give
 //!
 //! ```text
 //! ratio = (u2 - u3) / (u1 - u2) = (r32^p - 1) / (1 - r21^-p)        = 2^p for halvings
@@ -8,14 +8,14 @@
 //! ```
 //!
 //! (Roache 1994, 1998; unequal ratios as in Celik et al. 2008.) The classes are those of Eca &
-//! Hoekstra (2014). The order is the solution `p` only if the values converge monotonically: the
-//! logarithm of an absolute value would assign an order to oscillation and divergence.
+//! Hoekstra (2014). Only monotonically converging values have an order, the solution `p`. The
+//! logarithm of an absolute value would also assign orders to oscillation and divergence.
 //!
-//! Three values always fit, so they have no interval: `limit_estimate` compares two triples. The
-//! grid convergence index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` (Roache 1994) is not offered: over
-//! the suites with exact solutions it contains the true error of 73 of 100 series. Nor is the
-//! "asymptotic range ratio" `GCI_32 / (r^p GCI_21)`: with the order fitted to the same three values
-//! it is identically `u1 / u2`, close to 1 for any values.
+//! Three values always fit, so they give no interval; `limit_estimate` compares two triples. The
+//! grid convergence index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` (Roache 1994) is not offered,
+//! because it contains the true error of only 73 of 100 series of the suites with exact solutions.
+//! Nor is the "asymptotic range ratio" `GCI_32 / (r^p GCI_21)`. With the order fitted to the same
+//! three values it is identically `u1 / u2`, which is close to 1 for any values.
 
 use std::fmt;
 
@@ -26,15 +26,15 @@ pub enum RichardsonClass {
     MonotoneConvergent,
     /// The change shrinks and alternates.
     OscillatoryConvergent,
-    /// The change has a constant sign, but does not shrink as for a positive order.
+    /// The change has a constant sign, but does not shrink as a positive order requires.
     MonotoneDivergent,
     /// The change alternates and does not shrink.
     OscillatoryDivergent,
     /// All three values are the same.
     Exact,
-    /// One of the two changes is zero: the ratio is undefined.
+    /// One of the two changes is zero, so the ratio is undefined.
     Degenerate,
-    /// A figure is not finite, or the spacings do not shrink.
+    /// A value is not finite, or the spacings do not shrink.
     Failed,
 }
 
@@ -52,26 +52,26 @@ impl fmt::Display for RichardsonClass {
     }
 }
 
-/// Convergence of three values at the same place and time, and their limit.
+/// Convergence of three values at one place and time, and their limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Richardson {
-    /// `(u2 - u3) / (u1 - u2)`, the coarse change over the fine one; `2^p` for halvings.
+    /// `(u2 - u3) / (u1 - u2)`, the coarse change divided by the fine one; `2^p` for halvings.
     pub ratio: f64,
     /// Behaviour of the values.
     pub class: RichardsonClass,
-    /// The observed order, only if monotone convergent.
+    /// Observed order, for monotone convergence only.
     pub order: Option<f64>,
-    /// The extrapolated value, only if monotone convergent.
+    /// Extrapolated value, for monotone convergence only.
     pub extrapolated: Option<f64>,
 }
 
 impl Richardson {
-    /// From three values, coarse to fine, whose spacing shrinks by the same `ratio > 1` twice.
+    /// Extrapolates three values, coarse to fine, with two equal refinements by `ratio > 1`.
     pub fn equal_ratio(values: [f64; 3], ratio: f64) -> Self {
         Self::new([ratio * ratio, ratio, 1.0], values)
     }
 
-    /// From three values and their spacings, coarse to fine.
+    /// Extrapolates three values with their spacings, coarse to fine.
     pub fn new(h: [f64; 3], values: [f64; 3]) -> Self {
         let [coarse, medium, fine] = values;
         let change = fine - medium;
@@ -84,8 +84,8 @@ impl Richardson {
     }
 }
 
-/// The limit of the ratio for an order of zero, `ln r32 / ln r21`, separates convergence from
-/// divergence; it is one for equal ratios of spacing.
+/// Classifies the changes. The ratio for order zero, `ln r32 / ln r21`, separates convergence from
+/// divergence. It is one if both refinements are equal.
 fn classify(changes: [f64; 2], ratio: f64, rates: [f64; 2]) -> RichardsonClass {
     let shrinks = rates.iter().all(|rate| rate.is_finite() && *rate > 0.0);
     if !(shrinks && changes.iter().all(|change| change.is_finite())) {
@@ -104,7 +104,7 @@ fn classify(changes: [f64; 2], ratio: f64, rates: [f64; 2]) -> RichardsonClass {
     }
 }
 
-/// Solves `(r32^p - 1) / (1 - r21^-p) = ratio` by bisection; the left side is increasing in `p`.
+/// Solves `(r32^p - 1) / (1 - r21^-p) = ratio` by bisection. The left side increases with `p`.
 fn solve(ratio: f64, [coarse, fine]: [f64; 2]) -> f64 {
     let reaches = |p: f64| -libm::expm1(p * coarse) / libm::expm1(-p * fine) >= ratio;
     let mut high = 1.0;

@@ -1,7 +1,7 @@
-//! The quantile of Student's t that a 95 % confidence interval needs.
+//! The quantile of Student's t for a 95 % confidence interval.
 //!
-//! Abramowitz & Stegun (1964), 26.7.3 and 26.7.4: with `theta = atan(t / sqrt(nu))`, the
-//! probability `A(t|nu)` that a variable of `nu` degrees of freedom lies in `[-t, t]` is
+//! `A(t|nu)` is the probability that a variable with `nu` degrees of freedom lies in `[-t, t]`.
+//! With `theta = atan(t / sqrt(nu))` it is (Abramowitz & Stegun 1964, 26.7.3 and 26.7.4)
 //!
 //! ```text
 //! nu odd:   2/pi (theta + sin theta (cos theta + 2/3 cos^3 theta + ...
@@ -10,14 +10,14 @@
 //!                 + (1 3 ... (nu-3)) / (2 4 ... (nu-2)) cos^(nu-2) theta)
 //! ```
 //!
-//! a finite sum, inverted here by bisection in `theta`.
+//! The sum is finite; it is inverted here by bisection in `theta`.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 /// The probability that a confidence interval contains the true value.
 pub(crate) const CONFIDENCE: f64 = 0.95;
 
-/// Halvings of `[0, pi/2]` until neighbouring doubles are reached.
+/// Number of halvings of `[0, pi/2]` until neighbouring doubles are reached.
 const HALVINGS: usize = 60;
 
 /// The `t` with `A(t|nu) = 0.95`; NaN for `nu = 0`, which has no distribution.
@@ -49,8 +49,9 @@ fn probability_within(theta: f64, nu: usize) -> f64 {
     }
 }
 
-/// The sum in brackets, from its first term to the one in `cos^(nu-2)`; each term is the one
-/// before times `cos^2 (k-1)/k`, with `k` going up in steps of two from `second` to `nu - 2`.
+/// The sum in brackets, from the term `first` to the term in `cos^(nu-2)`. Each term is the
+/// previous one times `cos^2 (k-1)/k`, where `k` increases in steps of two from `second` to
+/// `nu - 2`.
 fn cosine_sum(first: f64, second: usize, cos: f64, nu: usize) -> f64 {
     let mut term = first;
     let mut sum = first;
@@ -67,7 +68,7 @@ mod tests {
     use approx::assert_abs_diff_eq;
     use rstest::rstest;
 
-    /// Published tables, to the digits they print.
+    /// Published tables, to their printed digits.
     #[rstest]
     #[case(1, 12.7062, 5e-5)]
     #[case(2, 4.30265, 5e-6)]

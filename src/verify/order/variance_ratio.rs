@@ -1,9 +1,9 @@
 //! The regularised incomplete beta function at half-integers: the p-value of an F-test.
 //!
-//! If a model with `d` more parameters has the residual sum of squares `rss_fine` with `nu` degrees
-//! of freedom, and the simpler model has `rss_coarse`, then under the simpler model
-//! `x = rss_fine / rss_coarse` has the distribution `I_x(nu/2, d/2)`; a small `x` is evidence
-//! against it. Computed from closed forms by the recurrences DLMF 8.17.20 and 8.17.21,
+//! A model with `d` more parameters has the residual sum of squares `rss_fine` with `nu` degrees of
+//! freedom; the simpler model has `rss_coarse`. If the simpler model holds,
+//! `x = rss_fine / rss_coarse` has the distribution `I_x(nu/2, d/2)`, and a small `x` is evidence
+//! against it. `I_x` is computed from closed forms by the recurrences DLMF 8.17.20 and 8.17.21,
 //!
 //! ```text
 //! I_x(a+1, b) = I_x(a, b) - x^a (1-x)^b / (a B(a,b))
@@ -12,7 +12,7 @@
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
-/// `I_x(nu/2, d/2)` for integers `nu, d >= 1` and `x` in `[0, 1]`; NaN stays NaN. The absolute
+/// `I_x(nu/2, d/2)` for integers `nu, d >= 1` and `x` in `[0, 1]`; NaN if `x` is NaN. The absolute
 /// error is a few units of round-off.
 pub(crate) fn regularised(x: f64, nu: usize, d: usize) -> f64 {
     let (mut a, mut b) = (start(nu), start(d));

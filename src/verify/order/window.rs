@@ -1,19 +1,19 @@
-//! The window: the asymptotic levels, over which an order is fitted.
+//! Selects the window: the asymptotic levels, to which an order is fitted.
 //!
-//! All usable levels count unless there is strong evidence against the outer ones. A shorter
-//! window replaces a longer one only if
+//! All usable levels count unless there is strong evidence against the outer ones. A shorter window
+//! replaces a longer one only under three conditions:
 //!
-//! - an F-test (Chow 1960, the test for predictive failure) rejects that the dropped levels lie on
-//!   the line through the kept ones. The risk of a wrong rejection is [`SELECTION_RISK`] for all
-//!   shorter windows together. It is small compared with the 5 % of the confidence interval, so
-//!   that the selection hardly affects the coverage of the interval;
-//! - the dropped levels depart systematically: all depart by more than [`MATERIAL`] to the same
-//!   side, and the departure grows outwards. An outlier among good levels is therefore kept, and
-//!   widens the interval;
-//! - levels are dropped at the fine end only if the error stops falling (a floor). The verdict is
-//!   then `at floor`.
+//! - An F-test (Chow 1960, the test for predictive failure) rejects that the dropped levels lie on
+//!   the line through the remaining ones. The risk of a wrong rejection is [`SELECTION_RISK`] for
+//!   all shorter windows together. It is small compared with the 5 % of the confidence interval, so
+//!   the selection hardly affects the coverage of the interval.
+//! - The dropped levels depart systematically: all depart by more than [`MATERIAL`] to the same
+//!   side, and the departure grows outwards. An outlier among good levels is therefore not dropped,
+//!   and widens the interval.
+//! - Levels are dropped at the fine end only if the error stops decreasing (a floor). The verdict
+//!   is then `at floor`.
 //!
-//! The longest such window is selected, the finer one of two equally long windows. The test is
+//! The longest such window is selected, and the finer one of two equally long windows. The test is
 //! repeated on the selected window until no shorter one replaces it.
 
 use std::ops::Range;
@@ -21,23 +21,23 @@ use std::ops::Range;
 use super::fit::{FittedLine, LogPoint};
 use super::variance_ratio;
 
-/// Minimum number of levels for an order: two degrees of freedom remain for the interval.
+/// Minimum number of levels for an order; the interval then has two degrees of freedom.
 pub(crate) const FEWEST_LEVELS: usize = 4;
 
-/// The risk that pure noise shortens the window, over all candidates of one step: a tenth of the 5
-/// % of the confidence interval.
+/// Risk that pure noise shortens the window, over all candidates of one step: a tenth of the 5 % of
+/// the confidence interval.
 const SELECTION_RISK: f64 = 0.005;
 
-/// Minimum departure, in `ln error`, of a dropped level: 5 %. It prevents round-off from
-/// determining the window of noise-free data, where any departure is statistically significant.
+/// Minimum departure, in `ln error`, of a dropped level: 5 %. Without it, round-off could determine
+/// the window of noise-free data, where any departure is statistically significant.
 const MATERIAL: f64 = 0.05;
 
-/// Maximum order that does not count as a fall: over a halving of `h` the error changes by less
-/// than 15 %.
+/// Maximum order that does not count as a decrease: a halving of `h` changes the error by less than
+/// 15 %.
 pub(crate) const FLAT_ORDER: f64 = 0.2;
 
-/// Fraction of the previous order (and of the formal order) below which the error has stopped
-/// following the line.
+/// Fraction of the previous order (and of the formal order) below which the error no longer follows
+/// the line.
 const FLOOR_FRACTION: f64 = 0.5;
 
 /// A contiguous range of points and the line through it.
@@ -63,7 +63,7 @@ impl Window {
             && FittedLine::through(&points[end - 1..]).is_some_and(|tail| tail.slope.abs() < limit)
     }
 
-    /// Whether the levels outside this window may be dropped, if there is evidence.
+    /// Whether the levels outside this window may be dropped if the F-test rejects them.
     fn may_drop_rest(&self, points: &[LogPoint], formal_order: f64) -> bool {
         let Range { start, end } = self.range;
         let departures = |rest: &[LogPoint]| -> Vec<f64> {
@@ -79,14 +79,14 @@ impl Window {
     }
 
     /// Whether the F-test rejects, at the significance level `risk`, that the levels dropped by
-    /// `shorter` lie on its line.
+    /// `shorter` lie on the line of `shorter`.
     fn is_rejected_by(&self, shorter: &Self, risk: f64) -> bool {
         let dropped = self.range.len() - shorter.range.len();
         let freedom = shorter.range.len() - 2;
         variance_ratio::regularised(shorter.line.rss / self.line.rss, freedom, dropped) < risk
     }
 
-    /// The longest shorter window with strong evidence.
+    /// The longest shorter window that meets all conditions.
     fn improved(&self, points: &[LogPoint], formal_order: f64) -> Option<Self> {
         let candidates = shorter_ranges(&self.range);
         let risk = SELECTION_RISK / candidates.len() as f64;
@@ -96,8 +96,8 @@ impl Window {
     }
 }
 
-/// The asymptotic window among the points before `end` (the beginning of a floor, if one is known);
-/// `None` if there are too few points, or no line through them.
+/// Asymptotic window among the points before `end` (the beginning of a floor, if one is known).
+/// `None` if there are too few points or if no line passes through them.
 pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> Option<Window> {
     if end < FEWEST_LEVELS {
         return None;
@@ -109,8 +109,8 @@ pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> 
     Some(window)
 }
 
-/// Contiguous parts with enough levels, sorted by decreasing length, finer parts first among
-/// equals.
+/// Contiguous parts with enough levels, sorted by decreasing length. Of equally long parts the
+/// finer ones come first.
 fn shorter_ranges(range: &Range<usize>) -> Vec<Range<usize>> {
     (FEWEST_LEVELS..range.len())
         .rev()
@@ -121,7 +121,8 @@ fn shorter_ranges(range: &Range<usize>) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Whether departures, from the window outwards, are all material, to one side, the last largest.
+/// Whether departures, listed from the window outwards, are all material and to one side, with the
+/// last one the largest.
 fn is_departing(outward: &[f64]) -> bool {
     let Some(last) = outward.last() else {
         return true;

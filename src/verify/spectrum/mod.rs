@@ -1,9 +1,9 @@
-//! Phase speed and damping of a wave, measured from a run and compared with a prediction.
+//! Phase speed and damping of a wave, measured in a run and compared with a prediction.
 //!
 //! | module | content |
 //! |---|---|
-//! | [`recurrence`](Recurrence) | trace and determinant of a step, from a series |
-//! | [`wave`](run_wave) | a run of a subject, whose particle velocities give the series |
+//! | [`recurrence`](Recurrence) | trace and determinant of a step, computed from a series |
+//! | [`wave`](run_wave) | the run of a subject, whose particle velocities form the series |
 //! | [`study`](SpectrumStudy) | the rows of a report |
 //! | [`expectation`](SpectrumExpectation) | expectations of suites |
 

@@ -1,9 +1,9 @@
-//! Trace and determinant of a linear step, from a series of its state.
+//! Computes the trace and determinant of a linear step from a series of its states.
 //!
-//! A Fourier mode of a linear scheme has two numbers on the grid, and a step multiplies them by a
-//! 2 x 2 matrix. By the theorem of Cayley and Hamilton each linear functional of the state
-//! satisfies `y(k+2) = tr y(k+1) - det y(k)`. Velocities of particles also have a part that the
-//! grid does not resolve; it is constant, so that the fit has a constant as well.
+//! A Fourier mode of a linear scheme has two numbers on the grid. A step multiplies them by a 2 x 2
+//! matrix. By the Cayley-Hamilton theorem each linear functional of the state satisfies
+//! `y(k+2) = tr y(k+1) - det y(k)`. Particle velocities also have a part that the grid does not
+//! resolve. This part is constant, so the fit includes a constant.
 
 use std::f64::consts::TAU;
 
@@ -15,19 +15,18 @@ const FEWEST: usize = 6;
 pub struct Recurrence {
     /// The determinant.
     determinant: f64,
-    /// `1 - tr + det`, a small number if the angle of a step is small.
+    /// `1 - tr + det`, which is small if a step has a small angle.
     deficit: f64,
 }
 
 impl Recurrence {
-    /// The recurrence that fits a series best, by least squares. NaN for a series that is too short
-    /// or does not change.
+    /// Fits the recurrence to a series by least squares. NaN for a series that is too short or
+    /// constant.
     ///
     /// The unknowns are `det` and `1 - tr + det`. They are the coefficients of the increment
     /// `d = y(k+1) - y(k)` and of `a = y(k+1)` in `y(k+2) - y(k+1) = det d - (1 - tr + det) a`.
-    /// These columns are nearly orthogonal for an oscillation, so that the normal equations are
-    /// accurate.
-    /// Means are subtracted, which eliminates the constant.
+    /// These columns are nearly orthogonal for an oscillation, so the normal equations are
+    /// accurate. Subtracting the means eliminates the constant.
     pub fn fit(series: &[f64]) -> Self {
         if series.len() < FEWEST {
             return Self { determinant: f64::NAN, deficit: f64::NAN };
@@ -55,7 +54,7 @@ impl Recurrence {
         Self { determinant, deficit: (de * da - ae * dd) / scale }
     }
 
-    /// A recurrence with this trace and determinant.
+    /// The recurrence with this trace and determinant.
     pub fn new(trace: f64, determinant: f64) -> Self {
         Self { determinant, deficit: 1.0 - trace + determinant }
     }
@@ -70,7 +69,7 @@ impl Recurrence {
         self.determinant
     }
 
-    /// `4 det - tr^2`, positive where the eigenvalues are complex.
+    /// `4 det - tr^2`; positive if the eigenvalues are complex.
     fn discriminant(&self) -> f64 {
         let lost = 1.0 - self.determinant;
         2.0 * self.deficit * (1.0 + self.determinant) - self.deficit * self.deficit - lost * lost
@@ -97,7 +96,7 @@ impl Recurrence {
         Some(self.angle()? / (TAU / cells * courant) - 1.0)
     }
 
-    /// Logarithm of the factor of the amplitude in one exact period of a wave of `cells` cells.
+    /// Logarithm of the amplitude factor over one exact period of a wave of `cells` cells.
     pub fn log_kept_per_period(&self, cells: f64, courant: f64) -> f64 {
         self.log_modulus() * cells / courant
     }
@@ -146,7 +145,7 @@ mod tests {
         assert_relative_eq!(log_kept, 40.0 * libm::log(r), max_relative = 1e-12);
     }
 
-    /// Eigenvalues 0.5 and 0.6 have no phase; the larger one decides.
+    /// The eigenvalues 0.5 and 0.6 have no phase. The larger one determines the damping.
     #[test]
     fn an_overdamped_wave_has_no_phase() {
         let found = Recurrence::new(1.1, 0.3);

@@ -8,7 +8,7 @@ use crate::verify::StudyResults;
 pub struct WaveFigures {
     /// Relative error of the phase speed; `None` if the wave is overdamped and has no phase.
     pub phase_error: Option<f64>,
-    /// Logarithm of the factor of the amplitude in one exact period.
+    /// Logarithm of the amplitude factor over one exact period.
     pub log_kept: f64,
 }
 
@@ -21,7 +21,7 @@ impl WaveFigures {
         }
     }
 
-    /// Factor of the amplitude in one exact period.
+    /// Amplitude factor over one exact period.
     pub fn kept(&self) -> f64 {
         libm::exp(self.log_kept)
     }
@@ -36,20 +36,21 @@ pub struct SpectrumRow {
     pub courant: f64,
     /// Number of steps of the run.
     pub steps: u64,
-    /// Figures of the closed form; `None` if the method is not known.
+    /// Figures from the closed form; `None` if it is not known for the method.
     pub predicted: Option<WaveFigures>,
-    /// Figures of the run, or the reason why there are none.
+    /// Figures from the run, or the reason why there are none.
     pub measured: Result<WaveFigures, String>,
-    /// Cells per wavelength from which on the predicted phase error is below 1 %; `None` without a
-    /// prediction, or if all waves of two cells or more are within it.
+    /// Number of cells per wavelength above which the predicted phase error is below 1 %. `None`
+    /// without a prediction, or if this holds for all waves of two cells or more.
     pub cells_for_one_percent: Option<f64>,
     /// Predicted stability limit of the Courant number.
     pub limit: Option<f64>,
 }
 
 impl SpectrumRow {
-    /// Phase error and amplitude that differ most from the prediction, relative to the prediction;
-    /// `None` without both figures. An amplitude that is predicted to remain has no such figure.
+    /// Deviations of the phase error and of the amplitude from the prediction, relative to the
+    /// prediction. A deviation is `None` if a figure is missing, and for an amplitude that is
+    /// predicted to be constant.
     pub fn deviations(&self) -> (Option<f64>, Option<f64>) {
         let (Some(predicted), Ok(measured)) = (&self.predicted, &self.measured) else {
             return (None, None);
@@ -75,7 +76,7 @@ impl StudyResults for SpectrumStudy {
 }
 
 impl SpectrumStudy {
-    /// Largest magnitude of the measured phase errors and smallest amplitude, in a sentence.
+    /// Sentence with the largest magnitude of the measured phase errors and the smallest amplitude.
     pub fn reason(&self) -> String {
         let measured = || self.rows.iter().filter_map(|row| row.measured.as_ref().ok());
         let phases = measured().filter_map(|figures| figures.phase_error).map(f64::abs);

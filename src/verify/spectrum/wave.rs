@@ -1,23 +1,23 @@
-//! A run of a subject with one wave, and the recurrence of its particle velocities.
+//! Runs a subject with one wave and fits the recurrence of its particle velocities.
 
 use super::recurrence::Recurrence;
 use crate::subject::{Samples, Subject};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Amplitude of the velocity of a wave, in wave speeds: also its strain.
+/// Velocity amplitude of a wave divided by the wave speed. It is also the strain of the wave.
 pub const AMPLITUDE: f64 = 1e-6;
 
-/// Exact periods of a run.
+/// Number of exact periods in a run.
 pub const PERIODS: f64 = 20.0;
 
-/// Amplitude, as a share of the initial one, at which a run of a damped wave ends.
+/// Share of the initial amplitude at which the run of a damped wave ends.
 const LEAST_KEPT: f64 = 1e-6;
 
 /// Minimum number of steps of a run.
 const FEWEST_STEPS: f64 = 16.0;
 
-/// Trace and determinant of a step as measured in a run.
+/// Trace and determinant of a step, measured in a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredWave {
     /// Number of steps.
@@ -28,9 +28,9 @@ pub struct MeasuredWave {
     pub determinant: f64,
 }
 
-/// Number of steps of a run of [`PERIODS`] exact periods of a wave of `cells` cells, or until the
-/// predicted amplitude has fallen to a millionth. `log_kept` is the predicted logarithm of the
-/// factor of the amplitude in a step, if there is a prediction.
+/// Number of steps of a run over [`PERIODS`] exact periods of a wave of `cells` cells. The run ends
+/// earlier if the predicted amplitude has fallen to a millionth. `log_kept` is the predicted
+/// logarithm of the amplitude factor of a step, if there is a prediction.
 pub fn steps_of_run(cells: f64, courant: f64, log_kept: Option<f64>) -> u64 {
     let whole = libm::ceil(PERIODS * cells / courant);
     let damped = log_kept.filter(|log_kept| *log_kept < 0.0);
@@ -38,7 +38,7 @@ pub fn steps_of_run(cells: f64, courant: f64, log_kept: Option<f64>) -> u64 {
     until.min(whole).max(FEWEST_STEPS) as u64
 }
 
-/// A wave in a periodic row, and the steps in which it is observed.
+/// A wave in a periodic row, and the observed steps.
 #[derive(Debug, Clone, Copy)]
 pub struct ObservedWave {
     /// Start of the row (m), where the wave is zero.
@@ -51,12 +51,12 @@ pub struct ObservedWave {
     pub steps: u64,
 }
 
-/// Runs `subject` and fits the recurrence of the sums `sum v sin(k X)` over its points, with the
-/// wave number `k = 2 pi/length` and X from the start of the row. The state at the start is not
-/// part of the series: it need not be a state after a step.
+/// Runs `subject` and fits the recurrence of the sums `sum v sin(k X)` over its points. The wave
+/// number is `k = 2 pi/length`, and X starts at the beginning of the row. The series excludes the
+/// initial state, because it need not be a possible state after a step.
 ///
 /// # Errors
-/// One line with the step that failed.
+/// Message with the failed step.
 pub fn run_wave(subject: &mut dyn Subject, wave: ObservedWave) -> Result<MeasuredWave, String> {
     let ObservedWave { from, length, dt, steps } = wave;
     let (mut samples, mut weights) = (Samples::default(), Vec::new());
@@ -81,8 +81,8 @@ mod tests {
     use crate::subject::{Failure, RunCounters};
     use approx::assert_relative_eq;
 
-    /// Two points a quarter of a wavelength apart; the velocity of the one at a crest follows a
-    /// recurrence from the first step on, and that of the other point does not matter.
+    /// Two points a quarter of a wavelength apart. The velocity at a crest follows a recurrence
+    /// from the first step on. The other velocity has no effect.
     struct Scripted {
         velocity: [f64; 2],
         step: u64,

@@ -1,4 +1,4 @@
-//! Expectations of a stability study, row by row.
+//! Expectations of a stability study for its rows.
 
 use super::limit::StabilityLimit;
 use super::outcome::{Critical, StabilityRow};
@@ -9,23 +9,23 @@ use crate::verify::order::format_number::format_number;
 /// Expectation of one row.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StabilityExpectation {
-    /// Expected end of the run.
+    /// Expected verdict on the run.
     pub verdict: Option<Stability>,
-    /// The limit that is sought.
+    /// Bounds on the stability limit.
     pub critical: Option<FigureBounds>,
-    /// Figures of the run.
+    /// Bounds on figures of the run.
     pub figures: Vec<(RunFigure, FigureBounds)>,
 }
 
 /// Bounds of a figure; all stated bounds must hold.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FigureBounds {
-    /// A value, and the maximum difference of the figure: a share of the value, or of one if that
-    /// is larger.
+    /// A value, and the maximum difference between the figure and this value. The difference is a
+    /// share of the value, or of one if the value is smaller than one.
     pub is: Option<(f64, f64)>,
-    /// The least.
+    /// Minimum of the figure.
     pub above: Option<f64>,
-    /// The most.
+    /// Maximum of the figure.
     pub below: Option<f64>,
 }
 
@@ -74,7 +74,8 @@ impl FigureBounds {
         }
     }
 
-    /// A limit in the range: deviations are a share of the closed form itself, however small.
+    /// Unmet bounds on a limit inside the searched range. Deviations are relative to the closed
+    /// form, even if it is small.
     fn closed(&self, got: f64) -> Vec<String> {
         let mut unmet = Self { is: None, ..*self }.unmet("the limit", got);
         if let Some((value, within)) = self.is {
@@ -123,7 +124,7 @@ fn other_verdict(wanted: Stability, trial: &Trial) -> Option<String> {
     (wanted != got).then(|| format!("expected {wanted}, got {got}{why}"))
 }
 
-/// Runs that do not agree with the prediction.
+/// Descriptions of runs that contradict the prediction.
 fn unconfirmed(critical: &Critical) -> Vec<String> {
     let Some(prediction) = &critical.predicted else { return Vec::new() };
     let disagrees = |(share, trial): &(f64, Trial)| {
@@ -146,7 +147,7 @@ mod tests {
     use super::*;
     use rstest::rstest;
 
-    /// Beyond the range a limit is known from one side only.
+    /// A limit outside the searched range is known from one side only.
     #[rstest]
     #[case::far_enough(FigureBounds { above: Some(9.0), ..FigureBounds::default() }, true)]
     #[case::not_far_enough(FigureBounds { above: Some(11.0), ..FigureBounds::default() }, false)]

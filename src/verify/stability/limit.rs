@@ -1,9 +1,9 @@
-//! The smallest value of a parameter that is not stable.
+//! Finds the smallest value of a parameter that is not stable.
 //!
-//! The range is scanned from below, because stability may be lost and regained. The first interval
+//! The range is scanned from below, because a larger value may be stable again. The first interval
 //! with an unstable end is bisected until it is short enough.
 
-/// Limit of stability.
+/// Limit of stability of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StabilityLimit {
     /// The lowest value of the range is not stable.
@@ -15,7 +15,7 @@ pub enum StabilityLimit {
 }
 
 impl StabilityLimit {
-    /// The value, if it lies in the range.
+    /// The limit, if it lies in the range.
     pub fn value(self) -> Option<f64> {
         match self {
             Self::At(value) => Some(value),
@@ -24,11 +24,11 @@ impl StabilityLimit {
     }
 }
 
-/// Looks for the limit between `low` and `high` (both above zero), on `points` values in geometric
-/// progression and then by bisection to the share `tolerance`.
+/// Searches for the limit between `low` and `high`, both positive. Scans `points` values in
+/// geometric progression, then bisects to the relative length `tolerance`.
 ///
 /// # Errors
-/// The first that `stable` returns.
+/// The first error of `stable`.
 pub fn stability_limit<E>(
     low: f64,
     high: f64,
@@ -91,8 +91,8 @@ mod tests {
         assert!((found - 1.0).abs() <= 1e-3, "{found}");
     }
 
-    /// Each interval of the scan is longer than the previous one by a constant ratio, and the limit
-    /// is the middle of the last bracket, which is at most as long as the tolerance.
+    /// Each interval of the scan is longer than the previous one by a constant ratio. The limit is
+    /// the middle of the last bracket, whose length is at most the tolerance.
     #[test]
     fn values_are_tried_in_geometric_progression() {
         let mut tried = Vec::new();

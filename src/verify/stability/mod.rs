@@ -1,11 +1,11 @@
 //! Stability: whether a run stays bounded, and the limit of a parameter.
 //!
-//! | module | holds |
+//! | module | contents |
 //! |---|---|
 //! | [`trial_result`](Trial) | verdict and figures of one run |
-//! | [`trial`](trial()) | one run: energy over that at the start, J, the largest speed |
+//! | [`trial`](trial()) | one run: energy relative to its initial value, J, largest speed |
 //! | [`amplification`](amplification()) | one step as a matrix, by running the subject itself |
-//! | [`radius`](spectral_radius) | the largest eigenvalue of that matrix |
+//! | [`radius`](spectral_radius) | the largest eigenvalue of the amplification matrix |
 //! | [`limit`](stability_limit()) | smallest value of a parameter that is not stable |
 //! | [`expectation`](StabilityExpectation) | expectations of suites |
 //! | [`outcome`](StabilityStudy) | the rows of a report |

@@ -6,44 +6,44 @@ use crate::verify::figure::RunFigure;
 use crate::verify::order::format_number::format_number;
 use crate::verify::study_results::StudyResults;
 
-/// Results of a stability study: one row for each value of the parameter that is swept.
+/// Results of a stability study: one row for each value of the swept parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StabilityStudy {
-    /// The parameter that is swept.
+    /// Swept parameter.
     pub swept: String,
-    /// The parameter whose limit is sought, if one is.
+    /// Parameter whose limit is sought, if any.
     pub sought: Option<String>,
-    /// Figures that tables show.
+    /// Figures for tables.
     pub figures: Vec<RunFigure>,
     /// The rows.
     pub rows: Vec<StabilityRow>,
 }
 
-/// One value of the parameter that is swept.
+/// Results for one value of the swept parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StabilityRow {
-    /// The value.
+    /// Value of the swept parameter.
     pub value: f64,
     /// The run, if no limit is sought.
     pub trial: Option<Trial>,
-    /// The limit of the sought parameter, if the study has one.
+    /// Stability limit, if the study seeks one.
     pub critical: Option<Critical>,
-    /// Why there is neither a run nor a limit.
+    /// Reason why there is neither a run nor a limit.
     pub refused: Option<String>,
 }
 
-/// Limit of stability, predicted and observed.
+/// Predicted and observed limit of stability.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Critical {
-    /// From the amplification matrix of a frozen configuration.
+    /// Prediction from the amplification matrix of a frozen configuration.
     pub predicted: Option<Prediction>,
-    /// Runs a share below and above the prediction, each with that share.
+    /// Runs below and above the prediction, each with its value as a share of the prediction.
     pub confirmed: Vec<(f64, Trial)>,
-    /// Limit by bisection of runs, if there is no prediction.
+    /// Limit from bisection of runs, if there is no prediction.
     pub observed: Option<StabilityLimit>,
 }
 
-/// Limit predicted by an amplification matrix.
+/// Limit predicted from an amplification matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
     /// Value at which the spectral radius exceeds one.
@@ -53,7 +53,7 @@ pub struct Prediction {
 }
 
 impl Critical {
-    /// The limit: predicted, or else observed.
+    /// The predicted limit, or the observed one without a prediction.
     pub fn limit(&self) -> Option<StabilityLimit> {
         self.predicted.map(|prediction| prediction.limit).or(self.observed)
     }
@@ -68,7 +68,7 @@ impl StudyResults for StabilityStudy {
 }
 
 impl StabilityStudy {
-    /// The verdicts that occur, or the sought limit.
+    /// The verdicts of the rows, or the limit that is sought.
     pub fn verdict(&self) -> String {
         if let Some(sought) = &self.sought {
             return format!("limit of {sought}");

@@ -1,13 +1,13 @@
-//! The spectral radius of a matrix, and the eigenvalue that has it.
+//! Computes the spectral radius of a matrix and the corresponding eigenvalue.
 
 use nalgebra::DMatrix;
 use nalgebra::linalg::Schur;
 
-/// Iterations of the QR algorithm after which powers of the matrix answer instead.
+/// Maximum number of QR iterations. After that the radius is computed from powers of the matrix.
 const PATIENCE: usize = 1_000;
 
-/// An entry below the diagonal counts as zero below this share of its neighbours on the diagonal. A
-/// threshold below some tens of rounding errors is never reached.
+/// Share of its diagonal neighbours below which an entry below the diagonal counts as zero.
+/// Thresholds below some tens of rounding errors are never reached.
 const SMALL: f64 = 1e-13;
 
 /// Number of squarings of the matrix: powers up to 2^30.
@@ -16,19 +16,18 @@ const SQUARINGS: i32 = 30;
 /// The largest modulus of an eigenvalue.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Radius {
-    /// The modulus; infinite if an entry of the matrix is not finite.
+    /// Modulus of the largest eigenvalue; infinite if an entry of the matrix is not finite.
     pub radius: f64,
     /// Real part and magnitude of the imaginary part of the largest eigenvalue, if it was computed.
-    /// At -1, the mode changes its sign in every step; a complex eigenvalue is a slower
-    /// oscillation.
+    /// At -1 the mode changes its sign in every step; a complex eigenvalue is a slower oscillation.
     pub eigenvalue: Option<(f64, f64)>,
 }
 
-/// The spectral radius, from the real Schur form of `A + s I` with s = |A|. Without the shift the
-/// QR algorithm does not converge for many amplification matrices: `nalgebra` compares an entry
-/// with its neighbours on the diagonal, and filters (PIC, MUSL) have defective zero eigenvalues,
-/// whose diagonal entries are rounding errors. If the algorithm does not converge with the shift
-/// either, the radius follows from Gelfand's formula, `|A^k|^(1/k)` with k = 2^30.
+/// Computes the spectral radius from the real Schur form of `A + s I` with s = |A|. Without this
+/// shift the QR algorithm does not converge for many amplification matrices. `nalgebra` compares an
+/// entry with its diagonal neighbours, and filters (PIC, MUSL) have defective zero eigenvalues with
+/// rounding errors on the diagonal. If the algorithm does not converge even with the shift, the
+/// radius is computed from Gelfand's formula, `|A^k|^(1/k)` with k = 2^30.
 pub fn spectral_radius(matrix: &DMatrix<f64>) -> Radius {
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return Radius { radius: f64::INFINITY, eigenvalue: None };
@@ -53,8 +52,8 @@ pub fn spectral_radius(matrix: &DMatrix<f64>) -> Radius {
     largest
 }
 
-/// The radius from repeated squaring. What powers lose by rounding is relative to the largest
-/// eigenvalue, and a defective one of multiplicity m costs (m - 1) ln(k)/k.
+/// Spectral radius from repeated squaring. Rounding errors of the powers are relative to the
+/// largest eigenvalue. A defective eigenvalue of multiplicity m causes the error (m - 1) ln(k)/k.
 fn by_powers(matrix: &DMatrix<f64>) -> f64 {
     let (mut power, mut logarithm) = (matrix.clone(), 0.0);
     for k in 0..=SQUARINGS {
@@ -69,8 +68,8 @@ fn by_powers(matrix: &DMatrix<f64>) -> f64 {
     libm::exp(logarithm)
 }
 
-/// The matrix times itself, summed in the order of its columns: the product of the library has
-/// another order, and uses fused operations on processors with wider registers.
+/// Squares the matrix, with sums in column order. The library's matrix product adds in another
+/// order, and uses fused operations on processors with wider registers.
 fn square(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let mut square = DMatrix::zeros(matrix.nrows(), matrix.ncols());
     for (mut into, factors) in square.column_iter_mut().zip(matrix.column_iter()) {
@@ -109,7 +108,7 @@ mod tests {
         assert!(spectral_radius(&two([f64::NAN, 0.0, 0.0, 1.0])).radius.is_infinite());
     }
 
-    /// A cyclic shift, for which QR without exceptional shifts does not converge.
+    /// A cyclic shift. QR without exceptional shifts does not converge for this matrix.
     #[test]
     fn a_shift_has_radius_one() {
         let shift = DMatrix::from_fn(7, 7, |i, j| f64::from(u8::from(i == (j + 1) % 7)));

@@ -1,18 +1,18 @@
-//! One run, watched for growth.
+//! Runs a subject and observes whether its energy grows.
 //!
-//! The energy is that of a small motion: the kinetic energy plus `V |sigma|^2 / (2 M)`, with the
-//! stiffness M against uniaxial strain. In 1-D and at small strain the second term is the strain
-//! energy; otherwise it measures the size of the stress, which is sufficient to detect growth. The
-//! energy is compared with its initial value, or, if the body starts at rest, with the energy of a
-//! strain of one.
+//! The energy is that of a small motion: the kinetic energy plus `V |sigma|^2 / (2 M)`, where M is
+//! the stiffness against uniaxial strain. In 1-D and at small strain the second term is the strain
+//! energy. Otherwise it measures the size of the stress, which is sufficient to detect growth. The
+//! energy is relative to its initial value. If the body starts at rest, it is relative to the
+//! energy of a unit strain.
 
 use super::trial_result::{Scales, Stability, Trial};
 use crate::subject::{Failure, Samples, Subject};
 use crate::verify::conservation::{Balance, ConservationError, Conserved};
 use crate::verify::error::norm::larger;
 
-/// Number of first steps with a check after every step; later checks are equally spaced. Growth
-/// that matters in ten thousand steps is slow, and fast growth shows in these first steps.
+/// Number of initial steps that are all checked; later checks are equally spaced. Fast growth shows
+/// in these steps. Growth that matters within ten thousand steps is slow.
 const FIRST: u64 = 64;
 const EVERY: u64 = 16;
 
@@ -21,8 +21,8 @@ pub(crate) fn is_looked_at(step: u64, steps: u64) -> bool {
     step <= FIRST || step.is_multiple_of(EVERY) || step == steps
 }
 
-/// Runs `subject` for `steps` steps, whose lengths (s) cycle through `dt`, or until it is unstable
-/// or fails.
+/// Runs `subject` for `steps` steps, whose lengths (s) cycle through `dt`. Stops if the run is
+/// unstable or fails.
 pub fn trial(subject: &mut dyn Subject, dt: &[f64], steps: u64, scales: &Scales) -> Trial {
     let mut monitor = TrialMonitor::new(subject, *scales);
     let mut lengths = dt.iter().cycle();
@@ -57,9 +57,9 @@ struct TrialMonitor {
     energy: f64,
     last: f64,
     speed: f64,
-    /// The largest kinetic energy met (J).
+    /// Largest kinetic energy so far (J).
     kinetic: f64,
-    /// That in the null space now, and the largest met (J).
+    /// Current and largest kinetic energy in the null space (J).
     null: f64,
     null_most: f64,
 }
@@ -109,7 +109,8 @@ impl TrialMonitor {
         }
     }
 
-    /// An energy that is not finite is a failure, not growth.
+    /// Result of a run that exceeded the energy bound. An energy that is not finite is a failure,
+    /// not growth.
     fn grown(self, subject: &dyn Subject, step: u64) -> Trial {
         let t = self.time;
         if !self.last.is_finite() {
@@ -161,12 +162,12 @@ impl TrialMonitor {
     }
 }
 
-/// Kinetic energy (J), without that of the centre of mass if `centred`.
+/// Kinetic energy (J), without the energy of the centre of mass if `centred`.
 fn kinetic(subject: &dyn Subject, centred: bool) -> f64 {
     let Some(totals) = subject.totals() else { return 0.0 };
     let square: f64 = totals.momentum.iter().map(|p| p * p).sum();
     let common = if centred { square / (2.0 * totals.mass) } else { 0.0 };
-    // Rounding may make the difference negative; NaN stays NaN.
+    // Rounding may make the difference negative. NaN remains NaN.
     let rest = totals.kinetic_energy - common;
     if rest < 0.0 { 0.0 } else { rest }
 }
@@ -187,13 +188,13 @@ fn length(components: &[f64]) -> f64 {
     components.iter().fold(0.0, |all, c| libm::hypot(all, *c))
 }
 
-/// Maximum number of particles with a neighbour search, which computes the distances of all pairs.
+/// Maximum number of particles for a neighbour search, which computes the distances of all pairs.
 const MOST: usize = 4096;
 
-/// Labels no further apart than this, in shortest distances, are neighbours along an axis.
+/// Maximum distance between neighbours along an axis, in units of the shortest distance.
 const NEAR: f64 = 1.2;
 
-/// The mean normal stress of each particle (Pa); `None` without stresses.
+/// Mean normal stress of each particle (Pa); `None` without stresses.
 fn pressures(samples: &Samples) -> Option<Vec<f64>> {
     let (n, d) = (samples.len(), samples.dimension.max(1));
     let mean =
@@ -201,8 +202,8 @@ fn pressures(samples: &Samples) -> Option<Vec<f64>> {
     (samples.stress.len() == n * d * d).then(|| (0..n).map(mean).collect())
 }
 
-/// The largest minus the smallest mean normal stress, over the largest in magnitude; NaN without
-/// stresses.
+/// Difference between the largest and the smallest mean normal stress, relative to the largest
+/// magnitude; NaN without stresses.
 pub(super) fn stress_spread(samples: &Samples) -> f64 {
     let pressures = pressures(samples).unwrap_or_default();
     let high = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -210,8 +211,9 @@ pub(super) fn stress_spread(samples: &Samples) -> f64 {
     (high - low) / high.abs().max(low.abs())
 }
 
-/// RMS difference between the mean normal stress of a particle and that of its neighbours, over the
-/// RMS of the mean normal stress. NaN without stresses or neighbours, or for too many particles.
+/// RMS difference between the mean normal stress of a particle and that of its neighbours, relative
+/// to the RMS of the mean normal stress. NaN without stresses or neighbours, or for too many
+/// particles.
 pub(super) fn checkerboard(samples: &Samples) -> f64 {
     let (n, d) = (samples.len(), samples.dimension.max(1));
     let Some(pressure) = pressures(samples).filter(|_| (2..=MOST).contains(&n)) else {
@@ -248,7 +250,7 @@ mod tests {
     use crate::verify::stability::outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
     use approx::assert_relative_eq;
 
-    /// One label of mass 2 under a stress of 1, with a kinetic energy (J) for each step.
+    /// One label of mass 2 under a stress of 1, with a given kinetic energy (J) for each step.
     struct Scripted {
         kinetic: Vec<f64>,
         step: usize,
@@ -291,7 +293,7 @@ mod tests {
         trial(&mut subject, &[1.0], kinetic.len() as u64 - 1, &scales)
     }
 
-    /// From 4 J to 12 and back to 2: that it grew is not forgotten.
+    /// The energy grows from 4 J to 12 J and returns to 2 J. The growth counts.
     #[test]
     fn the_largest_energy_of_a_run_decides() {
         let found = watched(&[3.0, 11.0, 1.0], false);
@@ -307,15 +309,15 @@ mod tests {
         assert_eq!(watched(&[3.0, 5.0, 1.0], false).verdict, Stability::Stable);
     }
 
-    /// A momentum of 4 kg m/s of 2 kg has 4 J, which are not part of the motion about the centre of
-    /// mass.
+    /// A momentum of 4 kg m/s of 2 kg has an energy of 4 J, which does not belong to the motion
+    /// relative to the centre of mass.
     #[test]
     fn a_common_motion_is_left_out_where_it_is_asked() {
         assert_relative_eq!(watched(&[5.0, 9.0], true).energy, 3.0, max_relative = 1e-14);
         assert_relative_eq!(watched(&[5.0, 9.0], false).energy, 10.0 / 6.0, max_relative = 1e-14);
     }
 
-    /// A run that has grown within bounds confirms no prediction, on either side of it.
+    /// A run with bounded growth does not confirm a prediction, neither below nor above the limit.
     #[test]
     fn bounded_growth_is_neither_stable_nor_unstable() {
         let trial = watched(&[3.0, 11.0, 1.0], false);
@@ -367,7 +369,7 @@ mod tests_of_checkerboard {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// A row of particles with these stresses.
+    /// A row of particles with the given stresses.
     fn row(stress: &[f64]) -> Samples {
         let n = stress.len();
         Samples {
@@ -391,7 +393,7 @@ mod tests_of_checkerboard {
         assert!(checkerboard(&row(&[])).is_nan());
     }
 
-    /// The third particle counts neither in the differences nor in the size.
+    /// The third particle counts neither in the differences nor in the mean size.
     #[test]
     fn particles_without_neighbours_have_no_part_in_it() {
         let apart = Samples { label: vec![0.0, 1.0, 9.0], ..row(&[1.0, 3.0, 2.0]) };

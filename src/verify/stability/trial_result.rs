@@ -1,4 +1,4 @@
-//! Results of a trial: verdict, figures, and the scales of the measurements.
+//! Results of a trial: verdict, figures, and the scales of the figures.
 
 use crate::named::named;
 use serde::{Deserialize, Serialize};
@@ -18,7 +18,7 @@ named! {
 }
 
 impl Stability {
-    /// Text in reports.
+    /// Name in reports.
     pub fn words(self) -> &'static str {
         match self {
             Self::BoundedGrowth => "bounded growth",
@@ -27,59 +27,61 @@ impl Stability {
     }
 }
 
-/// Scales of the measurements of a trial.
+/// Scales of the figures of a trial.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scales {
     /// Wave speed (m/s).
     pub speed: f64,
     /// Stiffness against uniaxial strain (Pa).
     pub modulus: f64,
-    /// Largest energy, over that at the start, of a run that is stable.
+    /// Maximum energy of a stable run, relative to its initial value.
     pub stable_below: f64,
-    /// Energy, over that at the start, beyond which a run is unstable and ends.
+    /// Energy, relative to its initial value, above which a run is unstable and ends.
     pub unstable_above: f64,
-    /// Whether the kinetic energy excludes that of the centre of mass: in a free body, the common
-    /// velocity is no measure of the motion.
+    /// Whether the kinetic energy excludes that of the centre of mass. The common velocity of a
+    /// free body does not indicate growth.
     pub centred: bool,
-    /// Whether the part of the velocities in the null space of the map to the grid is measured at
-    /// every check.
+    /// Whether every check measures the part of the velocities in the null space of the map to the
+    /// grid.
     pub null_space: bool,
 }
 
-/// Results of a run. Figures of a failed run are those up to its last step.
+/// Results of a run. Figures of a failed run cover the steps up to its failure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
     /// End of the run.
     pub verdict: Stability,
-    /// Reason if the run did not reach its end: the failure, the particle and the step.
+    /// Reason why the run did not reach its end, with the failure, the particle and the step.
     pub why: Option<String>,
     /// Number of steps.
     pub steps: u64,
-    /// The largest energy over that at the start.
+    /// Largest energy, relative to its initial value.
     pub energy: f64,
-    /// The energy at the end over that at the start.
+    /// Energy at the end, relative to its initial value.
     pub energy_kept: f64,
-    /// Kinetic energy at the end over that at the start; NaN if the latter is zero.
+    /// Kinetic energy at the end, relative to its initial value; NaN if the latter is zero.
     pub kinetic_kept: f64,
-    /// The largest relative change of the momentum.
+    /// Largest relative change of the momentum.
     pub momentum: f64,
-    /// The largest relative change of the angular momentum.
+    /// Largest relative change of the angular momentum.
     pub angular_momentum: f64,
-    /// The smallest J met.
+    /// Smallest J during the run.
     pub least_j: f64,
-    /// The largest speed met, over the wave speed.
+    /// Largest speed during the run, relative to the wave speed.
     pub speed: f64,
-    /// Kinetic energy in the null space of the map to the grid, at the end, over the largest
-    /// kinetic energy of the run; NaN if it is not measured.
+    /// Kinetic energy at the end in the null space of the map to the grid, relative to the largest
+    /// kinetic energy of the run. NaN if it is not measured.
     pub null_share: f64,
-    /// The largest kinetic energy met in the null space over the largest kinetic energy met.
+    /// Largest kinetic energy in the null space, relative to the largest kinetic energy of the run.
     pub largest_null_share: f64,
-    /// The largest minus the smallest mean normal stress over the largest in magnitude, at the end.
+    /// Difference between the largest and the smallest mean normal stress at the end, relative to
+    /// the largest magnitude.
     pub stress_spread: f64,
-    /// Changes of the pressure from particle to particle over its size, at the end.
+    /// Pressure changes between neighbouring particles at the end, relative to the mean size of the
+    /// pressure.
     pub checkerboard: f64,
-    /// The largest stress over the modulus, at the end.
+    /// Largest stress at the end, divided by the modulus.
     pub stress: f64,
-    /// The largest displacement (m), at the end.
+    /// Largest displacement (m) at the end.
     pub displacement: f64,
 }

@@ -1,28 +1,28 @@
-//! Cause if a case does not have the theoretical order: results of runs with one change.
+//! Determines why a case does not have the theoretical order, from runs with one change each.
 
 use crate::verify::order::fit::Interval;
 use crate::verify::order::hypothesis::OrderHypothesis;
 use crate::verify::verdict::judge::Judgement;
 use crate::verify::verdict::name::Verdict;
 
-/// Maximum ratio of the finest error after a change to that before, if the change is named although
-/// it does not restore the order.
+/// Maximum ratio of the finest error with a change to that without, for changes that are reported
+/// although they do not restore the order.
 const FALL: f64 = 0.75;
 
-/// Half of the width of the interval of an order that is settled.
+/// Maximum half-width of the interval of a settled order.
 const SETTLED: f64 = 0.15;
 
-/// An order that is raised rises by this.
+/// Minimum increase of a raised order.
 const RISE: f64 = 0.25;
 
-/// Orders that differ by less are the same.
+/// Maximum difference between orders that count as equal.
 const ALIKE: f64 = 0.1;
 
-/// Maximum ratio of the distances from the theoretical order, after the change over before, if the
-/// change restores the order.
+/// Maximum ratio of the distances from the theoretical order, with the change to without, for
+/// changes that restore the order.
 const CLOSER: f64 = 0.5;
 
-/// Effect of a change that shows the cause.
+/// Effect of a change that reveals the cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Evidence {
     /// The order is the theoretical one.
@@ -38,98 +38,97 @@ pub enum Evidence {
 pub struct ChangedRun {
     /// The change, as text.
     pub change: String,
-    /// The cause, if the change helps.
+    /// Cause that is inferred if the change helps.
     pub cause: &'static str,
     /// Change of the suite that restores the order.
     pub remedy: &'static str,
-    /// Why `check` refuses the suite with this change; `None` if it accepts the suite, or was not
-    /// run.
+    /// Reason why `check` rejects the suite with this change. `None` if it accepts the suite or was
+    /// not run.
     pub refusal: Option<String>,
-    /// Verdict on these levels, for an order near the theoretical one.
+    /// Verdict on these levels, for an expected order near the theoretical one.
     pub verdict: Verdict,
     /// Observed order on these levels.
     pub order: Option<Interval>,
-    /// The finest error.
+    /// Error on the finest level.
     pub error: f64,
-    /// The finest error over that of the unchanged case.
+    /// Finest error divided by that of the unchanged case.
     pub ratio: f64,
-    /// `ratio` over the ratio of the sizes of the two exact solutions.
+    /// `ratio` divided by the ratio of the sizes of the two exact solutions.
     pub relative_ratio: f64,
-    /// Whether the levels are finer, which makes their error smaller for any cause.
+    /// Whether the levels are finer. Finer levels have a smaller error regardless of the cause.
     pub is_finer: bool,
 }
 
-/// Kind of a [`KnownCause`], in the order in which findings are reported.
+/// Kind of a [`KnownCause`], in the order of reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum KnownCauseKind {
     /// The time step is longer than the stable time step.
     UnstableStep,
     /// Particles leave the grid.
     OutsideGrid,
-    /// The suite has an equilibrium, but the scene has no dissipation.
+    /// The suite has an equilibrium solution, but the scene has no dissipation.
     NoDamping,
-    /// The errors of an external solver are of the size of the solution on all levels.
+    /// The errors of an external solver are as large as the solution on all levels.
     AnotherProblem,
     /// The coarsest levels do not resolve the exact solution.
     CoarseLevels,
-    /// The exact solution is not smooth enough for the order of theory.
+    /// The exact solution is not smooth enough for the theoretical order.
     NotSmooth,
 }
 
-/// A cause that follows from the problem, the levels or the time steps, for any method.
+/// A cause that lies in the problem, the levels or the time steps, and affects any method.
 #[derive(Debug, Clone)]
 pub struct KnownCause {
-    /// Its kind.
+    /// Kind of the cause.
     pub kind: KnownCauseKind,
-    /// The cause, a clause without a full stop.
+    /// The cause, as a clause without a full stop.
     pub cause: String,
-    /// The figures that support the finding, in whole sentences.
+    /// Figures that support the finding, in whole sentences.
     pub evidence: String,
-    /// Change of the suite that removes the cause; `None` if there is none.
+    /// Change of the suite that removes the cause, if any.
     pub remedy: Option<String>,
-    /// Observed order without the cause, if it was measured.
+    /// Observed order without the cause, if measured.
     pub order: Option<Interval>,
-    /// Whether the observed order is the one that follows from the cause. Otherwise there is a
-    /// larger cause.
+    /// Whether the cause explains the observed order. Otherwise there is a larger cause.
     pub explains: bool,
 }
 
-/// A cause, by its evidence.
+/// A cause with its evidence.
 #[derive(Debug, Clone, Copy)]
 pub enum Cause<'a> {
     /// A property of the problem, the levels or the time steps.
     Known(&'a KnownCause),
-    /// A run with one change.
+    /// A run with one change, and the effect of the change.
     Run(&'a ChangedRun, Evidence),
 }
 
-/// The diagnosis of one case.
+/// Diagnosis of one case.
 #[derive(Debug, Clone)]
 pub struct Diagnosis {
     /// Name of the case.
     pub case: String,
-    /// Order of theory.
+    /// Theoretical order.
     pub formal_order: f64,
     /// Judgement of the unchanged case on all levels of the gate.
     pub judgement: Judgement,
-    /// Judgement of the unchanged case on the levels that are run again.
+    /// Judgement of the unchanged case on the repeated levels.
     pub finest: Judgement,
-    /// Finest error of the unchanged case.
+    /// Error of the unchanged case on the finest level.
     pub finest_error: f64,
-    /// Levels that are run again, by name.
+    /// Names of the repeated levels.
     pub levels: Vec<String>,
-    /// Whether the solver is external, so that its settings cannot be changed.
+    /// Whether the solver is external. Its settings then cannot be changed.
     pub is_external: bool,
-    /// Causes that are known without a change of the method.
+    /// Causes found without changing the method.
     pub findings: Vec<KnownCause>,
-    /// The runs with one change each.
+    /// Runs with one change each.
     pub runs: Vec<ChangedRun>,
-    /// Changes that were possible, and too expensive.
+    /// Changes that were possible but too expensive.
     pub skipped: Vec<String>,
 }
 
 impl Cause<'_> {
-    /// The cause, a clause without a full stop.
+    /// The cause, as a clause without a full stop.
     pub fn cause(&self) -> &str {
         match self {
             Self::Known(finding) => &finding.cause,
@@ -137,7 +136,7 @@ impl Cause<'_> {
         }
     }
 
-    /// Change of the suite that removes the cause; `None` if there is none that `check` accepts.
+    /// Change of the suite that removes the cause; `None` if `check` accepts no such change.
     pub fn remedy(&self) -> Option<&str> {
         match self {
             Self::Known(finding) => finding.remedy.as_deref(),
@@ -147,23 +146,23 @@ impl Cause<'_> {
 }
 
 impl Diagnosis {
-    /// Whether the case has the theoretical order, so that there is nothing to explain.
+    /// Whether the case has the theoretical order. There is then nothing to explain.
     pub fn is_sound(&self) -> bool {
         self.judgement.verdict == Verdict::Converging
     }
 
-    /// Whether a finding is certainly the cause, without further runs with one change.
+    /// Whether a finding is certainly the cause, so that no runs with one change are needed.
     pub fn is_known(&self) -> bool {
         self.findings.iter().any(|finding| finding.kind < KnownCauseKind::CoarseLevels)
     }
 
-    /// The finding of this kind, if there is one.
+    /// The finding of this kind, if any.
     pub fn finding(&self, kind: KnownCauseKind) -> Option<&KnownCause> {
         self.findings.iter().find(|finding| finding.kind == kind)
     }
 
-    /// The causes, the most likely first. A run or a level that restores the order of theory rules
-    /// out that the exact solution limits it.
+    /// The causes, starting with the most likely one. If a run or a level restores the theoretical
+    /// order, the exact solution does not limit the order.
     pub fn causes(&self) -> Vec<Cause<'_>> {
         use KnownCauseKind::{CoarseLevels, NotSmooth};
         if self.is_known() {
@@ -174,7 +173,7 @@ impl Diagnosis {
         let coarse = self.finding(CoarseLevels);
         let mut causes: Vec<_> = coarse.map(Cause::Known).into_iter().collect();
         if let Some((run, evidence)) = restored {
-            // Finer cells show the same as fewer coarse ones.
+            // Finer cells have the same effect as fewer coarse ones.
             let is_nearer = coarse
                 .is_none_or(|coarse| !run.is_finer && self.off(run.order) < self.off(coarse.order));
             causes.insert(if is_nearer { 0 } else { causes.len() }, Cause::Run(run, evidence));
@@ -182,7 +181,8 @@ impl Diagnosis {
         if restored.is_some() {
             return causes;
         }
-        // An order that rises was not limited by the exact solution, and may be limited now.
+        // If the order rises, the exact solution did not limit it before, although it may limit it
+        // now.
         let is_raised = run.is_some_and(|(_, evidence)| evidence == Evidence::Raised);
         let limit = self.finding(NotSmooth);
         let is_limited = limit.is_some_and(|limit| limit.explains && !is_raised);
@@ -198,16 +198,16 @@ impl Diagnosis {
         order.map_or(f64::INFINITY, |order| (order.value - self.formal_order).abs())
     }
 
-    /// The run that shows the cause, and its effect. If runs restore the order, it is the first of
-    /// those nearest to theory. Otherwise it is the first of those with the largest increase of the
-    /// order, if the order is settled. Otherwise it is the run with the largest decrease of the
-    /// error.
+    /// The run that reveals the cause, and the effect of its change. Of the runs that restore the
+    /// order, this is the first one nearest to theory. If none does, it is the first run with the
+    /// largest increase to a settled order. Otherwise it is the run with the largest decrease of
+    /// the error.
     pub fn found(&self) -> Option<(&ChangedRun, Evidence)> {
         let least = self.formal_order - OrderHypothesis::TOLERANCE;
         let is_near = self.finest.verdict == Verdict::Converging;
         let before = self.off(self.finest.order);
-        // An order close to the theoretical one counts as restored only if the new order is within
-        // its range.
+        // If the order was already close to theory, it counts as restored only if the new interval
+        // is within range.
         let restores = |run: &&ChangedRun| {
             let is_within = run.order.is_some_and(|order| order.low >= least);
             let is_nearer = self.off(run.order) <= CLOSER * before;
@@ -247,7 +247,7 @@ mod tests {
     use crate::verify::order::level::Level;
     use crate::verify::verdict::judge::judge;
 
-    /// A judgement with this verdict and order.
+    /// A judgement with the given verdict and order.
     fn found(verdict: Verdict, order: Interval) -> Judgement {
         let none = judge(&[Level::new(1.0, 1.0)], &OrderHypothesis::formal(2.0));
         Judgement { verdict, order: Some(order), ..none }
@@ -291,7 +291,7 @@ mod tests {
 
     use Verdict::{Converging, TooLow};
 
-    /// 2.05 is nearer to 2 than 1.7, and 2.4 is not.
+    /// 2.05 is nearer to 2 than 1.7; 2.4 is not.
     #[test]
     fn the_order_that_is_nearer_to_theory_is_restored() {
         let to = |value| (Converging, order(value, 0.05), 0.9);
@@ -300,8 +300,8 @@ mod tests {
         assert_eq!(evidence(&diagnosis(low, to(2.4))), None);
     }
 
-    /// An order whose interval leaves the theoretical range does not explain an order that was
-    /// nearly right.
+    /// An order whose interval extends beyond the theoretical range does not explain a nearly
+    /// correct order.
     #[test]
     fn an_order_nearly_right_is_restored_by_a_whole_interval() {
         let near = (Converging, order(1.95, 0.04));
@@ -310,14 +310,14 @@ mod tests {
         assert_eq!(evidence(&diagnosis(near, to(0.15))), None);
     }
 
-    /// 1.81 passes a threshold that 1.79 does not pass, but this explains nothing.
+    /// 1.81 passes a threshold that 1.79 fails, but this explains nothing.
     #[test]
     fn an_order_that_hardly_moves_is_not_restored() {
         let low = (TooLow, order(1.79, 0.05));
         assert_eq!(evidence(&diagnosis(low, (Converging, order(1.81, 0.05), 0.9))), None);
     }
 
-    /// A known cause of this kind, with the order 1.97 without its cause.
+    /// A known cause of the given kind, with the order 1.97 after its removal.
     fn finding(kind: KnownCauseKind) -> KnownCause {
         let (cause, evidence) = ("the finding".to_owned(), String::new());
         KnownCause {
@@ -344,7 +344,7 @@ mod tests {
         }
     }
 
-    /// If the order is restored, the exact solution does not limit it; a smaller error alone proves
+    /// If the order is restored, the exact solution does not limit it. A smaller error alone proves
     /// nothing.
     #[test]
     fn a_kink_is_the_cause_unless_the_order_is_restored() {
@@ -357,7 +357,8 @@ mod tests {
         assert_eq!(causes(&found), ["the cause"]);
     }
 
-    /// An order far below the limit of a kink has a larger cause, and one that rises had one.
+    /// An order far below the limit of a kink has a larger cause. An order that a change raises had
+    /// one too.
     #[test]
     fn a_kink_that_does_not_explain_the_order_comes_last() {
         let mut found = diagnosis((TooLow, order(0.8, 0.05)), (TooLow, order(1.2, 0.05), 0.6));
@@ -368,7 +369,7 @@ mod tests {
         assert_eq!(causes(&found), ["the cause", "the finding"]);
     }
 
-    /// Finer levels have a smaller error for any cause.
+    /// Finer levels have a smaller error regardless of the cause.
     #[test]
     fn a_smaller_error_of_finer_levels_is_no_evidence() {
         let mut found = diagnosis((TooLow, order(1.0, 0.05)), (TooLow, order(1.0, 0.05), 0.25));

@@ -1,5 +1,5 @@
-//! Shapes of a series that exclude an order. They are recognised by ratios of errors only, so that
-//! the units of the error and of `h` have no effect.
+//! Shapes of an error series that exclude an order. They are recognised by error ratios only, so
+//! that the units of the error and of `h` have no effect.
 
 use std::f64::consts::LN_2;
 
@@ -10,36 +10,37 @@ use crate::verify::order::window::{FEWEST_LEVELS, FLAT_ORDER};
 /// floor.
 const LEAST_GROWTH: f64 = LN_2;
 
-/// Maximum range of ln(error) on a floor: a factor of two, as for round-off noise of -+ 30 %.
+/// Maximum range of ln(error) on a floor: a factor of two, which allows round-off noise of -+ 30 %.
 const FLOOR_BAND: f64 = LN_2;
 
-/// Minimum loss due to a floor: over its levels the formal order would have halved the error.
+/// Minimum decrease in theory over the levels of a floor: the formal order would halve the error.
 const LEAST_LOSS: f64 = LN_2;
 
 /// Minimum number of levels of a floor, or of a divergence: two successive pairs.
 const FEWEST_OF_TREND: usize = 3;
 
-/// Minimum order before a floor, well above that of a flat series.
+/// Minimum order before a floor, well above the order of a flat series.
 const LEAST_FALL: f64 = 2.5 * FLAT_ORDER;
 
-/// Minimum mean change between levels in an oscillation, as a factor: larger than the noise on a
+/// Minimum mean change between levels in an oscillation, as a factor. It exceeds the noise on a
 /// floor.
 const LEAST_SWING: f64 = 1.5;
 
-/// Minimum ratio of total rise to total fall of an oscillation, or its inverse: a series with a
+/// Minimum ratio of total rise to total fall of an oscillation, or its inverse. A series with a
 /// smaller ratio has a trend.
 const BALANCE: f64 = 1.0 / 3.0;
 
-/// Minimum number of turns of an oscillation: a single outlier causes two turns.
+/// Minimum number of turns of an oscillation. A single outlier causes two turns.
 const TURNS: usize = 3;
 
-/// From which point on the error grows, if it does at the fine end.
+/// Index of the first level from which the error grows until the fine end; `None` if it does not
+/// grow.
 ///
-/// The first level, if the line through all points rises with an order below -0.2 and its
+/// This is the first level if the line through all points rises with an order below -0.2 and its
 /// confidence interval excludes zero. Otherwise the divergent part begins at the smallest error. It
-/// must have at least three levels and grow at least twofold. It must also end above the first
-/// error of the series by this factor, rise over its last two pairs, or have a rising line as
-/// above.
+/// must have at least three levels and grow at least twofold. It must also meet one of three
+/// conditions: it ends above the first error of the series by this factor, rises over its last two
+/// pairs, or has a rising line as above.
 pub(crate) fn divergence(points: &[LogPoint]) -> Option<usize> {
     if points.len() < FEWEST_LEVELS {
         return None;
@@ -69,9 +70,9 @@ fn line_rises(part: &[LogPoint]) -> bool {
         .is_some_and(|order| order.value < -FLAT_ORDER && order.high < 0.0)
 }
 
-/// The first point of a flat fine end: the longest tail whose errors lie in a band of a factor of
-/// two with an order of less than 0.2, after a part that fell (or from the first level on). `None`
-/// if even the formal order would have a negligible effect on the tail.
+/// Index of the first level of a flat fine end. This is the longest tail whose errors lie in a band
+/// of a factor of two with an order of less than 0.2. It must follow a decreasing part or begin at
+/// the first level. `None` if even the formal order would have a negligible effect on the tail.
 pub(crate) fn flat_tail(points: &[LogPoint], formal_order: f64) -> Option<usize> {
     let starts = 0..=points.len().checked_sub(FEWEST_OF_TREND)?;
     starts.into_iter().find(|&start| {
@@ -93,7 +94,7 @@ fn spread(points: &[LogPoint]) -> f64 {
     ys().fold(f64::NEG_INFINITY, f64::max) - ys().fold(f64::INFINITY, f64::min)
 }
 
-/// Whether the error has large rises and falls, without a clear trend.
+/// Whether the error rises and falls strongly without a clear trend.
 pub(crate) fn oscillates(points: &[LogPoint]) -> bool {
     let steps: Vec<f64> = points.windows(2).map(|pair| pair[1].y - pair[0].y).collect();
     let turns = steps.windows(2).filter(|s| s[0] * s[1] < 0.0).count();

@@ -1,16 +1,17 @@
-//! Cause of an error floor, determined by refining another axis.
+//! Determines the cause of an error floor by refining another axis.
 //!
-//! The shape of a series shows that the error has stopped falling, but not the cause. So the finest
-//! level is run again with the spacing of another axis halved, one axis at a time. (An error is a
-//! sum of terms in h, dt and other spacings; refining one spacing does not change the other terms:
-//! Roy 2005, J. Comput. Phys. 205, 131.)
+//! The shape of a series shows that the error has stopped decreasing, but not why. So the finest
+//! level is repeated with half the spacing of another axis, one axis at a time. An error is a sum
+//! of terms in h, dt and other spacings, and refining one spacing does not change the other terms
+//! (Roy 2005, J. Comput. Phys. 205, 131).
 
 use crate::named::named;
 use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::Axis;
 
 /// Minimum relative decrease of the error that identifies an axis when its spacing is halved. The
-/// axis then causes at least half of the error if its order is one, and a third if it is two.
+/// axis then causes at least half of the error if its order is one, and a third if its order is
+/// two.
 const LEAST_FALL: f64 = 0.25;
 
 named! {
@@ -29,28 +30,28 @@ named! {
     }
 }
 
-/// A run of the finest level with the spacing of one axis halved.
+/// A run of the finest level with half the spacing of one axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe {
-    /// The axis.
+    /// Axis with half the spacing.
     pub axis: Axis,
-    /// The error with the spacing halved, or why there is none.
+    /// Error with half the spacing, or the reason why there is none.
     pub error: Result<f64, String>,
 }
 
-/// Errors of the finest level with another spacing halved.
+/// Errors of the finest level with half the spacing of other axes.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Floor {
-    /// The error of the finest level.
+    /// Error of the finest level.
     pub error: f64,
     /// One probe for each refined axis.
     pub probes: Vec<Probe>,
 }
 
 impl Floor {
-    /// Cause of the floor: of the axes that lower the error enough, the one with the largest
-    /// effect; [`FloorCause::Nothing`] only if every probe reached its end.
+    /// Cause of the floor. Of the axes that lower the error enough, this is the one with the
+    /// largest effect. [`FloorCause::Nothing`] requires that every probe reached its end.
     pub fn cause(&self) -> Option<FloorCause> {
         let errors =
             self.probes.iter().filter_map(|probe| Some((probe, *probe.error.as_ref().ok()?)));
@@ -67,13 +68,13 @@ impl Floor {
         }
     }
 
-    /// Whether every probe has a figure.
+    /// Whether every probe has a finite error.
     fn told(&self) -> bool {
         let told = |probe: &Probe| probe.error.as_ref().is_ok_and(|error| error.is_finite());
         !self.probes.is_empty() && self.probes.iter().all(told)
     }
 
-    /// The finding with its figures.
+    /// The finding with its figures, as a sentence.
     pub fn sentence(&self) -> String {
         let of = |axis: Axis| format!("the error is that of the {}", axis.noun());
         let finding = match self.cause() {
@@ -95,7 +96,7 @@ impl Floor {
                 Err(reason) => format!("with {halved} the run fails ({reason})"),
             }
         };
-        // Failed probes come last, so that the figures are together.
+        // Failed probes come last, so that the figures are listed together.
         let (told, failed): (Vec<_>, Vec<_>) =
             self.probes.iter().partition(|probe| probe.error.is_ok());
         let probes: Vec<String> = told.into_iter().chain(failed).enumerate().map(probe).collect();

@@ -1,16 +1,16 @@
-//! From levels to a verdict: the decision sequence.
+//! Determines the verdict from levels: the decision sequence.
 //!
-//! 1. Is every level sound, and the hypothesis testable? Else `failed`.
-//! 2. Are there four usable levels? Else `too few levels`.
-//! 3. Does the error go up and down, grow, or rest on a floor? `oscillatory`, `divergent`, `at
-//!    floor`, by the shapes of [`error_trend`] and, for an exact zero, as such.
-//! 4. Which levels are asymptotic? The [`window`]; if it leaves out levels at the fine end, the
-//!    verdict is `at floor`.
-//! 5. Has the order settled there? A wide interval or a drift is `pre-asymptotic`.
-//! 6. `too good` or `too low` if the order itself is out of the expected range; `converging` if
-//!    the whole interval is inside; `pre-asymptotic` if only the order is.
+//! 1. Is every level valid, and the hypothesis testable? Otherwise `failed`.
+//! 2. Are there four usable levels? Otherwise `too few levels`.
+//! 3. Does the error oscillate, grow, or stop at a floor? `oscillatory`, `divergent` or `at floor`,
+//!    by the shapes of [`error_trend`]; an error of exactly zero is also a floor.
+//! 4. Which levels are asymptotic? See [`window`]. If the window excludes levels at the fine end,
+//!    the verdict is `at floor`.
+//! 5. Has the order settled over these levels? A wide interval or a drift is `pre-asymptotic`.
+//! 6. `too good` or `too low` if the order is outside the expected range; `converging` if the whole
+//!    interval is inside; `pre-asymptotic` if only the order is inside.
 //!
-//! Levels that are not usable are only used in step 1.
+//! Unusable levels take part in step 1 only.
 
 use std::ops::Range;
 
@@ -28,40 +28,40 @@ use crate::verify::order::window::{FEWEST_LEVELS, Window};
 /// differ by 0.5.
 pub(crate) const SETTLED: f64 = 0.25;
 
-/// High orders settle relatively: the same interval about the order 2, as a fraction.
+/// Maximum half-width relative to the order, for high orders. At order 2 both limits are equal.
 const SETTLED_FRACTION: f64 = SETTLED / 2.0;
 
-/// A drift counts if the order changes along the window by more than the width of the usual
-/// expected range,
+/// Minimum change of the order along the window that counts as a drift: the width of the usual
+/// expected range.
 const DRIFT: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
-/// and if noise would show it only once in a thousand series.
+/// Significance of a drift: noise would cause one in only one of a thousand series.
 const DRIFT_RISK: f64 = 0.001;
 
-/// Smallest number of levels before a floor whose order is reported (not claimed).
+/// Minimum number of levels before a floor for which an order is reported (but not claimed).
 const FEWEST_BEFORE_FLOOR: usize = 3;
 
-/// A verdict with the figures that led to it.
+/// A verdict and the figures that led to it.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Judgement {
     /// The verdict.
     pub verdict: Verdict,
-    /// The observed order with its 95 % confidence interval: over the asymptotic levels, the levels
-    /// before a floor, or the divergent levels. `None` if there is none.
+    /// Observed order with its 95 % confidence interval, over the asymptotic levels, the levels
+    /// before a floor, or the divergent levels. `None` if no order was fitted.
     pub order: Option<Interval>,
-    /// The levels that the order was fitted to, as indices into `levels`.
+    /// Levels in the fit of the order, as indices into `levels`.
     pub window: Option<Vec<usize>>,
-    /// The order between level `k - 1` and level `k`, usable or not.
+    /// Order between level `k - 1` and level `k`, for usable and unusable levels.
     pub pairwise: Vec<Option<f64>>,
-    /// The levels from coarse to fine, identical ones merged.
+    /// Levels from coarse to fine, with identical ones merged.
     pub levels: Vec<Level>,
     /// The reason, in one line.
     pub reason: String,
 }
 
 impl Judgement {
-    /// The judgement of `levels` levels without errors.
+    /// Judgement of `levels` levels without errors.
     pub(crate) fn without_comparison(levels: usize) -> Self {
         Self {
             verdict: Verdict::TooFewLevels,
@@ -92,7 +92,7 @@ pub fn judge(levels: &[Level], hypothesis: &OrderHypothesis) -> Judgement {
     }
 }
 
-/// A verdict with its window as points.
+/// A verdict, with its window as points.
 struct Finding {
     verdict: Verdict,
     reason: Reason,
@@ -115,7 +115,7 @@ impl Finding {
     }
 }
 
-/// The usable levels.
+/// The usable levels of a series.
 struct JudgedSeries {
     /// Levels with a non-zero error, on logarithmic axes.
     points: Vec<LogPoint>,
@@ -156,7 +156,7 @@ impl JudgedSeries {
             .then(|| Finding::without_order(Verdict::Oscillatory, Reason::Oscillatory))
     }
 
-    /// Asked only if the finest error is not zero.
+    /// A divergence, unless the finest error is zero.
     fn divergent(&self) -> Option<Finding> {
         let finest = self.points.last()?.level;
         let start = error_trend::divergence(&self.points)?;
@@ -167,7 +167,7 @@ impl JudgedSeries {
         })
     }
 
-    /// An exact zero is an error at or below round-off.
+    /// A floor, if an error is zero. An error of exactly zero is at or below round-off.
     fn zero(&self, hypothesis: &OrderHypothesis) -> Option<Finding> {
         let from = *self.zeros.first()?;
         let end = self.points.partition_point(|p| p.level < from);
@@ -180,8 +180,8 @@ impl JudgedSeries {
         Some(self.before_floor(self.points[start].level, start, hypothesis))
     }
 
-    /// Judgement at a floor that begins with the level `from`; the order is that of the asymptotic
-    /// part of the points before `end`.
+    /// Judgement with a floor that begins at the level `from`. The order is fitted to the
+    /// asymptotic part of the points before `end`.
     fn before_floor(&self, from: usize, end: usize, hypothesis: &OrderHypothesis) -> Finding {
         let window = window::asymptotic(&self.points, end, hypothesis.formal_order);
         self.floor(from, window.map_or(0..end, |window| window.range))
@@ -211,7 +211,7 @@ impl JudgedSeries {
     }
 }
 
-/// The last two questions.
+/// The last two steps of the decision sequence.
 fn settled(
     window: &Window,
     points: &[LogPoint],
@@ -239,7 +239,7 @@ fn settled(
     (verdict, Reason::Against { verdict, range, overlaps })
 }
 
-/// The change of the order along the window; `None` unless it is significant and material.
+/// Change of the order along the window; `None` unless it is significant and material.
 fn drift(window: &Window, points: &[LogPoint]) -> Option<f64> {
     let drift = window.line.drift(points)?;
     (drift.p_value < DRIFT_RISK && drift.change.abs() > DRIFT).then_some(drift.change)

@@ -1,4 +1,4 @@
-//! The verdict: from levels and their orders to a name, with the reason.
+//! Verdicts: their names, how they follow from levels, and the reasons.
 
 pub(crate) mod diagnosis;
 pub(crate) mod error_trend;

@@ -3,33 +3,33 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// Behaviour of a series of errors. Only [`Verdict::Converging`] supports a claimed order; every
-/// other verdict is a reason why it is not supported.
+/// Behaviour of a series of errors. Only [`Verdict::Converging`] supports a claimed order. Every
+/// other verdict states why the order is not supported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Verdict {
     /// The whole confidence interval of the observed order lies in the expected range.
     Converging,
-    /// The observed order is above the expected range: a defect in the test, not a success.
+    /// The observed order is above the expected range, which indicates a defect of the test.
     TooGood,
     /// The observed order is below the expected range.
     TooLow,
-    /// The error stops falling: round-off, or the plateau of an axis that was not refined.
+    /// The error stops decreasing because of round-off or an axis that was not refined.
     AtFloor,
-    /// The error falls, but no window of levels has a settled order.
+    /// The error decreases, but no window of levels has a settled order.
     PreAsymptotic,
     /// The error rises and falls under refinement without a clear trend.
     Oscillatory,
     /// The error grows under refinement.
     Divergent,
-    /// A level failed, or a figure is not one that an error or a spacing can have.
+    /// A level failed, or a number is invalid as an error or a spacing.
     Failed,
-    /// Fewer usable levels than any claim needs.
+    /// Fewer usable levels than any claim requires.
     TooFewLevels,
 }
 
 impl Verdict {
-    /// Every verdict, in the order of their declaration.
+    /// All verdicts, in the order of declaration.
     pub const ALL: [Self; 9] = [
         Self::Converging,
         Self::TooGood,
@@ -42,7 +42,7 @@ impl Verdict {
         Self::TooFewLevels,
     ];
 
-    /// The verdict as reports print it.
+    /// Name of the verdict in reports.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Converging => "converging",

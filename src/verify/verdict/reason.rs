@@ -1,4 +1,4 @@
-//! The reason of a verdict, in one line with figures.
+//! States the reason of a verdict in one line with figures.
 
 use super::name::Verdict;
 use crate::verify::order::fit::{FittedLine, LogPoint};
@@ -6,7 +6,7 @@ use crate::verify::order::format_number::{format_number, order};
 use crate::verify::order::level::{Axis, Level};
 use crate::verify::order::window::FEWEST_LEVELS;
 
-/// Reason of a verdict; levels by index.
+/// Reason of a verdict, with levels as indices.
 pub(crate) enum Reason {
     Failed(String),
     TooFew {
@@ -24,7 +24,7 @@ pub(crate) enum Reason {
     Drift {
         change: f64,
     },
-    /// The order is outside the expected range; `overlaps`: whether its interval overlaps the
+    /// The order is outside the expected range. `overlaps` is true if its interval overlaps the
     /// range.
     Against {
         verdict: Verdict,
@@ -34,7 +34,7 @@ pub(crate) enum Reason {
 }
 
 impl Reason {
-    /// The sentence, which ends with the order over the window if there is one.
+    /// The reason as a sentence, with the order over the window if there is one.
     pub(crate) fn sentence(
         &self,
         levels: &[Level],

@@ -1,18 +1,19 @@
-//! The canvas of a figure: the SVG document with its paper, a title of several lines, and estimated
-//! widths of texts.
+//! The canvas of a figure: the SVG document with its background, a title of several lines, and
+//! estimated text widths.
 
 use super::style::{FONT, INK, PAPER, TEXT, TITLE, style_sheet};
 use super::svg::{SvgElement, number};
 
-/// Margin at both ends of a title, and above it.
+/// Margins at both ends of a title, and above it (px).
 const LEFT: f64 = 14.0;
 const TOP: f64 = 18.0;
-/// Height of a line of a title.
+/// Height of a title line (px).
 const LEADING: f64 = 17.0;
-/// Maximum number of lines of a title.
+/// Maximum number of title lines.
 const LINES: usize = 3;
 
-/// An empty document of this size (px), with the colour of paper. Screen readers read `title`.
+/// An empty document of this size (px), with the paper colour as background. Screen readers read
+/// `title`.
 pub(crate) fn canvas(width: f64, height: f64, title: &str) -> SvgElement {
     let mut svg = SvgElement::new("svg")
         .set("xmlns", "http://www.w3.org/2000/svg")
@@ -29,7 +30,7 @@ pub(crate) fn canvas(width: f64, height: f64, title: &str) -> SvgElement {
     svg
 }
 
-/// A title in the middle above a figure of some width (px).
+/// A centred title above a figure of a given width (px).
 #[derive(Debug)]
 pub(crate) struct Heading {
     lines: Vec<String>,
@@ -37,7 +38,7 @@ pub(crate) struct Heading {
 }
 
 impl Heading {
-    /// Wraps `title` into lines of at most `width`.
+    /// Wraps `title` into lines that fit a figure of this `width`.
     pub(crate) fn new(title: &str, width: f64) -> Self {
         Self { lines: wrap(title, 1.12 * TITLE, width - 2.0 * LEFT, LINES), width }
     }
@@ -57,11 +58,11 @@ impl Heading {
     }
 }
 
-/// Estimated width of `text` in pixels at font size `size`; in SVG, the actual width depends on the
-/// viewer.
+/// Estimated width of `text` (px) at the font size `size`. The actual width of SVG text depends on
+/// the viewer.
 ///
-/// The estimate follows `DejaVu Sans`, the widest face of the font stack: a text that fits in it
-/// also fits in Helvetica.
+/// The estimate is based on `DejaVu Sans`, the widest face of the font stack. A text that fits in
+/// it also fits in Helvetica.
 pub(crate) fn text_width(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum::<f64>() * size
 }
@@ -73,13 +74,13 @@ fn advance(c: char) -> f64 {
         'I' | ':' | ';' | '/' | '-' | '(' | ')' | '[' | ']' | 'f' | 't' | 'r' => 0.4,
         'm' | 'w' | 'M' | 'W' | '@' | '%' => 0.99,
         'A'..='Z' | '=' | '+' | '<' | '>' | '~' | '\u{2212}' | '×' | '&' | '#' => 0.8,
-        // Glyphs beyond Latin and Greek may be as wide as high.
+        // Glyphs outside Latin and Greek may be as wide as they are high.
         '\u{0}'..='\u{3ff}' => 0.63,
         _ => 1.0,
     }
 }
 
-/// Shortens `text` to `limit` pixels, with an ellipsis for removed text.
+/// Shortens `text` to `limit` pixels, with an ellipsis in place of the removed text.
 pub(crate) fn shorten(text: &str, size: f64, limit: f64) -> String {
     if text_width(text, size) <= limit {
         return text.to_owned();
@@ -97,8 +98,8 @@ pub(crate) fn shorten(text: &str, size: f64, limit: f64) -> String {
     short
 }
 
-/// Breaks `text` into lines of at most `limit` pixels; a line beyond `lines` is not begun, the
-/// last one is shortened instead.
+/// Wraps `text` into at most `lines` lines of at most `limit` pixels. If it does not fit, the last
+/// line is shortened.
 pub(crate) fn wrap(text: &str, size: f64, limit: f64, lines: usize) -> Vec<String> {
     let mut wrapped: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

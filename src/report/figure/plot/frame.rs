@@ -46,15 +46,15 @@ impl PlotAxis {
 const NOTE_LEADING: f64 = 16.0;
 const NOTE_GAP: f64 = 6.0;
 const MARGIN: f64 = 18.0;
-/// Height below the frame for tick labels and the axis label.
+/// Height below the frame (px) for tick labels and the axis label.
 const FOOT: f64 = 52.0;
-/// Minimum width of the labels of the vertical axis, so that most frames have the same width.
+/// Minimum width of the vertical axis labels (px), so that most frames have the same width.
 const LABELS: f64 = 38.0;
 const MAJOR: f64 = 6.0;
 const MINOR: f64 = 3.0;
 
 impl<'a> Plot<'a> {
-    /// Computes the layout of the frame with space for titles and tick labels around it.
+    /// Computes the frame layout, with space for titles and tick labels around the frame.
     pub(crate) fn new(titles: Titles<'a>, x: Scale, y: Scale) -> Self {
         let heading = Heading::new(titles.title, WIDTH);
         let y = PlotAxis::new(y, FRAME_HEIGHT, |_| TEXT + 10.0);
@@ -71,7 +71,7 @@ impl<'a> Plot<'a> {
         Self { titles, heading, frame, x, y }
     }
 
-    /// The pixel of a pair of values.
+    /// Converts a pair of values to pixels.
     pub(crate) fn place(&self, (x, y): Pt) -> Pt {
         (
             self.frame.x + self.x.scale.fraction(x) * self.frame.w,
@@ -79,23 +79,23 @@ impl<'a> Plot<'a> {
         )
     }
 
-    /// The horizontal pixel of a value.
+    /// Converts a value to a horizontal pixel position.
     pub(crate) fn place_x(&self, x: f64) -> f64 {
         self.frame.x + self.x.scale.fraction(x) * self.frame.w
     }
 
-    /// Pixels per working unit (per decade on logarithmic axes) along both axes.
+    /// Pixels per working unit along both axes. On logarithmic axes the unit is a decade.
     pub(crate) fn pace(&self) -> Pt {
         (self.frame.w / self.x.scale.span(), self.frame.h / self.y.scale.span())
     }
 
-    /// A text in the middle of an empty frame.
+    /// A text at the centre of an empty frame.
     pub(crate) fn placeholder(&self, text: &str) -> SvgElement {
         let middle = (self.frame.x + self.frame.w / 2.0, self.frame.y + self.frame.h / 2.0);
         SvgElement::text(middle, "middle", text).set("fill", NEUTRAL)
     }
 
-    /// The complete document: `layers` over the grid, then `legend` and `notes` below the frame.
+    /// The complete document: `layers` above the grid, and `legend` and `notes` below the frame.
     pub(crate) fn document(
         &self,
         layers: &[SvgElement],
@@ -191,7 +191,7 @@ impl<'a> Plot<'a> {
     }
 }
 
-/// Width of the line-and-marker sample before a text.
+/// Width (px) of the line-and-marker sample in front of a legend text.
 pub(crate) const KEY: f64 = 30.0;
 
 const KEY_GAP: f64 = 7.0;
@@ -202,7 +202,7 @@ const LEGEND_MARGIN: f64 = 10.0;
 /// Maximum number of columns of a legend.
 const MAX_COLUMNS: usize = 4;
 
-/// One line of the legend.
+/// One entry of the legend.
 #[derive(Clone, Debug)]
 pub(crate) struct LegendEntry {
     key: SvgElement,
@@ -210,7 +210,7 @@ pub(crate) struct LegendEntry {
 }
 
 impl LegendEntry {
-    /// An entry whose `key` is drawn from (0, 0) to ([`KEY`], 0).
+    /// Creates an entry. Its `key` is drawn from (0, 0) to ([`KEY`], 0).
     pub(crate) fn new(key: SvgElement, text: &str) -> Self {
         let text = shorten(text, TEXT, WIDTH - 2.0 * LEGEND_MARGIN - KEY - KEY_GAP);
         Self { key, text }
@@ -221,7 +221,7 @@ impl LegendEntry {
     }
 }
 
-/// All entries, in as many columns as fit the width of the figure.
+/// All legend entries, in as many columns as fit into the figure.
 #[derive(Clone, Debug)]
 pub(crate) struct Legend {
     entries: Vec<LegendEntry>,
@@ -229,7 +229,7 @@ pub(crate) struct Legend {
 }
 
 impl Legend {
-    /// A legend of `entries`.
+    /// Creates the legend of `entries`.
     pub(crate) fn new(entries: Vec<LegendEntry>) -> Self {
         let rows = |columns: usize| entries.len().div_ceil(columns).max(1);
         let fits = |rows: &usize| legend_width(&entries, *rows) <= WIDTH - 2.0 * LEGEND_MARGIN;
@@ -242,7 +242,7 @@ impl Legend {
         if self.entries.is_empty() { 0.0 } else { LEGEND_ROW * self.rows as f64 + LEGEND_MARGIN }
     }
 
-    /// The legend in the middle of the figure, its upper edge at `top`.
+    /// The legend, centred in the figure, with its upper edge at `top`.
     pub(crate) fn draw(&self, top: f64) -> SvgElement {
         let mut group = SvgElement::new("g").set("class", "legend");
         let mut left = (WIDTH - legend_width(&self.entries, self.rows)) / 2.0;

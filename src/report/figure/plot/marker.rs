@@ -1,4 +1,4 @@
-//! Markers: one outline per series, one filling per meaning.
+//! Markers: the outline depends on the series, the filling on the role of the level.
 
 use super::style::{MarkerShape, PAPER};
 use super::svg::{Pt, SvgElement};
@@ -6,21 +6,21 @@ use super::svg::{Pt, SvgElement};
 /// Filling of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fill {
-    /// In the colour of the series.
+    /// Filled with the colour of the series.
     Solid,
-    /// White inside.
+    /// Filled with the paper colour.
     Hollow,
-    /// White inside with a cross.
+    /// Filled with the paper colour, with a cross inside.
     Crossed,
 }
 
-/// Nominal radius of a marker.
+/// Nominal radius of a marker (px).
 pub(crate) const RADIUS: f64 = 4.2;
 
-/// A crossed marker is larger, so that the cross inside is visible in print.
+/// Radius of a crossed marker (px), larger so that the cross is visible in print.
 const CROSSED_RADIUS: f64 = 5.6;
 
-/// A marker centred at `at`.
+/// Draws a marker centred at `at`.
 pub(crate) fn draw(shape: MarkerShape, fill: Fill, colour: &str, at: Pt) -> SvgElement {
     let radius = match fill {
         Fill::Solid | Fill::Hollow => RADIUS,
@@ -49,7 +49,7 @@ pub(crate) fn draw(shape: MarkerShape, fill: Fill, colour: &str, at: Pt) -> SvgE
     crossed
 }
 
-/// An arrow from `tail` straight up to `tip`: the value is beyond the frame.
+/// An arrow from `tail` straight up to `tip`, for a value beyond the frame.
 pub(crate) fn arrow_up(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
     let mut arrow =
         SvgElement::new("g").set("fill", "none").set("stroke", colour).at("stroke-width", 1.3);
@@ -59,7 +59,7 @@ pub(crate) fn arrow_up(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
     arrow
 }
 
-/// Distance of the centroid of a triangle below the centre of the marker, in radii.
+/// Vertical distance of a triangle's centroid below the centre of the marker, in radii.
 fn lowered(shape: MarkerShape) -> f64 {
     match shape {
         MarkerShape::Up => 0.2,

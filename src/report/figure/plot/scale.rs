@@ -1,15 +1,15 @@
-//! Conversion of values to positions along an axis.
+//! Converts values to positions along an axis.
 
 use super::canvas::text_width;
 use super::style::{SUPERSCRIPT, TEXT};
 use super::svg::{Pt, SvgElement};
 
-/// The working coordinate of an axis, which is linear in pixels.
+/// Working coordinate of an axis. It is linear in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ScaleKind {
     /// The value divided by a power of ten.
     Linear {
-        /// The power of ten which all tick labels share; 0 when they are plain decimals.
+        /// Exponent of the power of ten that all tick labels have in common; 0 for plain decimals.
         power: i32,
     },
     /// The decimal logarithm of the value.
@@ -24,27 +24,27 @@ pub(crate) struct Scale {
     hi: f64,
 }
 
-/// Free space at both ends of an axis as fractions of its length.
+/// Free space at the ends of an axis, as shares of its length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pad {
-    /// At the low end.
+    /// Share at the low end.
     pub(crate) lo: f64,
-    /// At the high end.
+    /// Share at the high end.
     pub(crate) hi: f64,
 }
 
-/// Minimum length of a logarithmic axis (decades), so that rounding noise between equal errors does
-/// not fill the figure.
+/// Minimum length of a logarithmic axis (decades), so that rounding noise of equal errors does not
+/// fill the figure.
 const MIN_DECADES: f64 = 0.5;
 
-/// Minimum length of a linear axis, as a fraction of its largest value, for the same reason.
+/// Minimum length of a linear axis, as a share of its largest value, for the same purpose.
 const MIN_SPREAD: f64 = 1e-7;
 
-/// Magnitude (close to the subnormal numbers) below which a value is drawn as zero.
+/// Magnitude below which a value is drawn as zero, near the subnormal numbers.
 const TINY: f64 = 1e-290;
 
 impl Scale {
-    /// A logarithmic axis over the positive finite `values`.
+    /// Creates a logarithmic axis for the positive finite `values`.
     pub(crate) fn log(values: impl Iterator<Item = f64>, pad: Pad) -> Self {
         let logs = values.filter(|v| v.is_finite() && *v > 0.0).map(libm::log10);
         let (lo, hi) = range(logs).unwrap_or((-1.0, 0.0));
@@ -52,7 +52,7 @@ impl Scale {
         Self::padded(ScaleKind::Log, lo - widen, hi + widen, pad)
     }
 
-    /// A linear axis over the finite `values`.
+    /// Creates a linear axis for the finite `values`.
     pub(crate) fn linear(values: impl Iterator<Item = f64>, pad: Pad) -> Self {
         let (lo, hi) = range(values.filter(|v| v.is_finite())).unwrap_or((0.0, 1.0));
         let largest = lo.abs().max(hi.abs());
@@ -61,7 +61,7 @@ impl Scale {
         } else {
             libm::floor(libm::log10(largest)) as i32
         };
-        // Dividing before taking differences avoids overflow at the extremes of f64.
+        // Dividing before subtracting avoids overflow at the extremes of f64.
         let unit = libm::pow(10.0, f64::from(power));
         let (lo, hi, largest) = (lo / unit, hi / unit, largest / unit);
         let widen = if largest < TINY {
@@ -79,7 +79,7 @@ impl Scale {
         Self { kind, lo: lo - pad.lo * span, hi: hi + pad.hi * span }
     }
 
-    /// Which working coordinate the axis uses.
+    /// Working coordinate of the axis.
     pub(crate) fn kind(&self) -> ScaleKind {
         self.kind
     }
@@ -136,7 +136,8 @@ impl Label {
         Self { base: format!("{value:.decimals$}").replace('-', "\u{2212}"), exponent: None }
     }
 
-    /// `base` with a superscript: "10", a multiple of it, or "×10" for a factor shared by an axis.
+    /// `base` with a superscript. `base` is "10", a multiple of it, or "×10" for the common factor
+    /// of an axis.
     pub(crate) fn power(base: &str, exponent: i32) -> Self {
         Self { base: base.to_owned(), exponent: Some(exponent) }
     }
@@ -146,13 +147,13 @@ impl Label {
         text_width(&self.base, TEXT) + text_width(&self.superscript(), SUPERSCRIPT)
     }
 
-    /// The label with its baseline anchored at `at`.
+    /// The label, with its baseline anchored at `at`.
     pub(crate) fn draw(&self, at: Pt, anchor: &str) -> SvgElement {
         if self.exponent.is_none() {
             return SvgElement::text(at, anchor, &self.base);
         }
-        // Two texts that meet at `joint` instead of one text with a raised part: some converters
-        // anchor each part of a text separately.
+        // The label consists of two texts that meet at `joint`, because some converters anchor each
+        // part of a text with superscripts separately.
         let left_of_joint = text_width(&self.base, TEXT);
         let joint = match anchor {
             "start" => at.0 + left_of_joint,

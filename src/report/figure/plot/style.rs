@@ -1,37 +1,37 @@
-//! Sizes, colours, and the marks that distinguish series.
+//! Sizes, colours and marks that distinguish series.
 
-/// Width of a figure in pixels, so that texts still have 9 pixels on a narrow screen.
+/// Width of a figure (px). On a narrow screen texts then still have 9 pixels.
 pub(crate) const WIDTH: f64 = 440.0;
-/// Height of the frame around the data in pixels.
+/// Height of the frame around the data (px).
 pub(crate) const FRAME_HEIGHT: f64 = 256.0;
 
-/// The font stack: sans-serif faces with the same metrics as far as possible.
+/// Font stack of sans-serif faces with similar metrics.
 pub(crate) const FONT: &str = "Helvetica, Arial, 'DejaVu Sans', sans-serif";
-/// Size of labels and legend texts.
+/// Font size of labels and legend texts (px).
 pub(crate) const TEXT: f64 = 12.0;
-/// Size of exponents.
+/// Font size of exponents (px).
 pub(crate) const SUPERSCRIPT: f64 = 11.0;
-/// Size of the title.
+/// Font size of the title (px).
 pub(crate) const TITLE: f64 = 13.0;
 
-/// Paper, and the inside of hollow markers.
+/// Colour of the paper and of the inside of hollow markers.
 pub(crate) const PAPER: &str = "#ffffff";
-/// Texts, frame and ticks.
+/// Colour of texts, frame and ticks.
 pub(crate) const INK: &str = "#222222";
-/// Grid lines.
+/// Colour of grid lines.
 pub(crate) const GRID: &str = "#e3e3e3";
-/// Inside of slope triangles.
+/// Colour of the inside of slope triangles.
 pub(crate) const SHADE: &str = "#f3f3f3";
-/// Colour of everything that belongs to no series: keys of the marks, slope triangles.
+/// Colour of elements that belong to no series: keys of marks, slope triangles.
 pub(crate) const NEUTRAL: &str = "#4d4d4d";
-/// The exact solution: light, because the computed curves are drawn over it.
+/// Colour of the exact solution. It is light, because computed curves are drawn over it.
 pub(crate) const EXACT: &str = "#929292";
-/// Methods that are there for comparison only.
+/// Colour of methods that are drawn for comparison only.
 pub(crate) const CONTEXT: &str = "#8e8e8e";
-/// The Pareto front, a band below all lines.
+/// Colour of the Pareto front, a band behind all lines.
 pub(crate) const FRONT: &str = "#fbe9a6";
 
-/// Colours on light paper, with their replacements on dark paper.
+/// Colours of the light theme with their replacements in the dark theme.
 const PALETTE: [(&str, &str); 8] = [
     (PAPER, "#15181e"),
     (INK, "#e6e6e6"),
@@ -43,8 +43,9 @@ const PALETTE: [(&str, &str); 8] = [
     (FRONT, "#4a4a2a"),
 ];
 
-/// Colours of series on light and on dark paper, after Okabe and Ito. Yellow is excluded, and
-/// orange and sky blue are darker on light paper: WCAG 2.2 (1.4.11) requires a contrast of 3:1.
+/// Colours of series in the light and the dark theme, after Okabe and Ito. Yellow is excluded, and
+/// orange and sky blue are darker in the light theme, because WCAG 2.2 (1.4.11) requires a contrast
+/// of 3:1.
 const SERIES: [(&str, &str); 7] = [
     ("#0072b2", "#4ba6e3"),
     ("#d55e00", "#f0803c"),
@@ -55,9 +56,9 @@ const SERIES: [(&str, &str); 7] = [
     ("#000000", "#ffffff"),
 ];
 
-/// The style sheet for dark colours, for readers who prefer them. Elements have light colours as
-/// attributes, so that the figure does not change in print and in programs without `light-dark()`.
-/// Colours outside the palette, such as those of fields, do not change.
+/// Style sheet of the dark theme, for readers who prefer it. Elements have light colours as
+/// attributes, so that figures do not change in print and in programs without `light-dark()`.
+/// Colours outside the palette, such as those of map fields, do not change.
 pub(crate) fn style_sheet() -> String {
     let rule = |(light, dark): &(&str, &str)| {
         let colour = format!("light-dark({light},{dark})");
@@ -83,7 +84,7 @@ pub(crate) enum MarkerShape {
     Star,
 }
 
-/// The appearance of one series.
+/// Style of one series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Look {
     /// Colour of line and marker.
@@ -108,8 +109,8 @@ const SHAPES: [MarkerShape; 8] = [
 const DASHES: [&str; 8] =
     ["6 2.5", "1.5 2", "9 2.5 1.5 2.5", "3 2", "12 3", "6 2 1.5 2 1.5 2", "4 4", "1.5 4"];
 
-/// The appearance of the series at `index`. Colours and shapes have coprime periods, so that
-/// their combination repeats only after 56 series.
+/// Style of the series at `index`. Colours and shapes have coprime periods, so their combinations
+/// repeat only after 56 series.
 pub(crate) fn look(index: usize) -> Look {
     Look {
         colour: SERIES[index % SERIES.len()].0,
@@ -118,7 +119,7 @@ pub(crate) fn look(index: usize) -> Look {
     }
 }
 
-/// Contrast of two colours `#rrggbb` by WCAG 2.2, from 1 to 21.
+/// Contrast ratio of two colours `#rrggbb` by WCAG 2.2, from 1 to 21.
 #[cfg(test)]
 pub(crate) fn contrast(a: &str, b: &str) -> f64 {
     let luminance = |colour: &str| {
@@ -163,7 +164,7 @@ mod tests {
         assert!((contrast(a, b) - ratio).abs() < 0.005, "{}", contrast(a, b));
     }
 
-    /// A colour of the palette on light paper and on dark paper.
+    /// A palette colour in the light and in the dark theme.
     fn schemes(light: &str) -> [&'static str; 2] {
         let mut all = PALETTE.iter().chain(&SERIES);
         all.find(|colour| colour.0 == light).map(|colour| [colour.0, colour.1]).expect(light)

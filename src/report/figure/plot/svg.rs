@@ -1,13 +1,13 @@
-//! The SVG writer: an element owns its attributes and its content, already escaped.
+//! Writes SVG. An element stores its attributes and its content in escaped form.
 //!
-//! The document is built as a tree, so that tags are always balanced.
+//! The document is built as a tree, so tags are always balanced.
 
 use std::fmt::Write as _;
 
-/// A position on the canvas in pixels, y downwards.
+/// A position on the canvas (px), with y pointing downwards.
 pub(crate) type Pt = (f64, f64);
 
-/// An axis-parallel box.
+/// An axis-aligned rectangle (px).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rect {
     pub(crate) x: f64,
@@ -17,12 +17,12 @@ pub(crate) struct Rect {
 }
 
 impl Rect {
-    /// The right-hand side.
+    /// Position of the right edge.
     pub(crate) fn right(&self) -> f64 {
         self.x + self.w
     }
 
-    /// The lower side.
+    /// Position of the lower edge.
     pub(crate) fn bottom(&self) -> f64 {
         self.y + self.h
     }
@@ -63,17 +63,17 @@ impl SvgElement {
         Self::new(name).set("points", &list)
     }
 
-    /// A text whose baseline is anchored at `at` (`start`, `middle` or `end`).
+    /// A text anchored at `at`; `anchor` is `start`, `middle` or `end`.
     pub(crate) fn text(at: Pt, anchor: &str, text: &str) -> Self {
         Self::new("text").at("x", at.0).at("y", at.1).set("text-anchor", anchor).content(text)
     }
 
-    /// A style sheet, whose text is not escaped.
+    /// A style sheet. Its text is not escaped.
     pub(crate) fn style(sheet: &str) -> Self {
         Self { content: sheet.to_owned(), ..Self::new("style") }
     }
 
-    /// Sets a textual attribute.
+    /// Sets an attribute to a text.
     pub(crate) fn set(mut self, name: &str, value: &str) -> Self {
         let _ = write!(self.attributes, " {name}=\"{}\"", escape(value));
         self
@@ -91,7 +91,7 @@ impl SvgElement {
         self
     }
 
-    /// Appends a child on its own line.
+    /// Appends a child element on a new line.
     pub(crate) fn add(&mut self, child: &Self) {
         self.content.push('\n');
         self.content.push_str(&child.render());
@@ -108,13 +108,13 @@ impl SvgElement {
     }
 }
 
-/// A coordinate with two decimals, without negative zero: equal figures must have equal bytes.
+/// A coordinate with two decimals. Zero is never negative, so that equal figures have equal bytes.
 pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     if text == "-0.00" { "0.00".to_owned() } else { text }
 }
 
-/// Escapes markup; characters which XML 1.0 forbids become the replacement character.
+/// Escapes markup. Characters that XML 1.0 forbids become the replacement character.
 fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

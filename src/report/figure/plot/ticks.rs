@@ -3,7 +3,7 @@
 use super::scale::Label;
 use super::scale::{Scale, ScaleKind};
 
-/// One tick; a tick with a label is a major one.
+/// One tick. Ticks with a label are major ticks.
 #[derive(Clone, Debug)]
 pub(crate) struct Tick {
     /// Position along the axis from 0 to 1.
@@ -12,20 +12,20 @@ pub(crate) struct Tick {
     pub(crate) label: Option<Label>,
 }
 
-/// Number of decades of a logarithmic axis below which it also has labels between powers of ten.
+/// Number of decades below which a logarithmic axis has labels between powers of ten.
 const SHORT: f64 = 2.0;
 
-/// Between these powers of ten a short logarithmic axis shows plain numbers.
+/// Range of exponents in which a short logarithmic axis has plain numbers as labels.
 const WRITTEN_OUT: (f64, f64) = (-3.0, 4.0);
 
-/// The digits at which a decade is ticked.
+/// Digits with a tick within a decade.
 const DIGITS: [i32; 9] = [1, 2, 3, 4, 5, 6, 7, 8, 9];
 
-/// With more decades than this the ticks within them would merge.
+/// Number of decades above which ticks within decades would merge.
 const TICKED_DECADES: f64 = 8.0;
 
-/// The densest ticks whose labels do not touch on an axis of `length` pixels; `extent` is the space
-/// of a label along the axis, including its margin.
+/// Chooses the densest ticks whose labels do not touch on an axis of `length` pixels. `extent` is
+/// the space that a label requires along the axis, including its margin.
 pub(crate) fn choose(scale: &Scale, length: f64, extent: impl Fn(&Label) -> f64) -> Vec<Tick> {
     let fits = |ticks: &Vec<Tick>| {
         let major: Vec<_> = ticks
@@ -45,7 +45,7 @@ pub(crate) fn choose(scale: &Scale, length: f64, extent: impl Fn(&Label) -> f64)
     choices.swap_remove(chosen.unwrap_or(choices.len() - 1))
 }
 
-/// Ticks at multiples of 1, 2 or 5 times a power of ten, about `count` of them labelled.
+/// Ticks at multiples of 1, 2 or 5 times a power of ten, with about `count` labels.
 fn linear(scale: &Scale, count: u32) -> Vec<Tick> {
     let (lo, hi) = scale.ends();
     let raw = (hi - lo) / f64::from(count);
@@ -61,7 +61,7 @@ fn linear(scale: &Scale, count: u32) -> Vec<Tick> {
     let step = digit * libm::pow(10.0, power);
     let decimals = (-power).max(0.0) as usize;
     let minor = step / parts as f64;
-    // The ends have ticks even if rounding puts them just outside.
+    // Ends of the axis have ticks even if rounding puts these just outside.
     let first = libm::ceil(lo / minor - 1e-6) as i64;
     let last = libm::floor(hi / minor + 1e-6) as i64;
     (first..=last)
@@ -76,7 +76,7 @@ fn linear(scale: &Scale, count: u32) -> Vec<Tick> {
         .collect()
 }
 
-/// Ticks at powers of ten, every `stride`-th labelled.
+/// Ticks at powers of ten, with a label at every `stride`-th one.
 fn decades(scale: &Scale, stride: i32) -> Vec<Tick> {
     let within = if stride == 1 && scale.span() <= TICKED_DECADES { &DIGITS } else { &DIGITS[..1] };
     log_ticks(scale, within, |digit, power| {
@@ -84,9 +84,10 @@ fn decades(scale: &Scale, stride: i32) -> Vec<Tick> {
     })
 }
 
-/// Labels at 1, 2 and 5 times a power of ten, or with more digits if there are fewer than three.
+/// Ticks with labels at 1, 2 and 5 times a power of ten, or at more digits if there would be fewer
+/// than three labels.
 fn short_log(scale: &Scale) -> Vec<Vec<Tick>> {
-    // One notation for the whole axis.
+    // The whole axis uses one notation.
     let (lo, hi) = scale.ends();
     let written_out = lo >= WRITTEN_OUT.0 && hi <= WRITTEN_OUT.1;
     let labelled = |ticked: &[i32], shown: &[i32]| {
@@ -127,7 +128,7 @@ fn log_ticks(
     for power in libm::floor(lo) as i32..=libm::ceil(hi) as i32 {
         for &digit in digits {
             let at = scale.fraction_of_working(f64::from(power) + libm::log10(f64::from(digit)));
-            // The ends have ticks even if rounding puts them just outside.
+            // Ends of the axis have ticks even if rounding puts these just outside.
             if (-1e-9..=1.0 + 1e-9).contains(&at) {
                 let label = label(digit, power);
                 ticks.push(Tick { at, label });

@@ -6,52 +6,51 @@ use super::scale::Pad;
 use super::style::{FRAME_HEIGHT, NEUTRAL, SHADE, TEXT};
 use super::svg::{Pt, SvgElement};
 
-/// A slope triangle by the length of its sides (px).
+/// A slope triangle, defined by the lengths of its sides (px).
 #[derive(Clone, Copy, Debug)]
 struct Triangle {
     order: f64,
     run: f64,
     rise: f64,
-    /// Width of the captions and gaps at its side.
+    /// Width of the captions and gaps next to the triangle (px).
     captions: f64,
 }
 
 impl Triangle {
-    /// Whether the triangle is neither too flat nor too narrow; false for sides that are not
-    /// finite.
+    /// Whether the triangle is neither too flat nor too narrow; false if a side is not finite.
     fn is_drawn(&self) -> bool {
         self.run >= SHORTEST && self.rise >= SHORTEST
     }
 }
 
-/// The slope triangles of a figure, side by side in the lower right corner.
+/// The slope triangles of a figure, next to each other in the lower right corner.
 #[derive(Clone, Debug)]
 pub(crate) struct TriangleRow {
     triangles: Vec<Triangle>,
-    /// Maximum width of the row, for any vertical axis.
+    /// Maximum width of the row (px), for any vertical axis.
     widest: f64,
 }
 
-/// Length of both sides (px) if the slope on paper is 1. Triangles of other slopes have the same
-/// area.
+/// Length of both sides (px) for a slope of 1 in the figure. Triangles with other slopes have the
+/// same area.
 const SIDE: f64 = 44.0;
 /// Maximum length of a side (px).
 const LONGEST: f64 = 52.0;
-/// Minimum length of a side (px): a shorter one could not be read as a slope.
+/// Minimum length of a side (px). A shorter side would not be recognisable as a slope.
 const SHORTEST: f64 = 8.0;
 /// Maximum width of the row as a share of the frame.
 const WIDEST: f64 = 0.85;
-/// Distance from the frame, and between a triangle and the caption of another (px).
+/// Distance to the frame, and between a triangle and the caption of the previous one (px).
 const GAP: f64 = 12.0;
 /// Height of the caption below a triangle (px).
 const CAPTION: f64 = 14.0;
-/// Distance between a triangle and the caption at its side (px).
+/// Distance between a triangle and the caption next to it (px).
 const CAPTION_GAP: f64 = 5.0;
-/// Distance from the data (px); a marker reaches about six pixels from its centre.
+/// Distance to the data (px). A marker extends about six pixels from its centre.
 const CLEAR: f64 = 14.0;
 
 impl TriangleRow {
-    /// Triangles of `orders` for the axes of `plot`.
+    /// Creates triangles for `orders` on the axes of `plot`.
     pub(crate) fn new(orders: &[f64], plot: &Plot) -> Self {
         let (across, up) = plot.pace();
         let slot = WIDEST * plot.frame.w / orders.len().max(1) as f64;
@@ -68,7 +67,7 @@ impl TriangleRow {
         Self { triangles, widest }
     }
 
-    /// Orders whose triangles would be too flat, too steep or too small to be readable.
+    /// Orders with triangles that would be too flat, too steep or too small to be readable.
     pub(crate) fn left_out(&self) -> impl Iterator<Item = f64> {
         self.triangles.iter().filter(|triangle| !triangle.is_drawn()).map(|triangle| triangle.order)
     }
@@ -77,11 +76,11 @@ impl TriangleRow {
         self.triangles.iter().filter(|triangle| triangle.is_drawn())
     }
 
-    /// Share of the frame that must be free below the data so that triangles do not touch `paths`.
-    /// `plot` is drawn with `pad` at the ends of its vertical axis; `paths` are its pixels.
+    /// Share of the frame that must be free below the data, so that triangles do not touch `paths`
+    /// (px). `plot` is drawn with `pad` at the ends of its vertical axis.
     ///
-    /// A wider strip compresses the data, so that the triangles become lower. A triangle that is
-    /// too narrow now may then be drawn, so that all heights count.
+    /// A wider strip compresses the data and makes the triangles lower. A triangle that is too
+    /// narrow at first may then be drawn, so the heights of all triangles count.
     pub(crate) fn strip(&self, plot: &Plot, paths: &[Vec<Pt>], pad: Pad) -> f64 {
         let highest = self.triangles.iter().map(|t| t.rise).fold(0.0, f64::max);
         let left = plot.frame.right() - self.widest - CLEAR;
@@ -98,7 +97,7 @@ impl TriangleRow {
         if rest > 0.0 { f64::max(pad.lo, (needed - share * (1.0 - pad.hi)) / rest) } else { pad.lo }
     }
 
-    /// The triangles, each with its run and its slope.
+    /// Draws the triangles, each with its run and its slope.
     pub(crate) fn draw(&self, plot: &Plot) -> SvgElement {
         let bottom = plot.frame.bottom() - GAP - CAPTION;
         let width: f64 = self.drawn().map(|triangle| triangle.run + triangle.captions).sum();
@@ -124,7 +123,7 @@ impl TriangleRow {
     }
 }
 
-/// The lowest pixel of a path to the right of `left`.
+/// Lowest pixel of a path to the right of `left`.
 fn lowest_right_of(path: &[Pt], left: f64) -> Option<f64> {
     let points = path.iter().filter(|point| point.0 >= left).map(|point| point.1);
     let crossing = path.windows(2).filter(|ends| ends[0].0 < left && ends[1].0 >= left);
@@ -135,7 +134,7 @@ fn lowest_right_of(path: &[Pt], left: f64) -> Option<f64> {
     points.chain(crossing).max_by(f64::total_cmp)
 }
 
-/// An order in the usual notation: thirds as fractions, others as short decimals.
+/// An order in the usual notation: thirds as fractions, other values as short decimals.
 pub(crate) fn name(order: f64) -> String {
     const TOLERANCE: f64 = 0.005;
     let thirds = libm::round(3.0 * order);

@@ -19,10 +19,10 @@ const COLUMNS: usize = 60;
 /// Maximum number of characters along the second axis.
 const ROWS: usize = 14;
 
-/// Width of a character over the height of a line.
+/// Width of a character divided by the height of a line.
 const ASPECT: f64 = 0.5;
 
-/// Face with its condition or load: `left: fixed`.
+/// Name of a face with its condition or loads: `left: fixed`.
 fn label(scene: &Scene, number: usize, face: &SceneFace) -> String {
     let loads: Vec<&str> =
         scene.loads_on(LoadTarget::Face(number)).map(|load| load.effect.name()).collect();
@@ -30,8 +30,9 @@ fn label(scene: &Scene, number: usize, face: &SceneFace) -> String {
     format!("{}: {state}", face.name)
 }
 
-/// The scene as text, one character per part of the grid: `.` if it is empty, `#` (or the number of
-/// the body, if there are several) if it contains material. Empty for a suite without a scene.
+/// The scene as text, with one character for each part of the grid: `.` if it is empty, `#` (or the
+/// number of the body, if there are several) if it contains material. Empty for a suite without a
+/// scene.
 pub fn sketch_text(suite: &Suite) -> Vec<String> {
     let Some(view) = View::of(suite) else { return Vec::new() };
     let size = view.size();

@@ -1,4 +1,4 @@
-//! Bodies on the canvas: rims with their holes, coloured by material.
+//! Draws bodies: rims with their holes, coloured by material.
 
 use super::view::View;
 use crate::report::figure::plot::style::{INK, look};
@@ -8,17 +8,17 @@ use crate::suite::model::Scene;
 /// Opacity of a body, so that the grid stays visible.
 const OPACITY: &str = "0.35";
 
-/// Maximum distance of equal points, relative to the size of the body: rounding error.
+/// Maximum distance between points that count as equal, relative to the size of the body.
 const ROUNDING: f64 = 1e-9;
 
-/// The closed lines around a body in the plane of the first two axes (m).
+/// Closed lines around a body in the plane of the first two axes (m).
 pub(super) fn rims(view: &View, body: &Scene) -> Vec<Vec<Pt>> {
     let Some(outline) = &body.outline else {
         let (low, high) = view.rise(body);
         let (left, right) = (body.from[0], body.to[0]);
         return vec![vec![(left, low), (right, low), (right, high), (left, high)]];
     };
-    // A line that returns to its start is a rim; the next point starts another one.
+    // A line that returns to its start closes a rim. The next point starts another one.
     let tolerance = ROUNDING * (body.to[0] - body.from[0]);
     let mut rims: Vec<Vec<Pt>> = vec![Vec::new()];
     for point in outline.trace() {
@@ -34,7 +34,7 @@ pub(super) fn rims(view: &View, body: &Scene) -> Vec<Vec<Pt>> {
     rims
 }
 
-/// Colours of the bodies, one for each material and density.
+/// Colours of the bodies. Bodies with the same material and density have the same colour.
 pub(super) fn colours(scene: &Scene) -> Vec<&'static str> {
     let mut known: Vec<String> = Vec::new();
     let mut colour = |body: &Scene| {
@@ -49,7 +49,8 @@ pub(super) fn colours(scene: &Scene) -> Vec<&'static str> {
     scene.each().iter().map(&mut colour).collect()
 }
 
-/// A body with its holes. In a scene of several bodies it is labelled `number_of_body`.
+/// Draws a body with its holes. If the scene has several bodies, it is labelled with
+/// `number_of_body`.
 pub(super) fn draw(view: &View, body: &Scene, number_of_body: usize, colour: &str) -> SvgElement {
     let mut path = String::new();
     let rims = rims(view, body);
@@ -73,7 +74,7 @@ pub(super) fn draw(view: &View, body: &Scene, number_of_body: usize, colour: &st
     group
 }
 
-/// Colour sample before the text of a body.
+/// Colour sample in front of the description of a body.
 pub(super) fn swatch((x, y): Pt, colour: &str) -> SvgElement {
     let square = SvgElement::new("rect").at("x", x).at("y", y - 9.0).at("width", 10.0);
     let square = square.at("height", 10.0).set("fill", colour).set("fill-opacity", OPACITY);

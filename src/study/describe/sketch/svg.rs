@@ -10,7 +10,7 @@ use crate::subject::PlaneState;
 use crate::suite::model::Suite;
 use crate::suite::scene::face::FACES;
 
-/// Cells narrower than this (px) would be a grey field.
+/// Minimum cell width (px) for which cells are drawn. Smaller cells would appear as a grey area.
 const FINEST: f64 = 3.0;
 
 /// Height of a line of text below the scene.
@@ -26,7 +26,7 @@ const NAMES: f64 = 12.0;
 const VALUES: f64 = 142.0;
 
 /// The scene as an SVG document: cells of the coarsest level, bodies, faces with their conditions
-/// and loads, and the rest as text; `None` for a suite without a scene.
+/// and loads, and the rest as text. `None` for a suite without a scene.
 pub fn sketch_svg(suite: &Suite) -> Option<String> {
     let view = View::of(suite)?;
     let colours = shape::colours(&view.scene);
@@ -73,7 +73,7 @@ pub fn sketch_svg(suite: &Suite) -> Option<String> {
     Some(svg.render() + "\n")
 }
 
-/// A row below the scene, its name and its value in lines.
+/// A row below the scene, with its name and value split into lines.
 struct Row {
     name: Vec<String>,
     value: Vec<String>,
@@ -86,7 +86,7 @@ impl Row {
     }
 }
 
-/// The rows below the scene: the direction of view, and the statement of the problem.
+/// Rows below the scene: the direction of view, and the statement of the problem.
 fn words(view: &View) -> Vec<Row> {
     let cells = |axis: usize| libm::round(view.size()[axis] / view.h);
     let counts = match view.scene.dimension() {
@@ -103,7 +103,7 @@ fn words(view: &View) -> Vec<Row> {
     let mut statement = statement::Rows::new();
     statement::scene(&view.scene, &mut statement);
     rows.extend(statement.into_iter().filter(|(name, _)| name != "grid"));
-    // Neighbouring faces with the same text share a row.
+    // Neighbouring faces with equal text share a row.
     let is_face = |name: &str| FACES.contains(&name);
     let alike = rows.chunk_by(|a, b| is_face(&a.0) && is_face(&b.0) && a.1 == b.1);
     let row = |alike: &[(String, String)]| {
@@ -122,7 +122,7 @@ fn grid(view: &View) -> SvgElement {
     let mut group = SvgElement::new("g").set("stroke", GRID).at("stroke-width", 0.8);
     for (axis, length) in view.size().into_iter().enumerate() {
         let count = libm::round(length / view.h) as usize;
-        // If cells are too small to be visible, only the boundary of the grid is drawn.
+        // If cells are too small to be drawn, only the boundary of the grid is drawn.
         let fine = view.h * view.scale()[axis] < FINEST;
         for k in (0..=count).step_by(if fine { count.max(1) } else { 1 }) {
             let x = view.from[axis] + k as f64 * view.h;
@@ -136,7 +136,7 @@ fn grid(view: &View) -> SvgElement {
     group
 }
 
-/// Coordinates of the corners of the grid, below the grid and to its left.
+/// Coordinates of the grid corners, below the grid and on its left.
 fn corners(view: &View) -> SvgElement {
     let mut group = SvgElement::new("g");
     let low = view.place((view.from[0], view.from[1]));

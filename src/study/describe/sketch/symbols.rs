@@ -8,18 +8,18 @@ use crate::report::figure::plot::svg::{Pt, SvgElement};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
-/// Distance between hatches, rollers and arrows along a face.
+/// Distances (px) between hatches or rollers, and between arrows, along a face.
 const STEP: f64 = 9.0;
 const ARROW_STEP: f64 = 26.0;
 
-/// Distance by which symbols extend from a face.
+/// Distances (px) by which hatches or rollers, and arrows, extend from a face.
 const REACH: f64 = 8.0;
 const ARROW: f64 = 20.0;
 
-/// Normal share of a traction below which it is drawn along the face.
+/// Share of the normal component below which a traction is drawn along the face.
 const ALONG: f64 = 0.3;
 
-/// A face on the canvas: its ends, and the direction out of the body.
+/// A face on the canvas: its ends and its outward direction.
 struct Edge {
     ends: [Pt; 2],
     out: Pt,
@@ -41,20 +41,20 @@ impl Edge {
         libm::hypot(b.0 - a.0, b.1 - a.1)
     }
 
-    /// The point at a share of the way along the face, `away` pixels out of it.
+    /// The point at a relative position along the face, `away` pixels outside it.
     fn at(&self, share: f64, away: f64) -> Pt {
         let ([a, b], out) = (self.ends, self.out);
         (a.0 + share * (b.0 - a.0) + away * out.0, a.1 + share * (b.1 - a.1) + away * out.1)
     }
 
-    /// Places along the face, about `step` apart.
+    /// Relative positions along the face, about `step` apart.
     fn shares(&self, step: f64) -> impl Iterator<Item = f64> {
         let count = libm::floor(self.length() / step).max(1.0) as usize;
         (0..count).map(move |k| (k as f64 + 0.5) / count as f64)
     }
 
     /// Tail and tip of an arrow in `direction`. Under pressure the tip is at the face, under
-    /// tension the tail; an arrow along the face is drawn at a distance from it.
+    /// tension the tail is. An arrow along the face is drawn at a distance from it.
     fn loaded(&self, share: f64, direction: Option<Pt>) -> (Pt, Pt) {
         let (ux, uy) = direction.unwrap_or(self.out);
         let (x, y) = (ARROW * ux, ARROW * uy);
@@ -73,7 +73,7 @@ impl Edge {
         line.set("stroke", colour).at("stroke-width", width)
     }
 
-    /// Strokes of a wall that starts `away` from the face.
+    /// Draws the hatching of a wall that starts `away` pixels from the face.
     fn hatching(&self, away: f64, group: &mut SvgElement) {
         let lean = 0.5 * REACH / self.length();
         for share in self.shares(STEP) {
@@ -83,7 +83,7 @@ impl Edge {
     }
 }
 
-/// The first two components of the traction (Pa) of a load at a share of the way along its face.
+/// First two components of a load's traction (Pa) at a relative position along its face.
 fn traction(view: &View, load: &ListedLoad, face: &SceneFace, share: f64, t: f64) -> Pt {
     let scene = &view.scene;
     let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
@@ -96,8 +96,8 @@ fn traction(view: &View, load: &ListedLoad, face: &SceneFace, share: f64, t: f64
     (component(0), component(1))
 }
 
-/// Ends of a face (m) along the other axis; for a body with an outline, the part of the rim that
-/// lies on the face.
+/// Ends of a face (m) along the other axis. For a body with an outline these are the ends of the
+/// part of the rim on the face.
 fn ends(view: &View, face: &SceneFace, x: f64) -> [f64; 2] {
     let (scene, other) = (&view.scene, 1 - face.axis);
     if scene.mapped.is_some() {
@@ -118,7 +118,7 @@ fn ends(view: &View, face: &SceneFace, x: f64) -> [f64; 2] {
     }
 }
 
-/// Symbols of the condition and the loads of a face in the plane.
+/// Symbols for the condition and the loads of a face in the plane.
 pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
     let edge = Edge::of(view, face);
     let mut group = SvgElement::new("g");
@@ -137,7 +137,7 @@ pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
             group.add(&edge.line(REACH, 1.5, INK));
         }
         "friction" => {
-            // A wall next to the body, from which the body can separate.
+            // The wall is next to the body, which can separate from it.
             group.add(&edge.line(3.0, 1.5, INK));
             edge.hatching(3.0, &mut group);
         }
@@ -156,7 +156,7 @@ pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
     group
 }
 
-/// A set of particles that a load names: the box, dashed, with its name.
+/// A particle set that a load refers to, as a dashed box with its name.
 pub(super) fn set(view: &View, set: &Region) -> SvgElement {
     let across = if view.scene.dimension() == 1 { (0.0, view.h) } else { (set.from[1], set.to[1]) };
     let low = view.place((set.from[0], across.0));
@@ -171,16 +171,16 @@ pub(super) fn set(view: &View, set: &Region) -> SvgElement {
     group
 }
 
-/// Length of the longest arrow.
+/// Length of the longest arrow (px).
 const LONGEST: f64 = 24.0;
 
-/// Arrows along each axis of a body.
+/// Number of arrows along each axis of a body.
 const PER_AXIS: usize = 5;
 
-/// Minimum velocity that is drawn, as a share of the largest.
+/// Minimum velocity with an arrow, as a share of the largest.
 const SMALLEST: f64 = 0.05;
 
-/// An arrow from `tail` to `tip`.
+/// Draws an arrow from `tail` to `tip`.
 pub(super) fn arrow(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
     let (dx, dy) = (tip.0 - tail.0, tip.1 - tail.1);
     let length = libm::hypot(dx, dy).max(1e-9);
@@ -197,7 +197,7 @@ pub(super) fn arrow(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
     group
 }
 
-/// Converts a vector in the plane of the scene to the canvas; `largest` is the length of the
+/// Converts a vector in the plane of the scene to the canvas. `largest` is the length of the
 /// longest vector.
 fn shown(vector: Pt, largest: f64) -> Pt {
     (LONGEST * vector.0 / largest, -LONGEST * vector.1 / largest)
@@ -206,14 +206,14 @@ fn shown(vector: Pt, largest: f64) -> Pt {
 /// Times (s) at which a load is evaluated; the first time with a non-zero load is used.
 const TIMES: [f64; 4] = [0.0, 1e-6, 1e-3, 0.1];
 
-/// Direction on the canvas of the first non-zero vector of `at`.
+/// Direction on the canvas of the first non-zero vector that `at` returns.
 pub(super) fn direction(at: impl Fn(f64) -> Pt) -> Option<Pt> {
     let (x, y) = TIMES.into_iter().map(at).find(|v| libm::hypot(v.0, v.1) > 0.0)?;
     let size = libm::hypot(x, y);
     size.is_finite().then(|| (x / size, -y / size))
 }
 
-/// The stated initial velocities of a body, if they are not zero.
+/// Arrows of the initial velocities of a body, if these are not zero.
 pub(super) fn initial_velocity(view: &View, body: &Scene) -> SvgElement {
     let (low, high) = view.rise(body);
     let rows = if body.dimension() == 1 { 1 } else { PER_AXIS };
@@ -241,7 +241,7 @@ pub(super) fn initial_velocity(view: &View, body: &Scene) -> SvgElement {
     group
 }
 
-/// The uniform accelerations of the scene, above the grid.
+/// Arrows of the uniform accelerations of the scene, above the grid.
 pub(super) fn accelerations(view: &View) -> SvgElement {
     let mut group = SvgElement::new("g");
     let uniform = view.scene.loads_on(LoadTarget::Body).filter(|load| load.is_uniform());

@@ -1,4 +1,4 @@
-//! The part of the plane in a sketch, and its map to the canvas.
+//! The plane region of a sketch, and its map to the canvas.
 
 use crate::report::figure::plot::style::WIDTH;
 use crate::report::figure::plot::svg::Pt;
@@ -6,13 +6,13 @@ use crate::suite::model::stability::StabilityPlan;
 use crate::suite::model::{ConvergencePlan, Scene, Suite};
 use crate::suite::scene::grid_size::grid_axis;
 
-/// Distance of the grid from the edges of the canvas.
+/// Distance of the grid from the edges of the canvas (px).
 pub(super) const MARGIN: f64 = 52.0;
 
-/// Maximum height of the grid on the canvas.
+/// Maximum height of the grid on the canvas (px).
 const HIGHEST: f64 = 260.0;
 
-/// Minimum height of the grid on the canvas, used for a bar.
+/// Minimum height of the grid on the canvas (px); a bar has this height.
 const LOWEST: f64 = 34.0;
 
 /// The grid of the coarsest level in the plane of the first two axes.
@@ -25,7 +25,7 @@ pub(super) struct View {
 }
 
 impl View {
-    /// The view of the scene of a suite; for a stability study, of its first row.
+    /// View of the scene of a suite. For a stability study this is the scene of the first row.
     pub(super) fn of(suite: &Suite) -> Option<Self> {
         if let Some(plan) = suite.plan::<ConvergencePlan>() {
             return Some(Self::over(plan.scene.clone(), plan.refine.levels.first()?.h));
@@ -37,7 +37,7 @@ impl View {
     }
 
     fn over(scene: Scene, h: f64) -> Self {
-        // A bar is drawn as one cell high.
+        // A bar is drawn with the height of one cell.
         let (mut from, mut to) = ([0.0; 2], [0.0, h]);
         for axis in 0..scene.dimension().min(2) {
             let (start, cells) = grid_axis(&scene, axis, h);
@@ -51,8 +51,7 @@ impl View {
         [self.to[0] - self.from[0], self.to[1] - self.from[1]]
     }
 
-    /// Pixels per metre along both axes. They differ for bodies that would be too low to be
-    /// visible.
+    /// Pixels per metre along each axis. They differ for bodies that would otherwise be too flat.
     pub(super) fn scale(&self) -> [f64; 2] {
         let size = self.size();
         let equal = f64::min((WIDTH - 2.0 * MARGIN) / size[0], HIGHEST / size[1]);
@@ -62,18 +61,18 @@ impl View {
         }
     }
 
-    /// Whether lengths along both axes can be compared.
+    /// Whether lengths along both axes are drawn to the same scale.
     pub(super) fn is_to_scale(&self) -> bool {
         let [across, up] = self.scale();
         self.scene.dimension() == 1 || across == up
     }
 
-    /// Height (px) of the grid with its margins.
+    /// Height (px) of the grid including its margins.
     pub(super) fn height(&self) -> f64 {
         self.size()[1] * self.scale()[1] + 2.0 * MARGIN
     }
 
-    /// The pixel of a place (m).
+    /// Converts a place (m) to pixels.
     pub(super) fn place(&self, (x, y): Pt) -> Pt {
         let (scale, size) = (self.scale(), self.size());
         let left = 0.5 * (WIDTH - size[0] * scale[0]);
@@ -81,13 +80,13 @@ impl View {
         (left + (x - self.from[0]) * scale[0], bottom - (y - self.from[1]) * scale[1])
     }
 
-    /// Low and high end of a body along the second axis (m).
+    /// Lower and upper end of a body along the second axis (m).
     pub(super) fn rise(&self, body: &Scene) -> Pt {
         if body.dimension() == 1 { (0.0, self.h) } else { (body.from[1], body.to[1]) }
     }
 
-    /// A place of the plane as one of the scene: on the line of a bar, in the middle of a third
-    /// axis.
+    /// Converts a place of the plane to the scene: to the axis of a bar, or to the middle of the
+    /// third axis.
     pub(super) fn in_scene(body: &Scene, (x, y): Pt) -> Vec<f64> {
         let coordinate = |axis: usize| match axis {
             0 => x,
