@@ -14,7 +14,7 @@ use crate::suite::evaluator::shown;
 use crate::suite::model::Scene;
 use crate::suite::model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
 use crate::verify::{
-    AMPLITUDE, CaseOutcome, Gating, MeasuredWave, ObservedWave, PERIODS, Recurrence, SpectrumRow,
+    AMPLITUDE, CaseOutcome, MeasuredWave, ObservedWave, PERIODS, Recurrence, SpectrumRow,
     SpectrumStudy, WaveFigures, run_wave, steps_of_run,
 };
 use rayon::prelude::*;
@@ -188,27 +188,17 @@ impl CaseRunner for SpectrumRunner<'_> {
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let (plan, context, case) = (self.plan, self.context, &self.plan.cases[index]);
-        let described = described(case, context.solver);
-        if let Some(Gating::Excepted(reason)) = &case.gating {
-            return described.excepted(reason.clone());
-        }
         let lacks = context.solver.map_or(Vec::new(), |solver| lacking(plan, solver));
-        if !lacks.is_empty() {
-            return described.not_applicable(lacks, "lacks");
-        }
-        let run = WaveRun { plan, case, context };
-        let row = |(wave, cells)| {
-            let row = run.row(wave, cells);
-            progress();
-            row
-        };
-        let rows: Vec<SpectrumRow> =
-            plan.waves.par_iter().zip(run.cells_for_one_percent()).map(row).collect();
-        let outcome = outcome(described, case, rows);
-        match &case.gating {
-            Some(Gating::NotGated(reason)) => outcome.not_gated(reason),
-            _ => outcome,
-        }
+        described(case, context.solver).after(case.gating.as_ref(), lacks, |described| {
+            let run = WaveRun { plan, case, context };
+            let row = |(wave, cells)| {
+                let row = run.row(wave, cells);
+                progress();
+                row
+            };
+            let cells = run.cells_for_one_percent();
+            outcome(described, case, plan.waves.par_iter().zip(cells).map(row).collect())
+        })
     }
 
     fn shown(

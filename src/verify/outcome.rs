@@ -2,6 +2,7 @@
 
 use super::case::CaseJudgement;
 use super::convergence::Convergence;
+use super::expectation::gate::Gating;
 use super::study_results::StudyResults;
 use crate::subject::Profile;
 use std::any::Any;
@@ -168,6 +169,28 @@ impl CaseOutcome {
     pub(crate) fn not_gated(self, reason: &str) -> Self {
         let reason = format!("{reason}; {}", self.reason);
         Self { reason, exemption: Some(Exemption::NotGated), ..self }
+    }
+
+    /// The outcome after `run`, where `self` is the part that is known before it. A case does not
+    /// run if its `gating` is an exception, or if the solver lacks capabilities (`lacks`).
+    #[must_use]
+    pub(crate) fn after(
+        self,
+        gating: Option<&Gating>,
+        lacks: Vec<String>,
+        run: impl FnOnce(Self) -> Self,
+    ) -> Self {
+        if let Some(Gating::Excepted(reason)) = gating {
+            return self.excepted(reason.clone());
+        }
+        if !lacks.is_empty() {
+            return self.not_applicable(lacks, "lacks");
+        }
+        let outcome = run(self);
+        match gating {
+            Some(Gating::NotGated(reason)) if outcome.lacks.is_empty() => outcome.not_gated(reason),
+            _ => outcome,
+        }
     }
 
     /// The outcome of a case whose levels have run.

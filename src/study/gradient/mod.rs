@@ -11,7 +11,7 @@ use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
 use crate::subject::GradientParameter;
 use crate::suite::evaluator::shown;
 use crate::suite::model::gradient::{GradientCase, GradientPlan};
-use crate::verify::{CaseOutcome, FIRST_LEVEL, Gating, GradientStudy, LAST_LEVEL};
+use crate::verify::{CaseOutcome, FIRST_LEVEL, GradientStudy, LAST_LEVEL};
 use std::sync::Arc;
 
 impl Study for GradientPlan {
@@ -56,25 +56,20 @@ impl CaseRunner for GradientRunner<'_> {
                 ..described.not_applicable(lacks, "is not there without")
             };
         };
-        if let Some(Gating::Excepted(reason)) = &case.gating {
-            return described.excepted(reason.clone());
-        }
         let lacks = lacking(plan, case, solver);
-        if !lacks.is_empty() {
-            return described.not_applicable(lacks, "lacks");
-        }
-        let all = plan.parameters.iter().map(|one| one.parameter);
-        let request = all.filter(|one| has_gradient(solver, *one)).collect();
-        let context = self.context;
-        let run = GradientRun { context, plan, case, solver, request };
-        match run.study(progress) {
-            Ok(study) => judged(described, case, study),
-            // A capability that the solver lacks is not a failure.
-            Err(GradientError::Cannot(reason)) => {
-                described.not_applicable(vec![reason], "refuses the problem:")
+        described.after(case.gating.as_ref(), lacks, |described| {
+            let all = plan.parameters.iter().map(|one| one.parameter);
+            let request = all.filter(|one| has_gradient(solver, *one)).collect();
+            let run = GradientRun { context: self.context, plan, case, solver, request };
+            match run.study(progress) {
+                Ok(study) => judged(described, case, study),
+                // A capability that the solver lacks is not a failure.
+                Err(GradientError::Cannot(reason)) => {
+                    described.not_applicable(vec![reason], "refuses the problem:")
+                }
+                Err(GradientError::Failed(reason)) => failed(described, &reason),
             }
-            Err(GradientError::Failed(reason)) => failed(described, &reason),
-        }
+        })
     }
 }
 

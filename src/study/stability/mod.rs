@@ -10,7 +10,7 @@ use crate::study::time_series::SeriesError;
 use crate::suite::compile::stability::setup::RunSetup;
 use crate::suite::evaluator::shown;
 use crate::suite::model::stability::StabilityPlan;
-use crate::verify::{CaseOutcome, Gating, Stability, StabilityRow, StabilityStudy};
+use crate::verify::{CaseOutcome, Stability, StabilityRow, StabilityStudy};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -46,28 +46,20 @@ impl CaseRunner for StabilityRunner<'_> {
         let lacks = context.solver.map_or(Vec::new(), |solver| {
             plan.needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
         });
-        if let Some(Gating::Excepted(reason)) = &case.gating {
-            return described(&run).excepted(reason.clone());
-        }
-        if !lacks.is_empty() {
-            return described(&run).not_applicable(lacks, "lacks");
-        }
-        let row = |value: &f64| {
-            let row = run.row(*value);
-            progress();
-            row
-        };
-        let rows: Vec<StabilityRow> = plan.values.par_iter().map(row).collect();
-        // If the solver refuses the problem, the case does not fail.
-        let refused = rows.iter().find_map(|row| row.refused.clone());
-        if let Some(reason) = refused.filter(|_| context.solver.is_some()) {
-            return described(&run).not_applicable(vec![reason], "refuses the problem:");
-        }
-        let outcome = outcome(&run, rows);
-        match &case.gating {
-            Some(Gating::NotGated(reason)) => outcome.not_gated(reason),
-            _ => outcome,
-        }
+        described(&run).after(case.gating.as_ref(), lacks, |described| {
+            let row = |value: &f64| {
+                let row = run.row(*value);
+                progress();
+                row
+            };
+            let rows: Vec<StabilityRow> = plan.values.par_iter().map(row).collect();
+            // If the solver refuses the problem, the case does not fail.
+            let refused = rows.iter().find_map(|row| row.refused.clone());
+            match refused.filter(|_| context.solver.is_some()) {
+                Some(reason) => described.not_applicable(vec![reason], "refuses the problem:"),
+                None => outcome(&run, described, rows),
+            }
+        })
     }
 
     fn shown(
@@ -106,7 +98,7 @@ fn described(run: &CaseRun<'_>) -> CaseOutcome {
 }
 
 /// Creates the outcome of a case from its rows.
-fn outcome(run: &CaseRun<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
+fn outcome(run: &CaseRun<'_>, described: CaseOutcome, rows: Vec<StabilityRow>) -> CaseOutcome {
     let CaseRun { plan, case, .. } = run;
     let unmet: Vec<String> = case
         .expected
@@ -128,7 +120,7 @@ fn outcome(run: &CaseRun<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
         reason: study.reason(),
         unmet,
         study: Some(Arc::new(study)),
-        ..described(run)
+        ..described
     }
 }
 

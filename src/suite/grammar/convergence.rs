@@ -2,69 +2,52 @@
 
 use super::{
     AcknowledgeSpec, AnyMethodSpec, EquationName, ExactSpec, ExpectSpec, ManufacturedSpec,
-    MethodSpec, ParameterSpec, SceneSpec, StepSpec, StudyName,
+    MethodSpec, SceneSpec, StepSpec, StudyName,
 };
 use crate::fem::{Element, Mass};
 use crate::named::named;
-use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
+use crate::suite::yaml::{NumberText, OneOrMany};
 use crate::verify::{NormName, Quantity};
 use serde::Deserialize;
 
-/// A convergence study.
-#[derive(Debug, Clone, Deserialize)]
-#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ConvergenceSpec {
-    /// Name of the suite: lower-case letters, digits and hyphens.
-    pub(crate) suite: String,
-    /// Kind of study; `convergence` unless stated.
-    #[serde(rename = "study")]
-    pub(crate) _study: Option<StudyName>,
-    /// Headline of the report.
-    pub(crate) title: String,
-    /// Reference for the problem.
-    pub(crate) source: String,
-    /// Remarks for a reader of the report.
-    #[serde(default)]
-    pub(crate) about: String,
-    /// Numbers, formulas of the parameters above them, or tables; each must be used.
-    #[serde(default)]
-    pub(crate) parameters: Ordered<ParameterSpec>,
-    /// Functions for formulas: `s(tau): "..."`.
-    #[serde(default)]
-    pub(crate) functions: Ordered<String>,
-    /// The body with its conditions and loads.
-    pub(crate) scene: SceneSpec,
-    /// The solution as formulas, checked before any solver runs.
-    pub(crate) exact: Option<ExactSpec>,
-    /// A motion whose body force follows by differentiation.
-    pub(crate) manufactured: Option<ManufacturedSpec>,
-    /// Equilibrium in which the body comes to rest, as formulas of the coordinates.
-    pub(crate) equilibrium: Option<ExactSpec>,
-    /// A fine computation, if no formula is known.
-    pub(crate) reference: Option<ReferenceSpec>,
-    /// End, time step and instants of a run.
-    pub(crate) run: RunSpec,
-    /// Levels: a list is refined, from coarse to fine.
-    pub(crate) refine: RefineSpec,
-    /// Offsets of particles from their lattice.
-    pub(crate) particles: Option<ScatterSpec>,
-    /// Methods to be judged; lists in an entry multiply to cases.
-    pub(crate) methods: Vec<MethodSpec>,
-    /// The judged error.
-    #[serde(default)]
-    pub(crate) judge: JudgeSpec,
-    /// Point for the limit of the displacement and the velocity history.
-    pub(crate) observe: Option<ObserveSpec>,
-    /// Expectations, exactly one for each case; without expectations the suite explores, and is not
-    /// a gate.
-    #[serde(default)]
-    pub(crate) expect: Vec<ExpectSpec>,
-    /// Warnings of `check` that the suite intends, each with its reason.
-    #[serde(default)]
-    pub(crate) acknowledge: Vec<AcknowledgeSpec>,
-    /// Accuracy that any method can reach, for the gate of external solvers.
-    pub(crate) any_method: Option<AnyMethodSpec>,
+study_spec! {
+    /// A convergence study.
+    struct ConvergenceSpec {
+        /// Kind of study; `convergence` unless stated.
+        study: Option<StudyName>,
+        /// The body with its conditions and loads.
+        scene: SceneSpec,
+        /// The solution as formulas, checked before any solver runs.
+        exact: Option<ExactSpec>,
+        /// A motion whose body force follows by differentiation.
+        manufactured: Option<ManufacturedSpec>,
+        /// Equilibrium in which the body comes to rest, as formulas of the coordinates.
+        equilibrium: Option<ExactSpec>,
+        /// A fine computation, if no formula is known.
+        reference: Option<ReferenceSpec>,
+        /// End, time step and instants of a run.
+        run: RunSpec,
+        /// Levels: a list is refined, from coarse to fine.
+        refine: RefineSpec,
+        /// Offsets of particles from their lattice.
+        particles: Option<ScatterSpec>,
+        /// Methods to be judged; lists in an entry multiply to cases.
+        methods: Vec<MethodSpec>,
+        /// The judged error.
+        #[serde(default)]
+        judge: JudgeSpec,
+        /// Point for the limit of the displacement and the velocity history.
+        observe: Option<ObserveSpec>,
+        /// Expectations, exactly one for each case; without expectations the suite explores, and is not
+        /// a gate.
+        #[serde(default)]
+        expect: Vec<ExpectSpec>,
+        /// Warnings of `check` that the suite intends, each with its reason.
+        #[serde(default)]
+        acknowledge: Vec<AcknowledgeSpec>,
+        /// Accuracy that any method can reach, for the gate of external solvers.
+        any_method: Option<AnyMethodSpec>,
+    }
 }
 
 impl ConvergenceSpec {

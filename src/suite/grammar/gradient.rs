@@ -1,54 +1,35 @@
 //! Keys of a gradient study.
 
 use super::convergence::RunSpec;
-use super::{
-    ConvergenceSpec, ExactSpec, MethodSpec, ParameterSpec, RefineSpec, SceneSpec, StudyName,
-};
+use super::{ConvergenceSpec, ExactSpec, MethodSpec, RefineSpec, SceneSpec, StudyName};
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
 use crate::verify::GradientState;
 use serde::Deserialize;
 
-/// A study of the derivatives that a differentiable solver reports.
-#[derive(Debug, Clone, Deserialize)]
-#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct GradientSpec {
-    /// Name of the suite: lower-case letters, digits and hyphens.
-    pub(crate) suite: String,
-    /// Kind of study: `gradient`.
-    #[serde(rename = "study")]
-    pub(crate) _study: StudyName,
-    /// Headline of the report.
-    pub(crate) title: String,
-    /// Where the problem comes from.
-    pub(crate) source: String,
-    /// Remarks for a reader of the report.
-    #[serde(default)]
-    pub(crate) about: String,
-    /// Numbers, formulas of the parameters above them, or tables; each must be used.
-    #[serde(default)]
-    pub(crate) parameters: Ordered<ParameterSpec>,
-    /// Functions for formulas that need something more than once: `s(tau): "..."`.
-    #[serde(default)]
-    pub(crate) functions: Ordered<String>,
-    /// The body, its boundary conditions and its loads.
-    pub(crate) scene: SceneSpec,
-    /// The solution as formulas, checked before any solver runs.
-    pub(crate) exact: Option<ExactSpec>,
-    /// The state of rest at the end of the run as formulas of `X`, `Y`, `Z`, in place of `exact`.
-    pub(crate) equilibrium: Option<ExactSpec>,
-    /// The derivatives that are verified.
-    pub(crate) gradient: DerivativeSpec,
-    /// End and time step of a run.
-    pub(crate) run: RunSpec,
-    /// Levels: cells from coarse to fine.
-    pub(crate) refine: RefineSpec,
-    /// External solvers with an expectation.
-    #[serde(default)]
-    pub(crate) methods: Vec<MethodSpec>,
-    /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
-    #[serde(default)]
-    pub(crate) expect: Vec<GradientExpectSpec>,
+study_spec! {
+    /// A study of the derivatives that a differentiable solver reports.
+    struct GradientSpec {
+        /// Kind of study: `gradient`.
+        study: StudyName,
+        /// The body, its boundary conditions and its loads.
+        scene: SceneSpec,
+        /// The solution as formulas, checked before any solver runs.
+        exact: Option<ExactSpec>,
+        /// The state of rest at the end of the run as formulas of `X`, `Y`, `Z`, in place of `exact`.
+        equilibrium: Option<ExactSpec>,
+        /// The derivatives that are verified.
+        gradient: DerivativeSpec,
+        /// End and time step of a run.
+        run: RunSpec,
+        /// Levels: cells from coarse to fine.
+        refine: RefineSpec,
+        /// External solvers with an expectation.
+        #[serde(default)]
+        methods: Vec<MethodSpec>,
+        /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
+        #[serde(default)]
+        expect: Vec<GradientExpectSpec>,
+    }
 }
 
 impl GradientSpec {

@@ -1,41 +1,24 @@
 //! Keys of an internal-force study.
 
-use super::{ParameterSpec, StudyName};
+use super::StudyName;
 use crate::mpm::BasisName;
-use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
+use crate::suite::yaml::{NumberText, OneOrMany};
 use serde::Deserialize;
 
-/// A study of the internal force.
-#[derive(Debug, Clone, Deserialize)]
-#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct InternalForceSpec {
-    /// Name of the suite: lower-case letters, digits and hyphens.
-    pub(crate) suite: String,
-    /// Kind of study: `internal_force`.
-    #[serde(rename = "study")]
-    pub(crate) _study: StudyName,
-    /// Headline of the report.
-    pub(crate) title: String,
-    /// Reference for the problem.
-    pub(crate) source: String,
-    /// Remarks for a reader of the report.
-    #[serde(default)]
-    pub(crate) about: String,
-    /// Numbers, formulas of the parameters above them, or tables; each must be used.
-    #[serde(default)]
-    pub(crate) parameters: Ordered<ParameterSpec>,
-    /// Functions for formulas: `s(tau): "..."`.
-    #[serde(default)]
-    pub(crate) functions: Ordered<String>,
-    /// The set-up.
-    pub(crate) internal_force: ForceSpec,
-    /// Basis functions that are compared.
-    pub(crate) methods: Vec<ForceMethodSpec>,
-    /// Expectations, exactly one for each case; without expectations the suite explores, and is not
-    /// a gate.
-    #[serde(default)]
-    pub(crate) expect: Vec<ForceExpectSpec>,
+study_spec! {
+    /// A study of the internal force.
+    struct InternalForceSpec {
+        /// Kind of study: `internal_force`.
+        study: StudyName,
+        /// The set-up.
+        internal_force: ForceSpec,
+        /// Basis functions that are compared.
+        methods: Vec<ForceMethodSpec>,
+        /// Expectations, exactly one for each case; without expectations the suite explores, and is not
+        /// a gate.
+        #[serde(default)]
+        expect: Vec<ForceExpectSpec>,
+    }
 }
 
 /// The set-up of an internal-force study.

@@ -3,6 +3,45 @@
 //! Every map refuses unknown keys. A number may be a formula of declared parameters. The entries of
 //! a method may be lists, whose product gives the cases.
 
+/// Declares the keys of a kind of study: the keys that all studies have, then its own. With
+/// `serde(flatten)` an error would have no position in the file.
+macro_rules! study_spec {
+    (
+        $(#[$about:meta])*
+        struct $name:ident {
+            $(#[$about_study:meta])*
+            study: $study:ty,
+            $($(#[$about_key:meta])* $key:ident: $keys:ty,)*
+        }
+    ) => {
+        $(#[$about])*
+        #[derive(Debug, Clone, serde::Deserialize)]
+        #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+        #[serde(deny_unknown_fields)]
+        pub(crate) struct $name {
+            /// Name of the suite: lower-case letters, digits and hyphens.
+            pub(crate) suite: String,
+            $(#[$about_study])*
+            #[serde(rename = "study")]
+            pub(crate) _study: $study,
+            /// Headline of the report.
+            pub(crate) title: String,
+            /// Reference for the problem.
+            pub(crate) source: String,
+            /// Remarks for a reader of the report.
+            #[serde(default)]
+            pub(crate) about: String,
+            /// Numbers, formulas of the parameters above them, or tables; each must be used.
+            #[serde(default)]
+            pub(crate) parameters: crate::suite::yaml::Ordered<crate::suite::grammar::ParameterSpec>,
+            /// Functions for formulas: `s(tau): "..."`.
+            #[serde(default)]
+            pub(crate) functions: crate::suite::yaml::Ordered<String>,
+            $($(#[$about_key])* pub(crate) $key: $keys,)*
+        }
+    };
+}
+
 pub(crate) mod convergence;
 pub(crate) mod expect;
 pub(crate) mod gradient;

@@ -1,44 +1,27 @@
 //! Keys of a spectrum study.
 
-use super::{MethodSpec, ParameterSpec, SceneSpec, StudyName};
+use super::{MethodSpec, SceneSpec, StudyName};
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
 use serde::Deserialize;
 
-/// A study of the phase speed and the damping of waves.
-#[derive(Debug, Clone, Deserialize)]
-#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SpectrumSpec {
-    /// Name of the suite: lower-case letters, digits and hyphens.
-    pub(crate) suite: String,
-    /// Kind of study: `spectrum`.
-    #[serde(rename = "study")]
-    pub(crate) _study: StudyName,
-    /// Headline of the report.
-    pub(crate) title: String,
-    /// Reference for the problem.
-    pub(crate) source: String,
-    /// Remarks for a reader of the report.
-    #[serde(default)]
-    pub(crate) about: String,
-    /// Numbers, formulas of the parameters above them, or tables; each must be used.
-    #[serde(default)]
-    pub(crate) parameters: Ordered<ParameterSpec>,
-    /// Functions for formulas: `s(tau): "..."`.
-    #[serde(default)]
-    pub(crate) functions: Ordered<String>,
-    /// The body with its conditions.
-    pub(crate) scene: SceneSpec,
-    /// Cells and particles.
-    pub(crate) particles: RowSpec,
-    /// Wavelengths and time steps.
-    pub(crate) spectrum: WavesSpec,
-    /// Methods to be studied; lists in an entry multiply to cases.
-    pub(crate) methods: Vec<MethodSpec>,
-    /// Expectations, exactly one for each case; without expectations the suite explores, and is not
-    /// a gate.
-    #[serde(default)]
-    pub(crate) expect: Vec<SpectrumExpectSpec>,
+study_spec! {
+    /// A study of the phase speed and the damping of waves.
+    struct SpectrumSpec {
+        /// Kind of study: `spectrum`.
+        study: StudyName,
+        /// The body with its conditions.
+        scene: SceneSpec,
+        /// Cells and particles.
+        particles: RowSpec,
+        /// Wavelengths and time steps.
+        spectrum: WavesSpec,
+        /// Methods to be studied; lists in an entry multiply to cases.
+        methods: Vec<MethodSpec>,
+        /// Expectations, exactly one for each case; without expectations the suite explores, and is not
+        /// a gate.
+        #[serde(default)]
+        expect: Vec<SpectrumExpectSpec>,
+    }
 }
 
 /// A row of cells with the same particles in each cell.

@@ -1,52 +1,35 @@
 //! Keys of a stability study.
 
-use super::{MethodSpec, ParameterSpec, SceneSpec, StepSpec, StudyName};
+use super::{MethodSpec, SceneSpec, StepSpec, StudyName};
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered};
 use crate::verify::Stability;
 use serde::Deserialize;
 
-/// A stability study.
-#[derive(Debug, Clone, Deserialize)]
-#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub(crate) struct StabilitySpec {
-    /// Name of the suite: lower-case letters, digits and hyphens.
-    pub(crate) suite: String,
-    /// Kind of study: `stability`.
-    #[serde(rename = "study")]
-    pub(crate) _study: StudyName,
-    /// Headline of the report.
-    pub(crate) title: String,
-    /// Reference for the problem.
-    pub(crate) source: String,
-    /// Remarks for a reader of the report.
-    #[serde(default)]
-    pub(crate) about: String,
-    /// Numbers, formulas of the parameters above them, or tables; each must be used.
-    #[serde(default)]
-    pub(crate) parameters: Ordered<ParameterSpec>,
-    /// Functions for formulas: `s(tau): "..."`.
-    #[serde(default)]
-    pub(crate) functions: Ordered<String>,
-    /// The body with its conditions and loads.
-    pub(crate) scene: SceneSpec,
-    /// Cells and particles.
-    pub(crate) particles: ParticleSpec,
-    /// Time step and number of steps.
-    pub(crate) run: StabilityRunSpec,
-    /// One parameter, and its values.
-    pub(crate) sweep: Ordered<OneOrMany<NumberText>>,
-    /// The parameter whose largest stable value is determined for each row.
-    pub(crate) critical: Option<CriticalSpec>,
-    /// Figures that the report shows.
-    #[serde(default)]
-    pub(crate) show: Vec<crate::verify::RunFigure>,
-    /// Methods to be studied; lists in an entry multiply to cases.
-    pub(crate) methods: Vec<MethodSpec>,
-    /// Expectations, exactly one for each case; without expectations the suite explores, and is not
-    /// a gate.
-    #[serde(default)]
-    pub(crate) expect: Vec<StabilityExpectSpec>,
+study_spec! {
+    /// A stability study.
+    struct StabilitySpec {
+        /// Kind of study: `stability`.
+        study: StudyName,
+        /// The body with its conditions and loads.
+        scene: SceneSpec,
+        /// Cells and particles.
+        particles: ParticleSpec,
+        /// Time step and number of steps.
+        run: StabilityRunSpec,
+        /// One parameter, and its values.
+        sweep: Ordered<OneOrMany<NumberText>>,
+        /// The parameter whose largest stable value is determined for each row.
+        critical: Option<CriticalSpec>,
+        /// Figures that the report shows.
+        #[serde(default)]
+        show: Vec<crate::verify::RunFigure>,
+        /// Methods to be studied; lists in an entry multiply to cases.
+        methods: Vec<MethodSpec>,
+        /// Expectations, exactly one for each case; without expectations the suite explores, and is not
+        /// a gate.
+        #[serde(default)]
+        expect: Vec<StabilityExpectSpec>,
+    }
 }
 
 /// Particles of the body.
