@@ -4,7 +4,8 @@ use super::case::CaseJudgement;
 use super::convergence::Convergence;
 use super::expectation::gate::Gating;
 use super::study_results::StudyResults;
-use crate::subject::Profile;
+use super::verdict::name::Verdict;
+use crate::subject::{Profile, SubjectError};
 use std::any::Any;
 use std::sync::Arc;
 
@@ -162,6 +163,26 @@ impl CaseOutcome {
         let verdict = "not applicable".to_owned();
         let reason = format!("the solver {verb} {}", lacks.join(", "));
         Self { verdict, reason, lacks, ..self }
+    }
+
+    /// The outcome of a case whose problem an external solver did not take. Only a problem that
+    /// the solver does not support is not applicable; a solver that fails fails the case.
+    #[must_use]
+    pub(crate) fn not_run(self, error: &SubjectError) -> Self {
+        match error {
+            SubjectError::Unsupported(reason) => {
+                self.not_applicable(vec![reason.clone()], "refuses the problem:")
+            }
+            SubjectError::Failed(_) => self.could_not_run(error),
+        }
+    }
+
+    /// The outcome of a case that could not be set up.
+    #[must_use]
+    pub(crate) fn could_not_run(self, error: &SubjectError) -> Self {
+        let unmet = vec![format!("the case could not be run: {error}")];
+        let (verdict, reason) = (Verdict::Failed.to_string(), error.to_string());
+        Self { verdict, reason, unmet, ..self }
     }
 
     /// The outcome of a case that the gate does not judge, for this reason.

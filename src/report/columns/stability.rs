@@ -97,7 +97,7 @@ pub(crate) fn json_columns(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
         RowColumn::json(
             "refused",
             "reason why there is neither a prediction nor an observation",
-            |row| row.refused.clone(),
+            |row| row.refused.as_ref().map(ToString::to_string),
         ),
     ]);
     columns

@@ -51,8 +51,8 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
 /// Remarks about values without a run, and about runs that did not reach their end.
 pub(crate) fn remarks(study: &StabilityStudy) -> Vec<String> {
     let remark = |row: &StabilityRow| {
-        let why = row.trial.as_ref().and_then(|trial| trial.why.as_ref());
-        let why = row.refused.as_ref().or(why)?;
+        let stopped = || row.trial.as_ref().and_then(|trial| trial.why.clone());
+        let why = row.refused.as_ref().map(ToString::to_string).or_else(stopped)?;
         Some(format!("{} = {}: {why}", study.swept, row.value))
     };
     study.rows.iter().filter_map(remark).collect()

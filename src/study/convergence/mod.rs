@@ -6,7 +6,7 @@ pub(crate) mod statement;
 pub(crate) mod time_steps;
 use self::judge_plan::{judge_plan, rounding_sizes};
 use self::reference::{FineGrid, FineSteps, Reference};
-use self::statement::{described, not_applicable, refused};
+use self::statement::{described, not_applicable};
 use self::time_steps::StableSteps;
 use crate::exact::{Problem, Truth};
 use crate::external::ProblemNeeds;
@@ -146,16 +146,14 @@ impl<'a> ConvergenceRunner<'a> {
             }
             return self
                 .run(case, expectation, progress)
-                .unwrap_or_else(|reason| refused(plan, case, expectation, &reason));
+                .unwrap_or_else(|error| described(plan, case, expectation).could_not_run(&error));
         };
         let lacks = solver.lacks(&needs(plan));
         let mut outcome = if let Some(Gating::Excepted(reason)) = &case.gating {
             described(plan, case, None).excepted(reason.clone())
         } else if lacks.is_empty() {
-            // If the solver refuses the problem, the case does not fail.
-            self.run(case, expectation, progress).unwrap_or_else(|reason| {
-                not_applicable(plan, case, vec![reason.to_string()], "refuses the problem:")
-            })
+            self.run(case, expectation, progress)
+                .unwrap_or_else(|error| described(plan, case, None).not_run(&error))
         } else {
             not_applicable(plan, case, lacks, "lacks")
         };

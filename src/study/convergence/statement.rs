@@ -3,13 +3,12 @@
 use crate::exact::heat::Conduction;
 use crate::study::describe::statement::{Rows, push, scene, stated, step_profile};
 use crate::study::exact_motion::{self, amplitude};
-use crate::subject::SubjectError;
 use crate::suite::compile::truth::is_truthless;
 use crate::suite::evaluator::shown;
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
 use crate::suite::model::{Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
-use crate::verify::{self, Axis, CaseOutcome, Expectation, Gating, StepKind};
+use crate::verify::{Axis, CaseOutcome, Expectation, Gating, StepKind};
 
 /// Rows of the whole study.
 pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
@@ -192,19 +191,4 @@ pub(crate) fn not_applicable(
     verb: &str,
 ) -> CaseOutcome {
     described(plan, case, None).not_applicable(lacks, verb)
-}
-
-/// Outcome of a case that could not be set up.
-pub(crate) fn refused(
-    plan: &ConvergencePlan,
-    case: &Case,
-    expectation: Option<&Expectation>,
-    reason: &SubjectError,
-) -> CaseOutcome {
-    CaseOutcome {
-        verdict: verify::Verdict::Failed.to_string(),
-        unmet: vec![format!("the case could not be run: {reason}")],
-        reason: reason.to_string(),
-        ..described(plan, case, expectation)
-    }
 }

@@ -56,7 +56,7 @@ impl CaseRun<'_> {
                 .critical(value, sought)
                 .map(|critical| StabilityRow { critical: Some(critical), ..empty.clone() }),
         };
-        found.unwrap_or_else(|reason| StabilityRow { refused: Some(reason.to_string()), ..empty })
+        found.unwrap_or_else(|reason| StabilityRow { refused: Some(reason), ..empty })
     }
 
     /// Set-up with the given parameter values.

@@ -2,6 +2,7 @@
 
 use super::limit::StabilityLimit;
 use super::trial_result::{Stability, Trial};
+use crate::subject::SubjectError;
 use crate::verify::figure::RunFigure;
 use crate::verify::order::format_number::format_number;
 use crate::verify::study_results::StudyResults;
@@ -29,7 +30,7 @@ pub struct StabilityRow {
     /// Stability limit, if the study seeks one.
     pub critical: Option<Critical>,
     /// Reason why there is neither a run nor a limit.
-    pub refused: Option<String>,
+    pub refused: Option<SubjectError>,
 }
 
 /// Predicted and observed limit of stability.

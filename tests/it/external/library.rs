@@ -97,6 +97,36 @@ fn what_a_maker_refuses_is_not_applicable() {
     assert!(found.reason.contains("a left end that is not held"), "{}", found.reason);
 }
 
+/// A maker whose solver fails while it is set up.
+struct Failing;
+
+impl SolverFactory for Failing {
+    fn name(&self) -> &str {
+        "failing"
+    }
+
+    fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
+        Err(Failure::External("out of memory".to_owned()).into())
+    }
+}
+
+#[test]
+fn a_solver_that_fails_in_its_setup_fails_the_case() {
+    for name in ["vibrating-bar", "crossing-energy"] {
+        let source = embedded::source(name).expect("a suite").expect("a text");
+        let suite = Suite::load(&source).expect("a sound suite");
+        let method = ExternalMethod {
+            name: "failing",
+            formal_order: Failing.formal_order(),
+            precision: Failing.precision(),
+        };
+        let suite = suite.of_external(method, true).expect("a study of solvers");
+        let found = Runner::over(&suite, Extent::Usual).judging(&Failing).case(0, &|| ());
+        assert!(!found.passed(), "{name}: {} {}", found.verdict, found.reason);
+        assert!(found.unmet.iter().any(|unmet| unmet.contains("out of memory")), "{name}");
+    }
+}
+
 /// A force at places given once has the bits of the force at one place after another.
 #[test]
 fn a_placed_body_force_is_the_body_force() {
