@@ -34,17 +34,17 @@
 //! ```
 //!
 //! `cost` ranks the methods of each problem of the suite, the cheapest first. Errors are divided by
-//! `size`. `reached` contains the work for each of the `targets`, and the ratio `times` of this
-//! work to the least work. `pareto_front` lists the levels that no other level dominates.
+//! `size`. `reached` contains the work for each of the `targets`; `times` is the ratio of this work
+//! to that of the cheapest method. `pareto_front` lists the levels that no other level dominates.
 //! `exponent` is k in work ~ error^k.
 //!
 //! `null` marks a missing value. Numbers that are not finite are the strings `"nan"`, `"inf"`,
 //! `"-inf"`.
 //!
-//! Internal-force studies have no levels; their `forces` are a list of
-//! `{"position", "n_left", "n_right", "force", "predicted"}`. Stability studies have no levels
-//! either; their `stability` is `{"swept", "sought", "rows"}`. Each row contains the `value` of the
-//! swept parameter and either the `run`, with its verdict and figures, or the limit of the sought
+//! Internal-force studies have no levels; their `forces` are a list of `{"position", "n_left",
+//! "n_right", "force", "predicted"}`. Stability studies have no levels either; their `stability` is
+//! `{"swept", "sought", "rows"}`. Each row contains the `value` of the swept parameter. It also
+//! contains either the `run`, with its verdict and measured values, or the limit of the sought
 //! parameter: `predicted`, `observed` (each with `at`, or `above` or `below` the range) and the
 //! runs that `confirmed` it.
 //!
@@ -116,7 +116,7 @@ pub(crate) fn case(outcome: &CaseOutcome) -> Value {
     members.into()
 }
 
-/// Cost of a step as JSON.
+/// Converts the cost of a step to JSON.
 pub fn profile(profile: &Profile) -> Value {
     let visit = |(part, particles): &(&str, u64)| json!({"part": part, "particles": particles});
     let column = |column: &ColumnSize| {
