@@ -14,7 +14,7 @@ pub(crate) struct Titles<'a> {
     pub(crate) y_label: &'a str,
 }
 
-/// A frame with two scales.
+/// A frame with a scale for each axis.
 #[derive(Debug)]
 pub(crate) struct Plot<'a> {
     titles: Titles<'a>,
