@@ -9,7 +9,7 @@ use crate::subject::{Checkpoint, Samples, Start, Subject};
 use rstest::rstest;
 use std::f64::consts::PI;
 
-/// Exact displacement `u = v0/w sin(pi X / (2L)) sin(w t)`.
+/// Returns the exact displacement `u = v0/w sin(pi X / (2L)) sin(w t)`.
 fn exact(x: f64, t: f64) -> f64 {
     let omega = PI / 50.0 * 10.0;
     0.1 / omega * libm::sin(PI * x / 50.0) * libm::sin(omega * t)

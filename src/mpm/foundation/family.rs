@@ -96,7 +96,7 @@ macro_rules! objects_with_parameter {
         }
 
         impl $names {
-            /// The parameter.
+            /// Returns the range and texts of the parameter.
             pub fn parameter(self) -> $parameter {
                 const D: usize = 1;
                 match self {

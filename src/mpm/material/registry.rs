@@ -51,7 +51,7 @@ macro_rules! materials {
         }
 
         impl<N> MaterialSpec<N> {
-            /// Name in suites and reports.
+            /// Returns the name in suites and reports.
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$member { .. } => $name,)+

@@ -58,7 +58,7 @@ objects_with_parameter! {
 }
 
 impl TransferName {
-    /// Kind of the transfer.
+    /// Returns the kind of the transfer.
     pub fn kind(self) -> TransferKind {
         // The kind is the same in any dimension.
         transfer::<1>(self).kind()

@@ -5,7 +5,7 @@ use crate::verify::{SpectrumRow, WaveFigures};
 
 type WaveColumn<'a> = TableColumn<'a, SpectrumRow>;
 
-/// Column of a number, whose text is formatted by `format`.
+/// Returns the column of a number, whose text is formatted by `format`.
 fn figure<'a>(
     heading: &'static str,
     key: &'static str,

@@ -10,14 +10,14 @@ use serde_json::{Value, json};
 type RowColumn<'a> = TableColumn<'a, StabilityRow>;
 type TrialColumn<'a> = TableColumn<'a, Trial>;
 
-/// Column of the swept parameter.
+/// Returns the column of the swept parameter.
 fn swept(study: &StabilityStudy) -> RowColumn<'_> {
     RowColumn::new(study.swept.as_str(), "value", "value of the swept parameter", |row| {
         Cell::new(row.value.to_string(), number(row.value))
     })
 }
 
-/// Column of one quantity of a run.
+/// Returns the column of one quantity of a run.
 fn figure<'a>(figure: RunFigure) -> TrialColumn<'a> {
     TrialColumn::new(figure.head(), figure.name(), "figure of the run", move |trial| {
         let value = figure.of(trial);

@@ -257,7 +257,8 @@ pub(super) fn notes(moved: &Moved) -> Vec<String> {
     notes
 }
 
-/// `old -> new`, or the common value. For a case in only one run, its value in that run.
+/// Formats a change as `old -> new`. A value is printed alone if it did not change or is in only
+/// one run.
 fn change(moved: &Moved, [old, new]: [Option<String>; 2]) -> String {
     match (moved.rank, old, new) {
         (Rank::New, _, only) | (Rank::Gone, only, _) => only.unwrap_or_else(dash),

@@ -9,8 +9,8 @@ pub(in crate::mpm) const LANES: usize = 4;
 
 /// A register of several `f64`.
 pub trait Register: Copy + Add<Output = Self> + AddAssign + Mul<f64, Output = Self> {
-    /// `self + a b`, rounded once (fusedMultiplyAdd of IEEE 754). The result is bit-identical on
-    /// processors without this instruction.
+    /// Computes `self + a b`, rounded once (fusedMultiplyAdd of IEEE 754). Processors without this
+    /// instruction give a bit-identical result.
     fn plus_product(self, a: Self, b: f64) -> Self;
 }
 
