@@ -192,9 +192,9 @@ impl WaveStep {
         libm::pow(self.largest_modulus(courant), TAU / (self.theta * courant))
     }
 
-    /// Returns the largest Courant number at which the wave does not grow. The conditions are `det
-    /// <= 1` and `1 + tr + det >= 0` (Jury; `1 - tr + det = (p - q) C^2` is never negative). NaN if
-    /// the symbols are NaN.
+    /// Returns the largest Courant number at which the wave does not grow. The conditions are
+    /// `det <= 1` and `1 + tr + det >= 0` (Jury; `1 - tr + det = (p - q) C^2` is never negative).
+    /// NaN if the symbols are NaN.
     pub fn limit(&self) -> f64 {
         if self.kept > 1.0 + ROUNDING {
             return 0.0;
@@ -267,8 +267,8 @@ impl WaveMethod {
         Some(0.5 * (beyond + within))
     }
 
-    /// Returns the largest Courant number at which no wave grows: the minimum of the limits over `0
-    /// < theta <= pi`. NaN if there are no particles.
+    /// Returns the largest Courant number at which no wave grows: the minimum of the limits over
+    /// `0 < theta <= pi`. NaN if there are no particles.
     pub fn stability_limit(&self) -> f64 {
         let limit = |theta: f64| self.step(theta).limit();
         let spacing = PI / f64::from(WAVES);

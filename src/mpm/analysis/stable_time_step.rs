@@ -85,9 +85,9 @@ impl<const D: usize> Solver<D> {
         Ok(dt)
     }
 
-    /// Estimates the eigenvalue by power iteration: returns the largest ratio of the norm of `L
-    /// mode` to the norm of `mode`. The norm is weighted by the nodal masses, because the matrix is
-    /// symmetric in this norm.
+    /// Estimates the eigenvalue by power iteration: returns the largest ratio of the norm of
+    /// `L mode` to the norm of `mode`. The norm is weighted by the nodal masses, because the matrix
+    /// is symmetric in this norm.
     fn square_of_frequency(
         &mut self,
         start: &[u8],

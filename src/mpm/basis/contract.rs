@@ -206,8 +206,8 @@ pub trait PatchBatch<const D: usize>: Debug {
     /// Returns the sum `sum_i field_i N_i`.
     fn gather<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4;
 
-    /// Returns the sum `sum_i field_i N_i`, and the moments `sum_i field_i (x_i - x_p - mean)_a
-    /// N_i` for each axis.
+    /// Returns the sum `sum_i field_i N_i`, and the moments
+    /// `sum_i field_i (x_i - x_p - mean)_a N_i` for each axis.
     fn gather_moment<S: Simd>(
         &self,
         simd: S,

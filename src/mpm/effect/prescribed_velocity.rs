@@ -56,8 +56,8 @@ mod tests {
     use super::*;
     use crate::mpm::Block;
 
-    /// A leapfrog method starts with velocities at -dt/2. At this time, the velocity `v = X (1 + 2
-    /// t)` is X (1 - dt).
+    /// A leapfrog method starts with velocities at -dt/2. At this time, the velocity
+    /// `v = X (1 + 2 t)` is X (1 - dt).
     #[test]
     fn a_velocity_is_continued_before_the_start() {
         let block = Block { from: Vector::zeros(), to: Vector::<1>::new(2.0), density: 1.0 };

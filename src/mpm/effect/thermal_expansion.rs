@@ -1,10 +1,10 @@
 //! Thermal expansion: a strain due to temperature that causes no stress in a free body.
 //!
-//! For a law that depends only on F, F is split as `F = theta Fe` with the stretch `theta = 1 +
-//! alpha (T - T0)` on every axis, and the law uses Fe (Stojanovic, Djuric & Vujosevic 1964; Lubarda
-//! 2004, Appl. Mech. Rev. 57). A free body then expands exactly by theta. For a law in rate form
-//! the thermal strain increment is subtracted, `sigma -= E/(1 - 2 nu) alpha dT I` (Duhamel &
-//! Neumann), which is plane strain in 2-D and uniaxial strain in 1-D.
+//! For a law that depends only on F, F is split as `F = theta Fe` with the stretch
+//! `theta = 1 + alpha (T - T0)` on every axis, and the law uses Fe (Stojanovic, Djuric & Vujosevic
+//! 1964; Lubarda 2004, Appl. Mech. Rev. 57). A free body then expands exactly by theta. For a law
+//! in rate form the thermal strain increment is subtracted, `sigma -= E/(1 - 2 nu) alpha dT I`
+//! (Duhamel & Neumann), which is plane strain in 2-D and uniaxial strain in 1-D.
 //!
 //! The split applies to the D dimensions of the scene. If Poisson's ratio is zero, the other axes
 //! have no effect. Neglected: heat absorbed by the expansion.

@@ -287,8 +287,8 @@ pub struct G2pRequest<'a, const D: usize> {
     pub fit: Option<&'a mut [Matrix<D>]>,
     /// Column for `gradient_p = sum_i v_i (x) grad N_i(x_p)` (1/s).
     pub gradient: Option<&'a mut [Matrix<D>]>,
-    /// Time `dt` (s), and the column for the positions after it, `advected_p = x_p + dt sum_i v_i
-    /// N_i(x_p)` (m).
+    /// Time `dt` (s), and the column for the positions after it,
+    /// `advected_p = x_p + dt sum_i v_i N_i(x_p)` (m).
     pub advected: Option<(f64, &'a mut [Vector<D>])>,
 }
 

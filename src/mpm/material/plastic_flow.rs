@@ -284,8 +284,8 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
     }
 }
 
-/// Computes the trial strains of a batch of particles along their axes, `ln(be)/2` with `be = F
-/// Cp^-1 F^T`.
+/// Computes the trial strains of a batch of particles along their axes, `ln(be)/2` with
+/// `be = F Cp^-1 F^T`.
 fn trial<const D: usize>(
     def_grad: &[Matrix<D>],
     flowed: &[Flowed],

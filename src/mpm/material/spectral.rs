@@ -16,8 +16,8 @@ use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
 /// For NaN, the loop ends only at this limit.
 const MOST_SWEEPS: usize = 12;
 
-/// Computes the eigenvalues of the symmetric matrix `m` and its axes as columns: `m = A
-/// diag(values) A^T`.
+/// Computes the eigenvalues of the symmetric matrix `m` and its axes as columns:
+/// `m = A diag(values) A^T`.
 pub(super) fn spectral<const D: usize>(m: &Matrix<D>) -> (Vector<D>, Matrix<D>) {
     let (mut m, mut axes) = (*m, Matrix::identity());
     for _ in 0..MOST_SWEEPS {

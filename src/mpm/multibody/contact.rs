@@ -1,10 +1,10 @@
 //! Frictional contact at the interface nodes of bodies (Bardenhagen, Brackbill & Sulsky 2000, CMAME
 //! 187, section 3).
 //!
-//! Each body has its own velocity at an interface node. Two bodies that approach, `(v_a - v_b) . n
-//! > 0`, receive equal and opposite impulses, which make the normal velocities equal. The impulses
-//! also make the tangential velocities equal, unless this requires more than the friction limit, mu
-//! times the normal impulse. Bodies that separate are not changed.
+//! Each body has its own velocity at an interface node. Two bodies that approach,
+//! `(v_a - v_b) . n > 0`, receive equal and opposite impulses, which make the normal velocities
+//! equal. The impulses also make the tangential velocities equal, unless this requires more than
+//! the friction limit, mu times the normal impulse. Bodies that separate are not changed.
 //!
 //! The normal is the direction of `grad ln m_a - grad ln m_b`. Bardenhagen et al. use a separate
 //! normal from the mass of each body. Two such normals are not opposite, so the impulses would not

@@ -28,8 +28,8 @@ impl<const D: usize> Particles<D> {
         totals
     }
 
-    /// Returns a matrix whose axial vector is the angular momentum of particle p per unit mass: `v
-    /// x^T` for the motion of its centre, plus the moment `own` about the centre.
+    /// Returns a matrix whose axial vector is the angular momentum of particle p per unit mass:
+    /// `v x^T` for the motion of its centre, plus the moment `own` about the centre.
     fn moment(&self, p: usize, own: Option<Matrix<D>>) -> Matrix<D> {
         dyad(&self.v[p], self.position(p)) + own.unwrap_or_else(Matrix::zeros)
     }

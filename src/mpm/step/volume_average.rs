@@ -12,9 +12,9 @@
 //!
 //! J is that of the end of the step. The weights are those of the start of the step, like the
 //! weights for forces and velocity gradients, because stresses are computed before positions
-//! change. F, J and volumes of a particle are not changed; the internal force uses the volume `V0
-//! J` and the gradients without averaging. Both averages have the same weights, which sum to one.
-//! So Jbar is between the smallest and largest J, and a uniform J is reproduced.
+//! change. F, J and volumes of a particle are not changed; the internal force uses the volume
+//! `V0 J` and the gradients without averaging. Both averages have the same weights, which sum to
+//! one. So Jbar is between the smallest and largest J, and a uniform J is reproduced.
 //!
 //! A law that stores only J receives Jbar as its volume. The force does not derive from a stored
 //! energy.

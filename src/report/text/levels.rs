@@ -32,8 +32,8 @@ fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     }
 }
 
-/// Describes the levels: `8, 16, 32 cells; h = 0.125 ... 0.03125 m; dt = ... s; 4 ppc; 32 ... 128
-/// particles; ... steps`.
+/// Describes the levels:
+/// `8, 16, 32 cells; h = 0.125 ... 0.03125 m; dt = ... s; 4 ppc; 32 ... 128 particles; ... steps`.
 fn setting(study: &Convergence) -> String {
     // A failed level has fewer steps than planned, so it is excluded.
     let levels = || study.levels.iter().filter(|level| level.run.failure.is_none());
