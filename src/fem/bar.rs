@@ -35,8 +35,8 @@ pub struct Bar {
     acceleration: Vec<f64>,
     /// F at the quadrature points, element after element.
     def_grad: Vec<f64>,
-    /// Positions of the quadrature points (m), and the displacements (m) and body force (m/s2)
-    /// there; empty without a body force.
+    /// Positions of the quadrature points (m). Like `displaced` (displacements there, m) and `load`
+    /// (body force there, m/s2), empty without a body force.
     places: Vec<f64>,
     displaced: Vec<f64>,
     load: Vec<f64>,

@@ -3,7 +3,7 @@
 
 use crate::named::named;
 
-/// A quadrature point of an element. The points of all elements are at the same positions.
+/// A quadrature point of an element. All elements have their points at the same relative positions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MeshPoint {
     /// Position in the element: 0 at its left end, 1 at its right end.
@@ -164,9 +164,9 @@ const fn gauss(xi: f64, weight: f64) -> GaussPoint {
     GaussPoint { xi, weight }
 }
 
-/// `1 / sqrt(3)`.
+/// Coordinate `1 / sqrt(3)` of the two-point Gauss rule.
 const TWO: f64 = 0.577_350_269_189_625_8;
-/// `sqrt(3 / 5)`.
+/// Coordinate `sqrt(3 / 5)` of the three-point Gauss rule.
 const THREE: f64 = 0.774_596_669_241_483_4;
 
 /// Two-point Gauss rule, exact to degree 3 (Hughes 2000, section 3.8).

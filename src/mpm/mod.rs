@@ -21,7 +21,7 @@
 //! families      boundary, mass, material, transfer, effect
 //! step          set-up, schedule and passes of a solver
 //! multibody, quasi_static    several solvers on one grid; a solver without dynamics
-//! analysis      questions to a solver
+//! analysis      analyses of a solver
 //! ```
 
 mod analysis;

@@ -13,7 +13,7 @@ use crate::verify::{
 };
 use serde_json::{Map, Value, json};
 
-/// Reports for all kinds of study.
+/// One report for each kind of study.
 pub(crate) const KINDS: [&dyn StudyReport; 5] =
     [&ConvergenceReport, &InternalForceReport, &StabilityReport, &GradientReport, &SpectrumReport];
 
@@ -47,7 +47,7 @@ pub(crate) fn members(object: Value) -> Map<String, Value> {
     }
 }
 
-/// Reports [`Convergence`].
+/// Report of convergence studies ([`Convergence`]).
 pub(crate) struct ConvergenceReport;
 
 impl StudyReport for ConvergenceReport {
@@ -114,7 +114,7 @@ fn floor(floor: &Floor) -> Value {
     })
 }
 
-/// Reports [`InternalForce`].
+/// Report of internal-force studies ([`InternalForce`]).
 pub(crate) struct InternalForceReport;
 
 impl StudyReport for InternalForceReport {
@@ -141,7 +141,7 @@ impl StudyReport for InternalForceReport {
     }
 }
 
-/// Reports [`StabilityStudy`].
+/// Report of stability studies ([`StabilityStudy`]).
 pub(crate) struct StabilityReport;
 
 impl StudyReport for StabilityReport {
@@ -177,7 +177,7 @@ fn stability_json(study: &StabilityStudy) -> Value {
     })
 }
 
-/// Reports [`GradientStudy`].
+/// Report of gradient studies ([`GradientStudy`]).
 pub(crate) struct GradientReport;
 
 impl StudyReport for GradientReport {
@@ -218,7 +218,7 @@ fn gradient_json(study: &GradientStudy) -> Value {
     })
 }
 
-/// Reports [`SpectrumStudy`].
+/// Report of spectrum studies ([`SpectrumStudy`]).
 pub(crate) struct SpectrumReport;
 
 impl StudyReport for SpectrumReport {

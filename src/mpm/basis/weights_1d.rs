@@ -17,8 +17,8 @@ pub struct Weights1d<const K: usize> {
     pub slope: [f64; K],
     /// Positions of the functions relative to the particle (m).
     pub offset: [f64; K],
-    /// `sum weight offset^2` (m^2). The sum is taken about the mean if the particle has no other
-    /// functions along this axis.
+    /// Variance, `sum weight offset^2` (m^2). The sum is taken about the mean if the particle has
+    /// no other functions along this axis.
     pub variance: f64,
 }
 
@@ -75,7 +75,7 @@ pub(in crate::mpm) struct WeightsSimd<S: Simd, const K: usize> {
     pub(in crate::mpm) slope: [S::F64x4; K],
     /// Positions of the functions relative to the particle (m).
     pub(in crate::mpm) offset: [S::F64x4; K],
-    /// `sum weight offset^2` (m^2) about the mean.
+    /// Variance, `sum weight offset^2` (m^2), about the mean.
     pub(in crate::mpm) variance: S::F64x4,
 }
 
@@ -127,7 +127,7 @@ pub struct Weights1dBatch<const K: usize> {
     pub(in crate::mpm) slope: [F64Batch; K],
     /// Positions of the functions relative to the particle (m).
     pub(in crate::mpm) offset: [F64Batch; K],
-    /// `sum weight offset^2` (m^2), about the mean if a particle has no other functions.
+    /// Variance, `sum weight offset^2` (m^2), about the mean if a particle has no other functions.
     pub(in crate::mpm) variance: F64Batch,
     /// Offset of each function from the mean (m).
     pub(in crate::mpm) offset_from_mean: [F64Batch; K],

@@ -10,7 +10,6 @@ use crate::subject::{Checkpoint, Column};
 /// the middle of this interval. A step therefore advances velocities from t - dt/2 to t + dt/2, and
 /// a prescribed velocity is accurate to second order in any scheme. If the run starts from the
 /// velocities at t = 0, the first advance is shorter.
-/// velocities at t = 0, the first advance is shorter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advance {
     /// Time of the velocities before the advance (s).

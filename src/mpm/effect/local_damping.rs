@@ -13,7 +13,7 @@
 use super::contract::Effect;
 use crate::mpm::foundation::grid::Grid;
 
-/// Local damping; zeta is a fraction of the unbalanced force, 0 <= zeta < 1.
+/// Local damping with the fraction zeta of the unbalanced force, 0 <= zeta < 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalDamping(pub f64);
 

@@ -42,8 +42,8 @@ impl<const D: usize> Entry for Facet<D> {}
 /// Number of arcs per particle spacing along the rim.
 const PER_SPACING: f64 = 2.0;
 
-/// Maximum distance from the rim of particles that can carry a facet (spacings). A particle is at
-/// most half a diagonal of a cell away from the rim.
+/// Maximum distance from the rim of particles that can carry a facet (spacings). Each point of the
+/// rim is at most half a diagonal of the particle lattice from a particle.
 const REACH: f64 = 2.0;
 
 /// Divides `circle` into facets, starting at the positive first axis. Every rim of a body has

@@ -97,7 +97,8 @@ pub(in crate::mpm) fn array<const N: usize, T: Copy>(
 pub(in crate::mpm) const WHOLE: f64 = 4_503_599_627_370_496.0;
 
 /// Rounds down; equals `libm::floor` from -2^51 to 2^51. In the hot loop, a call would cost more
-/// than all other operations, and a conversion to integers and back as much as the weights.
+/// than all other operations, and a conversion to integers and back would cost as much as the
+/// weights.
 #[inline(always)]
 pub(in crate::mpm) fn floor(x: f64) -> f64 {
     const SHIFT: f64 = 1.5 * WHOLE;

@@ -13,7 +13,7 @@ pub struct Grid<const D: usize> {
     pub origin: Vector<D>,
     /// Cell size (m).
     pub h: f64,
-    /// Cells along each axis.
+    /// Number of cells along each axis.
     pub cells: [usize; D],
     /// Whether each axis is periodic.
     pub periodic: [bool; D],

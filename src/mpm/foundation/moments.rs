@@ -11,16 +11,16 @@ pub(in crate::mpm) const SMALLEST: f64 = 1e-13;
 /// Moments of the weights of a patch.
 #[derive(Debug, Clone, Copy)]
 pub struct WeightMoments<const D: usize> {
-    /// `sum_i (x_i - x_p) N_i` (m).
+    /// First moment about the particle, `sum_i (x_i - x_p) N_i` (m).
     pub first: Vector<D>,
-    /// `sum_i (x_i - x_p) (x) (x_i - x_p) N_i` (m^2).
+    /// Second moment about the particle, `sum_i (x_i - x_p) (x) (x_i - x_p) N_i` (m^2).
     pub second: Matrix<D>,
 }
 
 /// Moments of the weights of each particle.
 #[derive(Debug, Clone, Default)]
 pub struct Moments<const D: usize> {
-    /// `sum_i (x_i - x_p) N_i` (m): weighted mean of the node positions, relative to the particle.
+    /// Weighted mean of the node positions, relative to the particle: `sum_i (x_i - x_p) N_i` (m).
     pub mean: Vec<Vector<D>>,
     /// `D_p = sum_i (x_i - x_p) (x) (x_i - x_p) N_i`, about the mean (m^2): the inertia tensor of
     /// APIC (Jiang et al. 2015, eq. 8).

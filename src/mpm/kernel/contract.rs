@@ -231,10 +231,10 @@ pub struct ParticleField<'a, const D: usize> {
 /// Discrete divergence of the stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Divergence {
-    /// `f_int_i = - sum_p V_p sigma_p grad N_i(x_p)` (N).
+    /// With basis gradients: `f_int_i = - sum_p V_p sigma_p grad N_i(x_p)` (N).
     Gradient,
-    /// `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - mean_p) N_i(x_p)` (N), with the gradient of a
-    /// least-squares fit instead of the basis gradient (Hu et al. 2018, eq. 18).
+    /// With gradients of a least-squares fit:
+    /// `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - mean_p) N_i(x_p)` (N) (Hu et al. 2018, eq. 18).
     Fit,
 }
 

@@ -145,8 +145,8 @@ fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(again, first, epsilon = 1e-11);
 }
 
-/// A body that starts deformed has the stress of a step to this deformation, to second order in the
-/// strain. The error is larger for a law in rate form, because the step is only one.
+/// A body that starts deformed has the same stress as after one step to this deformation, to second
+/// order in the strain. For a law in rate form the error is larger, because only one step is made.
 fn a_deformed_start_has_the_stress_of_the_way_there<const D: usize>(plan: MaterialPlan) {
     if plan.properties().starts_deformed().is_err() {
         return;

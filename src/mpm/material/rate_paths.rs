@@ -30,7 +30,7 @@ fn follow(plan: MaterialPlan, corners: &[[f64; 2]], steps: u32) -> Vector<3> {
             let now = sheared([mix(0), mix(1)]);
             let sigma = body.deform(&(now * before.try_inverse().unwrap()), SLOW);
             let after = sigma * now.determinant();
-            // Velocity gradient of the step, with respect to its middle.
+            // Velocity gradient with respect to the configuration in the middle of the step.
             let rate = (now - before) * (0.5 * (now + before)).try_inverse().unwrap();
             work += (0.5 * (tau + after)).dot(&(0.5 * (rate + rate.transpose())));
             (before, tau) = (now, after);

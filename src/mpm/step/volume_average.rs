@@ -45,9 +45,9 @@ pub(in crate::mpm) struct VolumeAverage<const D: usize> {
     ratio: Vec<Vector<D>>,
     /// Sums of `V0 J N_i` and `V0 N_i` for each node (m^D); later Jbar_i and 1.
     nodal_ratio: Vec<Vector<D>>,
-    /// Volume of each particle (m^D) while the law reads the averaged volume.
+    /// Own volume of each particle (m^D), stored while the law reads the averaged volume.
     own_volume: Vec<f64>,
-    /// F of each particle while the law reads Fbar; empty if the law does not read F.
+    /// Own F of each particle, stored while the law reads Fbar; empty if the law does not read F.
     own_def_grad: Vec<Matrix<D>>,
 }
 
@@ -55,7 +55,8 @@ pub(in crate::mpm) struct VolumeAverage<const D: usize> {
 pub(in crate::mpm) const PASSES: u64 = 2;
 
 impl<const D: usize> VolumeAverage<D> {
-    /// Creates the arrays for `particles` on `grid`. The law `reads_deformation` or stores only J.
+    /// Creates the arrays for `particles` on `grid`. The law must either read F
+    /// (`reads_deformation`) or store only J.
     ///
     /// # Errors
     /// [`Failure::Solve`] in one dimension.

@@ -41,8 +41,7 @@ fn same(a: &LevelDocument, b: &LevelDocument) -> bool {
 pub(super) fn is_rounding(old: &CaseDocument, new: &CaseDocument) -> bool {
     let tiny = |case: &CaseDocument| {
         let small = |level: &LevelDocument| relative(case.judge.as_ref(), level) < ROUNDING;
-        // Rounding errors may have an order by chance. The gate then has the verdict
-        // [`AT_ROUNDING`].
+        // Rounding errors may have an order by chance. The gate then has the verdict `AT_ROUNDING`.
         let has_no_order = case.observed_order.is_none() || case.verdict == AT_ROUNDING;
         has_no_order && case.levels.iter().all(small)
     };

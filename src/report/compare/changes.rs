@@ -18,7 +18,7 @@ pub enum Rank {
     LessAccurate,
     /// A stability limit is lower.
     LessStable,
-    /// A given error requires more transfers or, if this cannot be compared, a level does.
+    /// The same error or, if the runs have no common error, the same level requires more transfers.
     MoreExpensive,
     /// The case is more accurate, more stable or cheaper.
     Better,

@@ -16,7 +16,7 @@ pub struct ReportDocument {
 /// Reason why a text is not a valid report document, with the position in the text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unreadable {
-    /// Description of the problem.
+    /// Description of the error.
     pub message: String,
     /// Line and column, counted from one; `None` if the position is unknown.
     pub place: Option<(usize, usize)>,
@@ -34,7 +34,7 @@ pub(super) struct SuiteDocument {
     pub(super) cost: Vec<RankingDocument>,
 }
 
-/// Work of methods for target errors.
+/// Work that the methods need to reach target errors.
 #[derive(Debug, Clone, Deserialize)]
 pub(super) struct RankingDocument {
     pub(super) problem: String,
@@ -72,7 +72,7 @@ pub(super) struct CaseDocument {
     pub(super) stability: Option<StabilityDocument>,
 }
 
-/// Judged quantity and norm. Errors are compared only if both are equal.
+/// Judged quantity and norm. Errors are compared only if these are equal in both runs.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(super) struct JudgeDocument {
     pub(super) of: String,

@@ -127,7 +127,8 @@ impl Simd for Plain {
     }
 }
 
-/// Defines the registers of four numbers, which are identical at both x86 levels.
+/// Implements the part of [`Simd`] for registers of four numbers, which is identical at both x86
+/// levels.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 macro_rules! four {
     () => {
@@ -261,8 +262,8 @@ macro_rules! registers {
 
             #[inline(always)]
             fn are_in(self, low: f64, high: f64) -> bool {
-                // The methods of the masks would not be inlined, so each mask is checked
-                // separately.
+                // A conjunction of the masks would be a call that is not inlined, so each mask is
+                // checked separately.
                 self.simd_ge(low).all_true() && self.simd_lt(high).all_true()
             }
 
@@ -299,8 +300,8 @@ registers!(fearless_simd::x86::Avx2);
 registers!(fearless_simd::x86::Avx512);
 sums!(fearless_simd::f64x8<fearless_simd::x86::Avx512>);
 
-/// Bits of sqrt(1/2), truncated to the leading 32. Numbers are split at this value into `2^k` and a
-/// factor.
+/// Leading 32 bits of sqrt(1/2). A number is split into `2^k` and a factor from sqrt(1/2) to
+/// sqrt(2).
 const ROOT_OF_HALF: u64 = 0x3fe6_a09e << 32;
 const ONE: u64 = 0x3ff0_0000 << 32;
 const MANTISSA: u64 = (1 << 52) - 1;

@@ -59,8 +59,7 @@ pub(crate) fn arrow_up(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
     arrow
 }
 
-/// Returns the vertical distance between a triangle's centroid and the marker's centre above it, in
-/// radii.
+/// Returns how far the centroid of a triangle is below the centre of the marker, in radii.
 fn lowered(shape: MarkerShape) -> f64 {
     match shape {
         MarkerShape::Up => 0.2,
