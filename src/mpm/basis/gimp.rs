@@ -109,7 +109,7 @@ fn last<const D: usize>(particles: &Particles<D>, first: usize, axis: usize) -> 
     array(0.0, |k| half(particles, first + k, axis, true))
 }
 
-/// Wraps the first nodes of domains, some of which start before the first node of a periodic axis.
+/// Wraps the first nodes of domains. Some nodes are before the first node of a periodic axis.
 #[cold]
 #[inline(never)]
 fn beyond_seam<const D: usize>(grid: &Grid<D>, axis: usize, first: [f64; LANES]) -> [f64; LANES] {

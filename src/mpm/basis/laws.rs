@@ -41,7 +41,7 @@ fn particle<const D: usize>(grid: &Grid<D>, x: Vector<D>) -> Particles<D> {
     particles
 }
 
-/// Returns scattered points, some of which are on nodes, walls and corners.
+/// Returns scattered points, including points on nodes, walls and corners.
 fn points<const D: usize>(grid: &Grid<D>) -> Vec<Vector<D>> {
     let along = [0.0, 0.07, REACH, 0.5, 1.0, 1.93, 2.5, 3.0, 3.999, 4.0];
     (0..60)

@@ -196,7 +196,7 @@ impl ReportComparison {
         self.moved.iter().filter(move |moved| moved.rank == rank)
     }
 
-    /// Lists the words in the names of worse cases, each with the number of worse cases and of all
+    /// Lists words in the names of worse cases, each with the number of worse cases and of all
     /// cases with this word.
     pub(super) fn in_common(&self) -> Option<String> {
         let part = |SharedWord { word, worse, all }: &SharedWord| {

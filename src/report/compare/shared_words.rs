@@ -18,7 +18,7 @@ pub(super) struct SharedWord {
     pub(super) all: usize,
 }
 
-/// Finds words that several worse cases have in common. `cases` are pairs of `SUITE::CASE` and
+/// Finds words common to the names of several worse cases. `cases` are pairs of `SUITE::CASE` and
 /// whether the case became worse.
 ///
 /// Words in more worse cases come first; among these, words in fewer cases overall come first. A
