@@ -18,7 +18,8 @@ pub enum Rank {
     LessAccurate,
     /// A stability limit is lower.
     LessStable,
-    /// The same error or, if the runs have no common error, the same level requires more transfers.
+    /// More transfers are required for the same error or, without a common error, on the same
+    /// level.
     MoreExpensive,
     /// The case is more accurate, more stable or cheaper.
     Better,
