@@ -23,7 +23,7 @@ macro_rules! with_nodes {
     };
 }
 
-/// State of a bar, discretised by finite elements, at one time.
+/// State of a finite element bar at one time.
 pub struct Bar {
     setup: BarSetup,
     pub(super) mesh: Mesh,
@@ -31,12 +31,12 @@ pub struct Bar {
     mass: BarMassMatrix,
     displacement: Vec<f64>,
     velocity: Vec<f64>,
-    /// Holds the nodal forces until the solve with the mass matrix.
+    /// Nodal accelerations; before the solve with the mass matrix, the nodal forces.
     acceleration: Vec<f64>,
     /// F at the quadrature points, element after element.
     def_grad: Vec<f64>,
-    /// Positions of the quadrature points (m), and the displacements (m) and body force (m/s2)
-    /// there; empty without a body force.
+    /// Positions of the quadrature points (m). Like `displaced` (displacements there, m) and `load`
+    /// (body force there, m/s2), empty without a body force.
     places: Vec<f64>,
     displaced: Vec<f64>,
     load: Vec<f64>,
@@ -81,33 +81,35 @@ impl Bar {
         Ok(bar)
     }
 
-    /// Current time (s).
+    /// Returns the current time (s).
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// Reference positions of the nodes (m).
+    /// Returns the reference positions of the nodes (m).
     pub fn nodes(&self) -> &[f64] {
         &self.nodes
     }
 
-    /// Displacements of the nodes (m).
+    /// Returns the displacements of the nodes (m).
     pub fn nodal_displacements(&self) -> &[f64] {
         &self.displacement
     }
 
-    /// Nodal velocities at the current time (m/s), see [`Bar::velocity_at`].
+    /// Returns the nodal velocities at the current time (m/s), as [`Bar::velocity_at`] does.
     pub fn nodal_velocities(&self) -> impl Iterator<Item = f64> {
         self.velocity.iter().zip(&self.acceleration).map(|(v, a)| v + self.lag * a)
     }
 
-    /// Displacement (m) at any reference position; beyond an end, the displacement of that end.
+    /// Returns the displacement (m) at any reference position; outside the bar, that of the nearest
+    /// end.
     pub fn displacement_at(&self, x: f64) -> f64 {
         let (cell, place) = self.mesh.locate(x);
         self.displacement_in(cell, place)
     }
 
-    /// Velocity (m/s) at any reference position; beyond an end, the velocity of that end.
+    /// Returns the velocity (m/s) at any reference position; outside the bar, that of the nearest
+    /// end.
     ///
     /// With [`Start::HalfStepBack`] the stored velocities are half a step old. This function
     /// advances them to the current time with the last acceleration, which is accurate to second
@@ -117,19 +119,19 @@ impl Bar {
         self.velocity_in(cell, place)
     }
 
-    /// Displacement at a place of a cell.
+    /// Returns the displacement at a position in a cell (0 to 1).
     pub(super) fn displacement_in(&self, cell: usize, place: f64) -> f64 {
         self.mesh.interpolate(cell, place, &self.displacement)
     }
 
-    /// Velocity at a place of a cell, advanced to the current time.
+    /// Returns the velocity at a position in a cell (0 to 1), advanced to the current time.
     pub(super) fn velocity_in(&self, cell: usize, place: f64) -> f64 {
         let velocity = self.mesh.interpolate(cell, place, &self.velocity);
         velocity + self.lag * self.mesh.interpolate(cell, place, &self.acceleration)
     }
 
-    /// Computes F at every quadrature point. An inverted element has no physical stress. An
-    /// infinite or undefined nodal value always gives an F that is not finite.
+    /// Computes F at every quadrature point. Fails if an element is inverted, because it has no
+    /// physical stress. An infinite or undefined nodal value always gives an F that is not finite.
     fn deform(&mut self) -> Result<(), Failure> {
         with_nodes!(self.mesh.element(), N => self.deform_elements::<N>())?;
         self.count_visits();
@@ -157,7 +159,8 @@ impl Bar {
         Ok(())
     }
 
-    /// Computes nodal forces per unit area, in the order: internal forces, body force, ends.
+    /// Computes nodal forces per unit area; adds internal forces, body force and end forces in this
+    /// order.
     fn force(&mut self) -> Result<(), Failure> {
         self.acceleration.fill(0.0);
         with_nodes!(self.mesh.element(), N => self.add_stress::<N>());
@@ -219,7 +222,7 @@ impl Bar {
         }
     }
 
-    /// Counts one visit for each pair of a node and a quadrature point in an element.
+    /// Counts one visit for each pair of a node and a quadrature point of an element.
     fn count_visits(&mut self) {
         self.transfers += (self.def_grad.len() * self.mesh.element().nodes()) as u64;
     }
@@ -272,7 +275,7 @@ impl Subject for Bar {
     }
 }
 
-/// Reason why `def_grad` is not a valid F of the element `cell`.
+/// Returns the reason why `def_grad` is not a valid F of the element `cell`.
 #[cold]
 fn no_deformation(cell: usize, def_grad: f64) -> Failure {
     let site = Site::Element(cell);
@@ -283,13 +286,13 @@ fn no_deformation(cell: usize, def_grad: f64) -> Failure {
     }
 }
 
-/// Reference positions of all quadrature points, element after element.
+/// Returns the reference positions of all quadrature points, element after element.
 fn quadrature(mesh: &Mesh) -> Vec<f64> {
     let inside = |cell| mesh.points().iter().map(move |point| mesh.position(cell, point.place));
     (0..mesh.cells()).flat_map(inside).collect()
 }
 
-/// Nodal values of a field; zero at fixed ends.
+/// Returns the nodal values of a field; zero at fixed ends.
 fn interpolant(nodes: &[f64], fixed: [bool; 2], field: &ScalarFunction) -> Vec<f64> {
     let is_fixed = |i: usize| (fixed[0] && i == 0) || (fixed[1] && i + 1 == nodes.len());
     let value = |(i, &x): (usize, &f64)| if is_fixed(i) { 0.0 } else { field(x) };
@@ -297,7 +300,7 @@ fn interpolant(nodes: &[f64], fixed: [bool; 2], field: &ScalarFunction) -> Vec<f
 }
 
 fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
-    // Without early exit, so that the compiler can check several numbers at once.
+    // There is no early exit, so that the compiler can check several numbers at once.
     if nodal.iter().fold(true, |finite, value| finite & value.is_finite()) {
         return Ok(());
     }
@@ -307,20 +310,20 @@ fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
     }
 }
 
-/// Sampling places in an element, from 0 to 1: the centres of its quarters, like the positions of
-/// four particles.
+/// Sampling positions in an element, from 0 to 1: the centres of its quarters, like the positions
+/// of four particles.
 ///
-/// An element of degree k interpolates `u` with an error that, to leading order, is the same
-/// polynomial everywhere: `(1 - xi^2) u''` if linear, `xi (1 - xi^2) u'''` if quadratic. At the
-/// zeros of this polynomial (the nodes, including the midside node) only the error of the nodal
-/// values remains. This error may be of a higher order. At `xi = 1/4` and `3/4` the linear
-/// polynomial has the values 0.94 and 0.44 (maximum 1), and the quadratic one 0.23 and 0.33
-/// (maximum 0.38). None of these places is therefore superconvergent. They also differ from the
-/// points `+-1/sqrt(3)`, where the *strain* of a quadratic element is superconvergent.
+/// None of these positions is superconvergent. To leading order, the interpolation error of an
+/// element is the same polynomial in every element: `(1 - xi^2) u''` if linear,
+/// `xi (1 - xi^2) u'''` if quadratic. At the zeros of this polynomial (the nodes, including the
+/// midside node) only the error of the nodal values remains, which may be of a higher order. At
+/// `xi = 1/4` and `3/4` the linear polynomial has the values 0.94 and 0.44 (maximum 1), and the
+/// quadratic one 0.23 and 0.33 (maximum 0.38). The positions also differ from the points
+/// `+-1/sqrt(3)`, where the *strain* of a quadratic element is superconvergent.
 const PLACES: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
 impl Bar {
-    /// Writes the current state at the points of `sampling`, which may differ from the sampling of
+    /// Writes the current state at the points of `sampling`, which may differ from the sampling in
     /// the set-up.
     pub fn sample_as(&self, sampling: Sampling, samples: &mut Samples) {
         samples.clear();
@@ -333,7 +336,7 @@ impl Bar {
         samples.mass.extend(samples.weight.iter().map(|weight| density * weight));
     }
 
-    /// Samples inside the elements; each point has the weight of a quarter of the element.
+    /// Samples inside the elements. The weight of each point is a quarter of the element length.
     fn sample_inside(&self, samples: &mut Samples) {
         let weight = self.mesh.cell_length() / PLACES.len() as f64;
         for cell in 0..self.mesh.cells() {
@@ -346,7 +349,7 @@ impl Bar {
         }
     }
 
-    /// Samples at the nodes; the weight of a node is its lumped length.
+    /// Samples at the nodes. The weight of a node is its lumped length.
     fn sample_nodes(&self, samples: &mut Samples) {
         samples.label.extend(self.nodes());
         samples.displacement.extend(self.nodal_displacements());

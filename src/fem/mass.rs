@@ -10,9 +10,9 @@ use crate::subject::Failure;
 
 /// A mass matrix, prepared for one solve in each step.
 pub(super) enum BarMassMatrix {
-    /// The diagonal.
+    /// Diagonal of the lumped matrix.
     Lumped(Vec<f64>),
-    /// The Cholesky factor. It has the band structure of the matrix, so reordering is not needed.
+    /// Cholesky factor of the consistent matrix. Its band structure makes reordering unnecessary.
     Consistent(Box<CscCholesky<f64>>),
 }
 
@@ -62,14 +62,14 @@ pub(super) fn add_nodal_lengths(mesh: &Mesh, lengths: &mut [f64]) {
     }
 }
 
-/// Row sums of the consistent matrix (kg/m2).
+/// Returns the row sums of the consistent matrix (kg/m2).
 pub(super) fn lumped(mesh: &Mesh, density: f64) -> Vec<f64> {
     let mut lengths = vec![0.0; mesh.node_count()];
     add_nodal_lengths(mesh, &mut lengths);
     lengths.into_iter().map(|length| density * length).collect()
 }
 
-/// The matrix `int rho0 N_i N_j dX` (kg/m2), element by element.
+/// Assembles the matrix `int rho0 N_i N_j dX` (kg/m2), element by element.
 pub(super) fn consistent(mesh: &Mesh, density: f64) -> CooMatrix<f64> {
     let mut matrix = CooMatrix::new(mesh.node_count(), mesh.node_count());
     for cell in 0..mesh.cells() {
@@ -83,13 +83,13 @@ pub(super) fn consistent(mesh: &Mesh, density: f64) -> CooMatrix<f64> {
     matrix
 }
 
-/// `int N_a N_b dX` over one element (m).
+/// Integrates `int N_a N_b dX` over one element (m).
 fn product(mesh: &Mesh, a: usize, b: usize) -> f64 {
     mesh.points().iter().map(|point| point.weight * (point.shape[a] * point.shape[b])).sum()
 }
 
-/// The matrix of the free nodes. For a fixed node, the row and column of the identity matrix are
-/// inserted. This preserves the numbering and keeps the matrix positive definite.
+/// Restricts the matrix to free nodes: the row and column of a fixed node become those of the
+/// identity matrix. This preserves the numbering and keeps the matrix positive definite.
 fn held(matrix: &CooMatrix<f64>, fixed: [bool; 2]) -> CooMatrix<f64> {
     let size = matrix.nrows();
     let is_fixed = |i: usize| (fixed[0] && i == 0) || (fixed[1] && i + 1 == size);

@@ -3,7 +3,7 @@
 
 use crate::named::named;
 
-/// A quadrature point. All elements have the same points.
+/// A quadrature point of an element. All elements have their points at the same relative positions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MeshPoint {
     /// Position in the element: 0 at its left end, 1 at its right end.
@@ -27,7 +27,7 @@ pub(super) struct Mesh {
 }
 
 impl Mesh {
-    /// Creates a mesh. The caller has checked that `from < to` and `cells > 0`.
+    /// Creates a mesh. The caller must check that `from < to` and `cells > 0`.
     pub(super) fn new(from: f64, to: f64, cells: usize, element: Element) -> Self {
         let half = 0.5 * (to - from) / cells as f64; // dX/dxi
         let points = element.quadrature().iter().map(|gauss| MeshPoint {
@@ -39,96 +39,97 @@ impl Mesh {
         Self { from, to, cells, element, points: points.collect() }
     }
 
-    /// Number of elements.
+    /// Returns the number of elements.
     pub(super) fn cells(&self) -> usize {
         self.cells
     }
 
-    /// Kind of the elements.
+    /// Returns the kind of the elements.
     #[inline]
     pub(super) fn element(&self) -> Element {
         self.element
     }
 
-    /// Length of an element (m).
+    /// Returns the length of an element (m).
     pub(super) fn cell_length(&self) -> f64 {
         (self.to - self.from) / self.cells as f64
     }
 
-    /// Quadrature points of an element.
+    /// Returns the quadrature points of an element.
     #[inline]
     pub(super) fn points(&self) -> &[MeshPoint] {
         &self.points
     }
 
-    /// Quadrature points of an element with N nodes and N points.
+    /// Returns the quadrature points of an element with N nodes and N points.
     #[inline]
     pub(super) fn points_of<const N: usize>(&self) -> &[MeshPoint; N] {
         self.points.first_chunk().unwrap_or_else(|| unreachable!("{N} nodes"))
     }
 
-    /// Nodal values of a cell with N nodes.
+    /// Returns the nodal values of a cell with N nodes.
     #[inline]
     pub(super) fn nodes_of<const N: usize>(cell: usize, nodal: &[f64]) -> &[f64; N] {
         let local = nodal[cell * (N - 1)..].first_chunk();
         local.unwrap_or_else(|| unreachable!("cell {cell}"))
     }
 
-    /// Mutable nodal values of a cell with N nodes.
+    /// Returns the mutable nodal values of a cell with N nodes.
     #[inline]
     pub(super) fn nodes_of_mut<const N: usize>(cell: usize, nodal: &mut [f64]) -> &mut [f64; N] {
         let local = nodal[cell * (N - 1)..].first_chunk_mut();
         local.unwrap_or_else(|| unreachable!("cell {cell}"))
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub(super) fn node_count(&self) -> usize {
         self.cells * self.element.degree() + 1
     }
 
-    /// Reference position of node `i`.
+    /// Returns the reference position of node `i`.
     pub(super) fn node(&self, i: usize) -> f64 {
         self.from + (self.to - self.from) * i as f64 / (self.node_count() - 1) as f64
     }
 
-    /// Reference position of a place (0 to 1) in a cell.
+    /// Returns the reference position of the point at `place` (0 to 1) in a cell.
     pub(super) fn position(&self, cell: usize, place: f64) -> f64 {
         self.from + (self.to - self.from) * (cell as f64 + place) / self.cells as f64
     }
 
-    /// Index of the first node of a cell, followed by its other nodes.
+    /// Returns the index of a cell's leftmost node. The indices of its other nodes follow without a
+    /// gap.
     #[inline]
     pub(super) fn first_node(&self, cell: usize) -> usize {
         cell * self.element.degree()
     }
 
-    /// Nodal values of a cell.
+    /// Returns the nodal values of a cell.
     #[inline]
     pub(super) fn local<'a>(&self, cell: usize, nodal: &'a [f64]) -> &'a [f64] {
         &nodal[self.first_node(cell)..][..self.element.nodes()]
     }
 
-    /// Mutable nodal values of a cell.
+    /// Returns the mutable nodal values of a cell.
     #[inline]
     pub(super) fn local_mut<'a>(&self, cell: usize, nodal: &'a mut [f64]) -> &'a mut [f64] {
         &mut nodal[self.first_node(cell)..][..self.element.nodes()]
     }
 
-    /// Cell that contains X, and the place of X in the cell. Positions beyond an end are moved to
-    /// that end.
+    /// Returns the cell that contains X, and the position of X in the cell (0 to 1). Positions
+    /// outside the mesh are moved to the nearest end.
     pub(super) fn locate(&self, x: f64) -> (usize, f64) {
         let along = (x.clamp(self.from, self.to) - self.from) / self.cell_length();
         let cell = (along as usize).min(self.cells - 1); // the last node belongs to the last cell
         (cell, along - cell as f64)
     }
 
-    /// Value of the field with these nodal values at a place of a cell.
+    /// Interpolates a field with these nodal values at the point `place` (0 to 1) of a cell.
     pub(super) fn interpolate(&self, cell: usize, place: f64, nodal: &[f64]) -> f64 {
         dot(&self.element.shape(2.0 * place - 1.0), self.local(cell, nodal))
     }
 }
 
-/// `sum_a weight_a nodal_a` over the nodes of an element, from left to right.
+/// Computes `sum_a weight_a nodal_a` over the nodes of an element, from left to right.
 #[inline]
 pub(super) fn dot(weight: &PerNode, nodal: &[f64]) -> f64 {
     weight.iter().zip(nodal).map(|(weight, value)| weight * value).sum()
@@ -163,9 +164,9 @@ const fn gauss(xi: f64, weight: f64) -> GaussPoint {
     GaussPoint { xi, weight }
 }
 
-/// `1 / sqrt(3)`.
+/// Coordinate `1 / sqrt(3)` of the two-point Gauss rule.
 const TWO: f64 = 0.577_350_269_189_625_8;
-/// `sqrt(3 / 5)`.
+/// Coordinate `sqrt(3 / 5)` of the three-point Gauss rule.
 const THREE: f64 = 0.774_596_669_241_483_4;
 
 /// Two-point Gauss rule, exact to degree 3 (Hughes 2000, section 3.8).
@@ -175,7 +176,7 @@ const GAUSS_3: [GaussPoint; 3] =
     [gauss(-THREE, 5.0 / 9.0), gauss(0.0, 8.0 / 9.0), gauss(THREE, 5.0 / 9.0)];
 
 impl Element {
-    /// Polynomial degree k; the displacement is of order k + 1.
+    /// Returns the polynomial degree k. The displacement error is of order k + 1.
     #[inline]
     pub fn degree(self) -> usize {
         match self {
@@ -184,13 +185,13 @@ impl Element {
         }
     }
 
-    /// Number of nodes of one element.
+    /// Returns the number of nodes of one element.
     #[inline]
     pub(super) fn nodes(self) -> usize {
         self.degree() + 1
     }
 
-    /// Values of the shape functions.
+    /// Returns the values of the shape functions.
     pub(super) fn shape(self, xi: f64) -> PerNode {
         match self {
             Self::Linear => [0.5 * (1.0 - xi), 0.5 * (1.0 + xi), 0.0],
@@ -200,7 +201,7 @@ impl Element {
         }
     }
 
-    /// Derivatives of the shape functions with respect to `xi`.
+    /// Returns the derivatives of the shape functions with respect to `xi`.
     pub(super) fn gradient(self, xi: f64) -> PerNode {
         match self {
             Self::Linear => [-0.5, 0.5, 0.0],
@@ -208,10 +209,11 @@ impl Element {
         }
     }
 
-    /// The `k + 1` Gauss points, exact to degree `2k + 1`. They are exact for the mass matrix
-    /// (degree 2k) and for the internal force of a linear law (degree 2k - 2). The error for a
-    /// smooth integrand is of order `2k + 2`, above the order `k + 1` of the element (Ciarlet, *The
-    /// Finite Element Method for Elliptic Problems*, 1978, section 4.1, requires degree 2k - 2).
+    /// Returns the `k + 1` Gauss points, which integrate polynomials of degree `2k + 1` exactly.
+    /// This includes the mass matrix (degree 2k) and the internal force of a linear law (degree 2k
+    /// - 2). The error for a smooth integrand is of order `2k + 2`, above the order `k + 1` of the
+    /// element (Ciarlet, *The Finite Element Method for Elliptic Problems*, 1978, section 4.1,
+    /// requires degree 2k - 2).
     pub(super) fn quadrature(self) -> &'static [GaussPoint] {
         match self {
             Self::Linear => &GAUSS_2,
@@ -219,10 +221,10 @@ impl Element {
         }
     }
 
-    /// `int N_a dxi / 2`: share of the element length for each node. For the quadratic element the
-    /// shares are also the weights of the three-point Gauss-Lobatto rule (Simpson's rule). Row sums
-    /// of the mass matrix and lumping by nodal quadrature therefore agree (Hughes 2000, section
-    /// 7.3.2).
+    /// Returns `int N_a dxi / 2`, the fraction of the element length for each node. For the
+    /// quadratic element these fractions are also the weights of the three-point Gauss-Lobatto rule
+    /// (Simpson's rule). Row sums of the mass matrix and lumping by nodal quadrature therefore
+    /// agree (Hughes 2000, section 7.3.2).
     pub(super) fn shares(self) -> PerNode {
         match self {
             Self::Linear => [0.5, 0.5, 0.0],

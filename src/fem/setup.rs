@@ -1,5 +1,5 @@
-//! Set-up of a bar and its validation, and the laws of the bar in uniaxial strain, `P(F)`. Their
-//! implementation is independent of the laws of MPM and of the exact solutions.
+//! Set-up of a bar and its validation, and the laws `P(F)` of the bar in uniaxial strain. The laws
+//! are implemented independently of the laws of MPM and of the exact solutions.
 
 use super::Element;
 use crate::named::named;
@@ -11,11 +11,11 @@ pub type ScalarFunction = Box<dyn Fn(f64) -> f64 + Send>;
 /// A function of time t.
 pub type TimeFunction = Box<dyn Fn(f64) -> f64 + Send>;
 /// A function of time, reference position and displacement, evaluated at many positions in one
-/// call. Its arguments are t (s), positions X (m), which are equal in every call, and the
-/// displacements u (m) there. It writes the values.
+/// call. The arguments are t (s), positions X (m), which are equal in every call, the displacements
+/// u (m) there, and the array to which the values are written.
 pub type BarLoad = Box<dyn FnMut(f64, (&[f64], &[f64]), &mut [f64]) + Send>;
 
-/// The load with the value `f(X, t)` at each position.
+/// Creates a load with the value `f(X, t)` at each position.
 pub fn pointwise(f: impl Fn(f64, f64) -> f64 + Send + 'static) -> BarLoad {
     Box::new(move |t, (places, _), values| {
         for (value, x) in values.iter_mut().zip(places) {
@@ -52,9 +52,9 @@ pub struct BarSetup {
     pub to: f64,
     /// Number of elements, which have equal lengths.
     pub cells: usize,
-    /// Shape functions.
+    /// Kind of element, which determines the shape functions.
     pub element: Element,
-    /// Mass matrix.
+    /// Kind of mass matrix.
     pub mass: Mass,
     /// Reference density rho0 (kg/m3).
     pub density: f64,
@@ -70,8 +70,8 @@ pub struct BarSetup {
     pub traction: [Option<TimeFunction>; 2],
     /// Displacement `u(X)` at t = 0 (m).
     pub initial_displacement: ScalarFunction,
-    /// Velocity `v(X)` at t = 0 (m/s). Like the displacement, the velocity is interpolated at the
-    /// nodes. The interpolant is accurate to order k + 1, the order of the element. It needs no
+    /// Velocity `v(X)` at t = 0 (m/s). Velocity and displacement are interpolated at the nodes. The
+    /// interpolant is accurate to order k + 1, the order of the element. Interpolation needs no
     /// second factorisation if the mass is lumped, and preserves `v` at a fixed end.
     pub initial_velocity: ScalarFunction,
     /// Time of the initial velocity.
@@ -86,7 +86,7 @@ pub(super) const MOST_CELLS: usize = 1 << 24;
 /// Reason why the set-up is invalid.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SetupError {
-    /// The number of elements is invalid.
+    /// The number of elements is zero or too large.
     #[error("{0} elements; a bar has 1 to {MOST_CELLS} of them")]
     Cells(usize),
     /// The ends are not in order, or their distance is not finite.
@@ -109,7 +109,7 @@ pub enum SetupError {
 }
 
 impl BarSetup {
-    /// Rejects invalid values. NaN fails each comparison.
+    /// Checks the values of the set-up. NaN fails each comparison.
     pub(super) fn check(&self) -> Result<(), SetupError> {
         let Self { from, to, cells, density, .. } = *self;
         if !(1..=MOST_CELLS).contains(&cells) {
@@ -131,7 +131,7 @@ impl BarSetup {
 }
 
 named! {
-    /// Laws of the bar.
+    /// Law of the bar in uniaxial strain.
     pub enum BarLaw {
         /// `P = M (F - 1)`, `M = lambda + 2 mu`.
         SmallStrain = "small_strain",
@@ -145,12 +145,12 @@ named! {
 }
 
 impl BarLaw {
-    /// The law with this name, if it exists.
+    /// Returns the law with this name, if it exists.
     pub fn find(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|law| law.name() == name)
     }
 
-    /// P(F) (Pa), from Young's modulus (Pa) and Poisson's ratio.
+    /// Returns P(F) (Pa), from Young's modulus (Pa) and Poisson's ratio.
     pub fn piola(self, young: f64, poisson: f64) -> ScalarFunction {
         let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
         let mu = young / (2.0 * (1.0 + poisson));

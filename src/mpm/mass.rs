@@ -1,4 +1,4 @@
-//! The family of mass matrices. A member is one registration line below and its type.
+//! The family of mass matrices. A new matrix requires its type and one registration line below.
 
 use super::boundary::Boundary;
 use super::foundation::algebra::Vector;
@@ -63,20 +63,20 @@ impl<const D: usize> MassMatrix<D> for Lumped {
 /// The consistent mass matrix.
 #[derive(Default)]
 pub struct Consistent {
-    /// One factor per axis; axes with the same fixed nodes share a factor.
+    /// One factor per axis. Axes with the same fixed nodes share a factor.
     factors: Vec<Factor>,
     entries: MassEntries,
 }
 
-/// Entries of the matrix without constraints, one for each pair of nodes in the support of a
-/// particle.
+/// Entries of the matrix before constraints are applied, one for each pair of nodes in the support
+/// of a particle.
 #[derive(Default)]
 struct MassEntries {
-    /// Nodes of each entry.
+    /// Row and column node of each entry.
     pairs: Vec<(usize, usize)>,
     /// Mass of each entry (kg).
     masses: Vec<f64>,
-    /// Whether the pairs have changed since the previous step.
+    /// Whether any pair has changed since the previous step.
     have_moved: bool,
 }
 
@@ -112,13 +112,14 @@ struct Factor {
     row: Vec<Option<usize>>,
     rows: usize,
     assembly: Assembly,
-    /// The values of the matrix (kg).
+    /// Values of the matrix (kg), from which the factor is computed.
     values: Vec<f64>,
     cholesky: CscCholesky<f64>,
 }
 
 impl Factor {
-    /// Updates the factor of the previous step, `last`, or computes a new one.
+    /// Updates the factor `last` of the previous step if the pattern is the same; otherwise
+    /// computes a new factor.
     fn after(last: Option<Self>, free: &[bool], entries: &MassEntries) -> Result<Self, Failure> {
         let mut rows = 0;
         let mut number = |free: &bool| {
@@ -182,7 +183,7 @@ impl Factor {
     }
 }
 
-/// One for each free component of a node with mass, and zero otherwise.
+/// Returns one for each free component of a node with mass, and zero for the other components.
 fn free<const D: usize>(grid: &Grid<D>, boundary: &[Box<dyn Boundary<D>>]) -> Vec<Vector<D>> {
     let has_mass = |m: &f64| Vector::from_element(f64::from(u8::from(*m > 0.0)));
     let mut free: Vec<Vector<D>> = grid.mass.iter().map(has_mass).collect();
@@ -208,7 +209,8 @@ impl<const D: usize> MassMatrix<D> for Consistent {
         for axis in 0..if same { 1 } else { D } {
             self.factors.push(Factor::after(last.next(), &along(axis), &self.entries)?);
         }
-        // Every pair of nodes is visited.
+        // Each particle visits every pair of nodes in its support, which counts as `support`
+        // passes.
         Ok(1 + kernel.support())
     }
 
@@ -221,21 +223,21 @@ impl<const D: usize> MassMatrix<D> for Consistent {
     }
 }
 
-/// Maps the entries of particles to places in a matrix.
+/// Maps the entries of particles to positions in a matrix.
 struct Assembly {
-    /// Non-zero places of the matrix.
+    /// Positions of the matrix that are not zero.
     pattern: SparsityPattern,
-    /// Indices of the entries, grouped by matrix place.
+    /// Indices of the entries, grouped by matrix position.
     order: Vec<usize>,
-    /// End of the entries of each place in `order`.
+    /// End of the entries of each matrix position in `order`.
     ends: Vec<usize>,
 }
 
 impl Assembly {
-    /// Assembly for a matrix with `size` rows and entries at `places` (row and column). Entries
-    /// without a place are ignored.
+    /// Prepares the assembly of a matrix with `size` rows and entries at `places` (row and column).
+    /// Entries without a place are ignored.
     ///
-    /// The entries of a place are added in the order of an unstable but deterministic sort.
+    /// The entries at one place are added in the order of an unstable but deterministic sort.
     /// `nalgebra_sparse` uses the same order for a `CooMatrix`, so the sums are bit-identical.
     fn new(size: usize, places: impl Iterator<Item = Option<(usize, usize)>>) -> Self {
         let mut columns = vec![Vec::new(); size];
@@ -281,7 +283,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Columns with few and with many entries: the sort uses another algorithm for short lists.
+        /// Columns may have few or many entries, because the sort uses another algorithm for short
+        /// lists.
         #[test]
         fn the_bits_are_those_of_the_library(
             entries in proptest::collection::vec((0..6_usize, 0..6_usize, 1e-3..1.0_f64), 0..900),

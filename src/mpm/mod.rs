@@ -1,12 +1,12 @@
-//! The reference Material Point Method: the "original MPM" of Sulsky, Chen & Schreyer (1994) in the
-//! form of Wobbes & Tielen (2015), in 1-D, 2-D and 3-D.
+//! The reference Material Point Method in 1-D, 2-D and 3-D: the "original MPM" of Sulsky, Chen &
+//! Schreyer (1994) in the form of Wobbes & Tielen (2015).
 //!
 //! A scheme is a list of named stages ([`SchemeName::stages`]). The set-up fuses the stages into
 //! passes over particles or nodes, and a step runs these passes. Only dimension and basis are type
 //! parameters, because only the basis is used inside loops over particles and nodes. The
 //! object-safe [`Kernel`] hides both parameters. [`Transfer`], [`MassMatrix`] and [`Effect`] use
-//! the passes of the kernel. They and [`Material`] are trait objects that are called between
-//! stages. A solver has only the effects that the scene lists.
+//! the passes of the kernel. These three and [`Material`] are trait objects that are called between
+//! stages. A solver contains only the effects that the scene lists.
 //!
 //! ```text
 //! particles --P2G--> mass, momentum, force --solve--> acceleration --G2P--> velocity, strain, x
@@ -21,7 +21,7 @@
 //! families      boundary, mass, material, transfer, effect
 //! step          set-up, schedule and passes of a solver
 //! multibody, quasi_static    several solvers on one grid; a solver without dynamics
-//! analysis      questions to a solver
+//! analysis      analyses of a solver
 //! ```
 
 mod analysis;

@@ -23,8 +23,8 @@ named! {
 }
 
 impl SchemeName {
-    /// Stages of one step. MUSL computes the grid velocity before the particle velocity only if the
-    /// transfer or a wall reads the grid velocity.
+    /// Returns the stages of one step. MUSL computes the grid velocity before the particle velocity
+    /// only if the transfer or a wall reads the grid velocity.
     pub fn stages(self, reads_grid_velocity: bool) -> &'static [Stage] {
         match self {
             Self::Musl if reads_grid_velocity => &[
@@ -87,7 +87,7 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// Name in reports of the quantity that the stage computes.
+    /// Returns the quantity that the stage computes, as named in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Mass => "mass",

@@ -6,7 +6,7 @@ use crate::verify::SuiteOutcome;
 use serde_json::Value;
 use std::collections::HashMap;
 
-/// Keys of a case in the JSON document. Each row of the case repeats their values.
+/// Case keys of the JSON document whose values are repeated in each row of the case.
 const OF_CASE: [&str; 9] = [
     "case",
     "subject",
@@ -22,8 +22,9 @@ const OF_CASE: [&str; 9] = [
 /// Values of a row by column name.
 type CsvRow = HashMap<String, String>;
 
-/// Reports as CSV with one row for each level of a convergence study, each value of a stability
-/// study and each position of an internal-force study. A case without any of these has one row.
+/// Converts reports to CSV, with one row for each level of a convergence study, each value of a
+/// stability study and each position of an internal-force study. A case without any of these has
+/// one row.
 ///
 /// Column names are the keys of the JSON document ([`json`](crate::report::json())), with a dot
 /// between outer and inner key (`errors.rms`, `observed_order.low`). Columns of stability and
@@ -78,7 +79,7 @@ impl CsvTable {
         }
     }
 
-    /// Adds a value to a row. A value with members gets one column for each member.
+    /// Adds a value to a row. An object adds one column for each of its members.
     fn put(&mut self, row: &mut CsvRow, column: &str, value: &Value) {
         let text = match value {
             Value::Null => return,
@@ -118,7 +119,7 @@ impl CsvTable {
     }
 }
 
-/// Keys of levels in the order of their column declarations.
+/// Returns the keys of levels in the order in which their columns are declared.
 fn level_keys() -> Vec<&'static str> {
     let outer = |key: &'static str| key.split_once('.').map_or(key, |(outer, _)| outer);
     let mut keys: Vec<_> = level::json_columns().iter().map(|column| outer(column.key)).collect();

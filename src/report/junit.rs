@@ -5,11 +5,11 @@ use crate::verify::{CaseOutcome, SuiteOutcome};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::collections::BTreeSet;
 
-/// Reports as JUnit XML, with a test suite for each suite and a test case for each case.
+/// Converts reports to JUnit XML, with a test suite for each suite and a test case for each case.
 ///
 /// A case that is not applicable, excepted or not gated is skipped with its reason. If its suite is
-/// one of `required`, it fails instead, as with `run --gate`. A failure contains the report of the
-/// case as its text. Times are omitted, so that equal results give equal documents.
+/// in `required`, the case fails instead, as with `run --gate`. The text of a failure is the report
+/// of the case. Times are omitted, so that equal results give equal documents.
 ///
 /// # Panics
 /// Never, because writing to memory does not fail.

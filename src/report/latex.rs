@@ -8,7 +8,8 @@ use std::fmt::Write;
 /// Maximum number of cases per table, limited by the width of a page.
 const MOST_CASES: usize = 3;
 
-/// Tables of the errors and orders of convergence studies, in the style of the package `booktabs`.
+/// Writes the errors and orders of convergence studies as tables in the style of the package
+/// `booktabs`.
 ///
 /// Each table has a row for each level and two columns for each case. Cases with different levels
 /// or different judged errors are in different tables. Suites without a convergence study have no
@@ -104,8 +105,8 @@ fn interval(order: Interval) -> String {
     format!("${:.2}$ [${:.2}$, ${:.2}$]", order.value, order.low, order.high)
 }
 
-/// A cell of a text table in LaTeX. `1.235e-05` becomes a power of ten; an empty cell becomes a
-/// dash.
+/// Converts a cell of a text table to LaTeX: `1.235e-05` becomes a power of ten, and `-` (no value)
+/// becomes a dash.
 fn number(text: &str) -> String {
     let (before, rest) = text.strip_prefix('(').map_or(("", text), |rest| ("(", rest));
     let (inner, after) = rest.strip_suffix(')').map_or((rest, ""), |inner| (inner, ")"));
@@ -124,7 +125,7 @@ fn number(text: &str) -> String {
 }
 
 /// Escapes text for LaTeX. Letters of Latin alphabets do not change. Other characters outside ASCII
-/// become their LaTeX command, or a question mark.
+/// become their LaTeX command, or a question mark if there is none.
 pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

@@ -5,14 +5,14 @@ use crate::verify::{
     Acceptance, CaseOutcome, Convergence, Exemption, StabilityStudy, SuiteOutcome, Verdict,
 };
 
-/// Headings of the columns: bases of MPM, finite elements, and all other methods.
+/// Column headings: the bases of MPM, finite elements (FEM), and all other methods.
 pub(crate) const COLUMNS: [&str; 8] =
     ["linear", "uGIMP", "cpGIMP", "CPDI", "quadratic", "cubic", "FEM", "other"];
 
 const BASES: [&str; 6] =
     ["linear", "ugimp", "cpgimp", "cpdi", "quadratic_bspline", "cubic_bspline"];
 
-/// Meaning of the findings.
+/// Explanation of the findings, printed with the matrix.
 pub(crate) const LEGEND: &str = "Each entry is the range of observed orders of all methods with \
     this basis, over every transfer and time scheme. Instead of an order: `floor`: the error stops \
     falling; `grows`: it grows with refinement; `breaks`: a run fails; `unsettled` and \
@@ -20,26 +20,26 @@ pub(crate) const LEGEND: &str = "Each entry is the range of observed orders of a
     against limits, and no order is measured; `stable`, `unstable` and `limit` (a critical value): \
     results of stability studies. The report of a suite states the reasons.";
 
-/// Class of a finding, from good to bad. The page shows it as a colour.
+/// Class of a finding, from good to bad; determines its colour on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum FindingClass {
-    /// Bounds, stability studies, and cases that do not apply.
+    /// No order is measured: bounds, stability studies, and cases that do not apply.
     Other,
-    /// At least the expected order.
+    /// The observed order is at least the expected one.
     Order,
-    /// An order below the expected one.
+    /// The observed order is below the expected one.
     LowOrder,
-    /// No order: the error stops decreasing, or the orders of the levels differ.
+    /// There is no observed order: the error stops decreasing, or the orders of the levels differ.
     NoOrder,
     /// The error grows with refinement, or runs fail.
     Fails,
 }
 
 impl FindingClass {
-    /// Classes with their own colour.
+    /// Classes that have a colour of their own.
     pub(crate) const SHOWN: [Self; 4] = [Self::Order, Self::LowOrder, Self::NoOrder, Self::Fails];
 
-    /// Name of the class in style sheets.
+    /// Returns the name of the class in style sheets.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Other => "other",
@@ -50,7 +50,7 @@ impl FindingClass {
         }
     }
 
-    /// Meaning of the class, for the legend.
+    /// Describes the class for the legend.
     pub(crate) fn meaning(self) -> &'static str {
         match self {
             Self::Other => "bounds, stability, or not applicable",
@@ -78,7 +78,8 @@ impl FindingClass {
     }
 }
 
-/// The worst class among the cases in each of [`COLUMNS`]; `None` without cases.
+/// Returns the worst class among the cases in each of [`COLUMNS`]; `None` for a column without
+/// cases.
 pub(crate) fn classes(outcome: &SuiteOutcome) -> [Option<FindingClass>; COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcome.cases.iter().filter(|case| column_of(case) == column);
@@ -86,8 +87,8 @@ pub(crate) fn classes(outcome: &SuiteOutcome) -> [Option<FindingClass>; COLUMNS.
     })
 }
 
-/// For each of [`COLUMNS`], the number of cases with the expected order, and the number of all
-/// cases with an order or an order-related verdict.
+/// Counts the cases in each of [`COLUMNS`]: those with the expected order, and all with an order or
+/// an order-related verdict.
 pub(crate) fn shares(outcomes: &[&SuiteOutcome]) -> [(usize, usize); COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcomes.iter().flat_map(|outcome| &outcome.cases);
@@ -100,7 +101,7 @@ pub(crate) fn shares(outcomes: &[&SuiteOutcome]) -> [(usize, usize); COLUMNS.len
     })
 }
 
-/// Items grouped by the group of their suite, with the groups in alphabetical order.
+/// Groups items by the group of their suite, with the groups in alphabetical order.
 pub(crate) fn by_group<'a, T>(
     all: impl IntoIterator<Item = T>,
     suite: impl Fn(&T) -> &'a SuiteOutcome,
@@ -110,7 +111,8 @@ pub(crate) fn by_group<'a, T>(
     groups
 }
 
-/// Findings of a suite, one text for each of [`COLUMNS`]; a dash if the suite has no such case.
+/// Returns the findings of a suite, one text for each of [`COLUMNS`]: a dash for a column without
+/// cases.
 pub(crate) fn findings(outcome: &SuiteOutcome) -> [String; COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcome.cases.iter().filter(|case| column_of(case) == column);
@@ -118,8 +120,8 @@ pub(crate) fn findings(outcome: &SuiteOutcome) -> [String; COLUMNS.len()] {
     })
 }
 
-/// Suites in which methods of a column fail, with the kinds of failure: the error grows or stops
-/// decreasing, or a run fails.
+/// Lists the suites in which methods of a column fail, each with the kinds of failure: the error
+/// grows or stops decreasing, or a run fails.
 pub(crate) fn failures(outcomes: &[SuiteOutcome], column: usize) -> Vec<(&str, Vec<String>)> {
     let of_suite = |outcome: &'_ SuiteOutcome| {
         let cases = outcome.cases.iter().filter(|case| column_of(case) == column && case.fails());
@@ -139,7 +141,8 @@ fn column_of(case: &CaseOutcome) -> usize {
     }
 }
 
-/// Range of the orders, followed by other verdicts.
+/// Combines several cases into one text: the range of their orders, followed by their other
+/// verdicts.
 fn finding(cases: &[&CaseOutcome]) -> String {
     let orders = cases.iter().filter_map(|case| order(case));
     let [least, most] = orders.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], order| {
@@ -154,13 +157,13 @@ fn finding(cases: &[&CaseOutcome]) -> String {
     if parts.is_empty() { "-".to_owned() } else { parts.join("/") }
 }
 
-/// Order of a case, if it has one.
+/// Returns the observed order of a case, if it has one.
 fn order(case: &CaseOutcome) -> Option<f64> {
     let study = case.convergence().filter(|_| word(case).is_none())?;
     study.judgement.order.map(|order| order.value)
 }
 
-/// Text for a case whose verdict is not an order.
+/// Returns the text for a case whose verdict is not an order.
 fn word(case: &CaseOutcome) -> Option<String> {
     if !case.lacks.is_empty() {
         return Some("n/a".to_owned());

@@ -13,33 +13,33 @@ use crate::verify::{
 };
 use serde_json::{Map, Value, json};
 
-/// All kinds of study.
+/// One report for each kind of study.
 pub(crate) const KINDS: [&dyn StudyReport; 5] =
     [&ConvergenceReport, &InternalForceReport, &StabilityReport, &GradientReport, &SpectrumReport];
 
-/// Report of one kind of study. Cases of other kinds add nothing to it.
+/// Report of one kind of study. Cases of other kinds add nothing to the report.
 pub(crate) trait StudyReport: Sync {
-    /// Tables of all cases of a suite.
+    /// Adds the tables of all cases of a suite to `lines`.
     fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]);
 
-    /// Remarks on one case that no table contains.
+    /// Returns the remarks on one case that no table contains.
     fn remarks(&self, _case: &CaseOutcome) -> Vec<String> {
         Vec::new()
     }
 
-    /// JSON keys of one case, with null values if the case is of another kind.
+    /// Returns the JSON keys of one case; the values are null if the case is of another kind.
     fn json(&self, case: &CaseOutcome) -> Map<String, Value>;
 
-    /// Figures of a suite.
+    /// Draws the figures of a suite.
     fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure>;
 }
 
-/// Studies of one kind, with the names of their cases.
+/// Returns the studies of one kind, with the names of their cases.
 pub(crate) fn studies<R: StudyResults>(cases: &[CaseOutcome]) -> Vec<(&str, &R)> {
     cases.iter().filter_map(|case| Some((case.case.as_str(), case.results()?))).collect()
 }
 
-/// Members of an object that was created by `json!`.
+/// Returns the members of an object that was created by `json!`.
 pub(crate) fn members(object: Value) -> Map<String, Value> {
     match object {
         Value::Object(members) => members,
@@ -47,7 +47,7 @@ pub(crate) fn members(object: Value) -> Map<String, Value> {
     }
 }
 
-/// Reports [`Convergence`].
+/// Report of convergence studies ([`Convergence`]).
 pub(crate) struct ConvergenceReport;
 
 impl StudyReport for ConvergenceReport {
@@ -80,7 +80,7 @@ impl StudyReport for ConvergenceReport {
     }
 }
 
-/// Remarks about steps that are too long, failed runs, and causes of floors.
+/// Returns remarks about steps that are too long, failed runs, and causes of floors.
 fn remarks(study: &Convergence) -> Vec<String> {
     let too_long = study.levels.iter().filter(|level| level.is_too_long());
     let too_long: Vec<String> = too_long.map(|level| level.name(study.axis)).collect();
@@ -94,7 +94,7 @@ fn remarks(study: &Convergence) -> Vec<String> {
     too_long.into_iter().chain(failures).chain(floor).collect()
 }
 
-/// Quantity, norm and scale of the judged errors.
+/// Returns quantity, norm and scale of the judged errors as JSON.
 fn judge(study: &Convergence) -> Value {
     json!({"of": study.of.name(), "norm": study.norm.name(), "scale": study.scale.map(number)})
 }
@@ -114,7 +114,7 @@ fn floor(floor: &Floor) -> Value {
     })
 }
 
-/// Reports [`InternalForce`].
+/// Report of internal-force studies ([`InternalForce`]).
 pub(crate) struct InternalForceReport;
 
 impl StudyReport for InternalForceReport {
@@ -141,7 +141,7 @@ impl StudyReport for InternalForceReport {
     }
 }
 
-/// Reports [`StabilityStudy`].
+/// Report of stability studies ([`StabilityStudy`]).
 pub(crate) struct StabilityReport;
 
 impl StudyReport for StabilityReport {
@@ -167,7 +167,7 @@ impl StudyReport for StabilityReport {
     }
 }
 
-/// Rows of a stability study as JSON.
+/// Converts the rows of a stability study to JSON.
 fn stability_json(study: &StabilityStudy) -> Value {
     let columns = json_columns(study);
     json!({
@@ -177,7 +177,7 @@ fn stability_json(study: &StabilityStudy) -> Value {
     })
 }
 
-/// Reports [`GradientStudy`].
+/// Report of gradient studies ([`GradientStudy`]).
 pub(crate) struct GradientReport;
 
 impl StudyReport for GradientReport {
@@ -199,7 +199,7 @@ impl StudyReport for GradientReport {
     }
 }
 
-/// All checks of one derivative as JSON.
+/// Converts all checks of one derivative to JSON.
 fn gradient_json(study: &GradientStudy) -> Value {
     let (levels, taylor, points) = (gradient::levels(), gradient::taylor(), gradient::points());
     let level = |row: &gradient::GradientLevelRow| json_object(&levels, row);
@@ -218,7 +218,7 @@ fn gradient_json(study: &GradientStudy) -> Value {
     })
 }
 
-/// Reports [`SpectrumStudy`].
+/// Report of spectrum studies ([`SpectrumStudy`]).
 pub(crate) struct SpectrumReport;
 
 impl StudyReport for SpectrumReport {
@@ -268,7 +268,7 @@ impl StudyReport for SpectrumReport {
 /// Name of a case and one of its waves.
 type NamedWave = (String, SpectrumRow);
 
-/// A column with the names of the cases, followed by `columns`.
+/// Adds a column with the names of the cases in front of `columns`.
 fn with_case(columns: Vec<TableColumn<'_, SpectrumRow>>) -> Vec<TableColumn<'_, NamedWave>> {
     let name = TableColumn::text("case", "case", |(name, _): &NamedWave| name.clone());
     let of_row = columns.into_iter().map(|column| column.within(|(_, row)| Some(row)));

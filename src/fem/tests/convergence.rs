@@ -9,7 +9,7 @@ use crate::subject::{Checkpoint, Samples, Start, Subject};
 use rstest::rstest;
 use std::f64::consts::PI;
 
-/// `u = v0/w sin(pi X / (2L)) sin(w t)`.
+/// Returns the exact displacement `u = v0/w sin(pi X / (2L)) sin(w t)`.
 fn exact(x: f64, t: f64) -> f64 {
     let omega = PI / 50.0 * 10.0;
     0.1 / omega * libm::sin(PI * x / 50.0) * libm::sin(omega * t)
@@ -17,8 +17,8 @@ fn exact(x: f64, t: f64) -> f64 {
 
 const UNTIL: f64 = 0.5;
 
-/// Time step (s). The time error of this step is below 1e-12 m. The smallest error of these tests
-/// is 3e-12 m at the nodes (64 quadratic elements) and 3e-9 m inside the elements.
+/// Time step (s). The resulting time error is below 1e-12 m. The smallest errors of these tests are
+/// 3e-12 m at the nodes (64 quadratic elements) and 3e-9 m inside the elements.
 const DT: f64 = 2e-5;
 
 /// The order is k + 1 inside the elements and 2k at the nodes. Lumping does not reduce the order of
@@ -53,13 +53,14 @@ fn the_vibrating_bar_shows_the_formal_order(
     assert!((observed[3] - formal).abs() < 0.05, "{observed:?}");
 }
 
-/// A column of ten elements (wave speed 10 m/s) under suddenly applied gravity.
+/// Creates a column of ten elements (wave speed 10 m/s) under suddenly applied gravity.
 fn column(start: Start) -> BarSetup {
     let body_force = Some(pointwise(|_, _| -9.81));
     BarSetup { cells: 10, start, body_force, ..bar_at_rest(1.0, 1e5, 1e3) }
 }
 
-/// Displacement and velocity at a point of the column after 0.1 s, computed in `steps` steps.
+/// Returns displacement and velocity at a point of the column after 0.1 s, computed in `steps`
+/// steps.
 fn seen(start: Start, steps: u32) -> [f64; 2] {
     let bar = run(column(start), 0.1, 0.1 / f64::from(steps));
     [bar.displacement_at(0.77), bar.velocity_at(0.77)]
@@ -98,8 +99,8 @@ fn a_change_of_step_keeps_the_second_order() {
     assert!(observed.iter().all(|order| (order - 2.0).abs() < 0.1), "{observed:?}");
 }
 
-/// A free bar under the growing load `b = 6 t` moves by `u = t^3`. The load of a step is evaluated
-/// at its beginning, which is the time of the displacements.
+/// A free bar under the growing load `b = 6 t` moves by `u = t^3`. Each step evaluates the load at
+/// the start of the step, which is the time of the displacements.
 #[test]
 fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
     let error = |steps| {
@@ -111,7 +112,7 @@ fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
     assert!(observed.iter().all(|order| (order - 2.0).abs() < 1e-3), "{observed:?}");
 }
 
-/// The limits of `c dt / h` in the module documentation, tested slightly below and above.
+/// The limits of `c dt / h` in the module documentation are tested slightly below and above.
 #[rstest]
 #[case(Linear, Lumped, 1.0)]
 #[case(Linear, Consistent, 1.0 / libm::sqrt(3.0))]
@@ -127,7 +128,7 @@ fn the_stable_step_is_known(#[case] element: Element, #[case] mass: Mass, #[case
     assert!(!survives(1.02 * limit));
 }
 
-/// Total energy of linear elements with a lumped mass, `E = 100 Pa`, `rho = 1 kg/m3`.
+/// Returns the total energy of linear elements with a lumped mass, `E = 100 Pa`, `rho = 1 kg/m3`.
 fn energy(bar: &Bar) -> f64 {
     let h = bar.nodes()[1];
     let last = bar.nodes().len() - 1;
@@ -155,7 +156,7 @@ fn energy_stays_bounded(#[values(Start::AtZero, Start::HalfStepBack)] start: Sta
     assert!(worst.iter().all(|&now| now < 1.02 * worst[0]), "{worst:?}");
 }
 
-/// All observable state of a bar, as bits.
+/// Returns all observable state of a bar, as bits.
 fn bits(bar: &Bar) -> (Vec<u64>, String) {
     let mut samples = Samples::default();
     bar.sample(&mut samples);

@@ -12,7 +12,7 @@ fn element() -> impl Strategy<Value = Element> {
     prop_oneof![Just(Element::Linear), Just(Element::Quadratic)]
 }
 
-/// A polynomial of the element degree.
+/// Evaluates a polynomial of the element degree.
 fn polynomial(element: Element, x: f64) -> f64 {
     match element {
         Element::Linear => 0.3 - 1.7 * x,

@@ -87,8 +87,8 @@ fn samples_cover_the_bar(
     }
 }
 
-/// Eight elements with two points and two nodes, visited once for the strain and once for the
-/// forces.
+/// Eight elements have two points and two nodes each. Each pair is visited once for the strain and
+/// once for the forces.
 #[test]
 fn every_visit_is_counted() {
     let mut bar = Bar::new(bar_at_rest(2.0, 100.0, 1.0)).unwrap();
@@ -135,7 +135,7 @@ fn an_inverted_start_is_refused() {
     assert_eq!(Bar::new(setup).err(), Some(SetupError::Initial(inverted)));
 }
 
-/// Half of the bar is at rest, and the moving half inverts element 4 of 8 within the step.
+/// Half of the bar is at rest. The moving half inverts element 4 of 8 within the step.
 #[test]
 fn an_inversion_names_its_element_in_the_step_that_makes_it() {
     let initial_velocity = Box::new(|x| if x > 0.5 { -10.0 } else { 0.0 });

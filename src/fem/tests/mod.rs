@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use super::{Bar, BarSetup, Element, Mass, Sampling};
 use crate::subject::{Samples, Start, Subject};
 
-/// A bar at rest: fixed on the left, free on the right, `P = E (F - 1)`.
+/// Creates a bar at rest: fixed on the left, free on the right, `P = E (F - 1)`.
 fn bar_at_rest(length: f64, young: f64, density: f64) -> BarSetup {
     BarSetup {
         from: 0.0,
@@ -29,7 +29,7 @@ fn bar_at_rest(length: f64, young: f64, density: f64) -> BarSetup {
     }
 }
 
-/// The vibrating bar of Wobbes & Tielen (2015): wave speed 10 m/s, a quarter wave in 25 m.
+/// Creates the vibrating bar of Wobbes & Tielen (2015): wave speed 10 m/s, a quarter wave in 25 m.
 fn vibrating_bar(cells: usize, element: Element, mass: Mass) -> BarSetup {
     let initial_velocity = Box::new(|x| 0.1 * libm::sin(PI * x / 50.0));
     BarSetup { cells, element, mass, initial_velocity, ..bar_at_rest(25.0, 100.0, 1.0) }
@@ -45,7 +45,7 @@ fn run(setup: BarSetup, until: f64, dt: f64) -> Bar {
     bar
 }
 
-/// Root mean square of `u - exact`.
+/// Returns the root mean square of `u - exact`.
 fn rms(bar: &Bar, sampling: Sampling, exact: impl Fn(f64) -> f64) -> f64 {
     let mut samples = Samples::default();
     bar.sample_as(sampling, &mut samples);
@@ -54,7 +54,7 @@ fn rms(bar: &Bar, sampling: Sampling, exact: impl Fn(f64) -> f64) -> f64 {
     libm::sqrt(square / samples.weight.iter().sum::<f64>())
 }
 
-/// Orders between neighbouring levels; each level halves h or dt.
+/// Computes orders between neighbouring levels; each level halves h or dt.
 fn orders(errors: &[f64]) -> Vec<f64> {
     errors.windows(2).map(|pair| libm::log2(pair[0] / pair[1])).collect()
 }

@@ -27,7 +27,7 @@ use std::f64::consts::{PI, TAU};
 /// Number of wave numbers in the search for the minimum of the stability limit.
 const WAVES: u32 = 720;
 
-/// Number of iterations of the golden-section search around this minimum.
+/// Number of iterations of a golden-section search or a bisection.
 const ROUNDS: u32 = 60;
 
 /// Maximum wavelength in a search for a phase error (cells).
@@ -50,7 +50,7 @@ pub enum WaveTransfer {
     Pic,
     /// APIC.
     Apic,
-    /// A blend with this share of FLIP, from 0 to 1; the rest is PIC.
+    /// A blend of FLIP and PIC with this fraction of FLIP, from 0 to 1.
     Blend(f64),
     /// XPIC with this number of terms.
     Xpic(u32),
@@ -59,7 +59,7 @@ pub enum WaveTransfer {
 }
 
 impl WaveTransfer {
-    /// The transfer with this name and mass matrix; `None` if the step has no closed form.
+    /// Returns the transfer with this name and mass matrix; `None` if the step has no closed form.
     pub fn of(transfer: TransferChoice, mass: MassName) -> Option<Self> {
         use TransferChoice::{Named, With};
         match (transfer, mass) {
@@ -71,7 +71,7 @@ impl WaveTransfer {
         }
     }
 
-    /// The transfer with this name and a lumped mass matrix.
+    /// Returns the transfer with this name and a lumped mass matrix.
     fn named(name: TransferName) -> Option<Self> {
         match name {
             TransferName::Flip => Some(Self::Flip),
@@ -93,21 +93,21 @@ impl WaveTransfer {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveStep {
     theta: f64,
-    /// Determinant b of a step without stress.
+    /// Determinant b of a step without stress: the part of the grid velocity that the step retains.
     kept: f64,
-    /// Coefficient p of the trace.
+    /// Coefficient p of `-C^2` in the trace.
     stiffness: f64,
-    /// Coefficient q of the determinant.
+    /// Coefficient q of `-C^2` in the determinant.
     loss: f64,
 }
 
 impl WaveStep {
-    /// The step of a wave with these symbols.
+    /// Creates the step of a wave with these symbols.
     pub fn new(transfer: WaveTransfer, scheme: SchemeName, symbols: &WaveSymbols) -> Self {
         let WaveSymbols { theta, stiffness: kappa, mass: s, affine: a } = *symbols;
         let uses_grid_velocity = scheme == SchemeName::Usl;
-        // Transfers that add `dt S f` to velocities and multiply the grid part of the old
-        // velocities by `kept`.
+        // Creates the step of a transfer that adds `dt S f` to velocities and multiplies the grid
+        // part of the old velocities by `kept`.
         let adding = |kept: f64| {
             if uses_grid_velocity {
                 Self { theta, kept, stiffness: kappa, loss: kappa * (kept - s) }
@@ -115,7 +115,8 @@ impl WaveStep {
                 Self { theta, kept, stiffness: kappa * s, loss: 0.0 }
             }
         };
-        // Transfers that replace velocities by grid velocities times `series`.
+        // Creates the step of a transfer that replaces velocities by grid velocities times
+        // `series`.
         let replacing = |kept: f64, series: f64| {
             let passed = if uses_grid_velocity { 1.0 } else { kept };
             Self { theta, kept, stiffness: kappa * series * passed, loss: 0.0 }
@@ -133,50 +134,51 @@ impl WaveStep {
         }
     }
 
-    /// Trace of the step at this Courant number.
+    /// Returns the trace of the step at this Courant number.
     pub fn trace(&self, courant: f64) -> f64 {
         1.0 + self.kept - self.stiffness * courant * courant
     }
 
-    /// Determinant of the step at this Courant number.
+    /// Returns the determinant of the step at this Courant number.
     pub fn determinant(&self, courant: f64) -> f64 {
         self.kept - self.loss * courant * courant
     }
 
-    /// `4 det - tr^2`, positive where the eigenvalues are complex.
+    /// Returns `4 det - tr^2`, which is positive where the eigenvalues are complex.
     fn discriminant(&self, courant: f64) -> f64 {
         let x = courant * courant;
         let lost = 1.0 - self.kept;
         -lost * lost + (self.slope() - self.stiffness * self.stiffness * x) * x
     }
 
-    /// Coefficient of `C^2` in the discriminant.
+    /// Returns the coefficient of `C^2` in the discriminant.
     fn slope(&self) -> f64 {
         2.0 * (1.0 + self.kept) * self.stiffness - 4.0 * self.loss
     }
 
-    /// Range of Courant numbers with complex eigenvalues; `None` if the range is empty. Outside the
-    /// range the wave is overdamped or unstable and has no phase.
+    /// Returns the range of Courant numbers with complex eigenvalues; `None` if the range is empty.
+    /// Outside this range the wave is overdamped or unstable and has no phase.
     pub fn complex_range(&self) -> Option<(f64, f64)> {
         let lost = (1.0 - self.kept) * (1.0 - self.kept);
         let square = self.stiffness * self.stiffness;
         let slope = self.slope();
         let root = (slope * slope - 4.0 * square * lost).sqrt();
         let end = (slope + root) / (2.0 * square);
-        // The product of both roots is lost/square; a difference would cancel.
+        // The product of both roots is lost/square. The formula `slope - root` would suffer from
+        // cancellation.
         let start = lost / (square * end);
         (start < end && end.is_finite()).then(|| (start.sqrt(), end.sqrt()))
     }
 
-    /// Relative error of the phase speed, `c_h/c - 1` with `c_h/c = arg(l)/(theta C)`. `None` if
-    /// the eigenvalues are real.
+    /// Returns the relative error of the phase speed, `c_h/c - 1` with `c_h/c = arg(l)/(theta C)`.
+    /// `None` if the eigenvalues are real.
     pub fn phase_error(&self, courant: f64) -> Option<f64> {
         let discriminant = self.discriminant(courant);
         let angle = libm::atan2(discriminant.max(0.0).sqrt(), self.trace(courant));
         (discriminant > 0.0).then(|| angle / (self.theta * courant) - 1.0)
     }
 
-    /// Largest modulus of the eigenvalues: the amplitude factor of one step.
+    /// Returns the largest modulus of the eigenvalues, which is the amplitude factor of one step.
     pub fn largest_modulus(&self, courant: f64) -> f64 {
         let discriminant = self.discriminant(courant);
         if discriminant > 0.0 {
@@ -185,13 +187,13 @@ impl WaveStep {
         0.5 * (self.trace(courant).abs() + (-discriminant).sqrt())
     }
 
-    /// Amplitude factor over one exact period, `2 pi h/(theta c)`.
+    /// Returns the amplitude factor over one exact period, `2 pi h/(theta c)`.
     pub fn kept_per_period(&self, courant: f64) -> f64 {
         libm::pow(self.largest_modulus(courant), TAU / (self.theta * courant))
     }
 
-    /// Largest Courant number at which the wave does not grow: `det <= 1` and
-    /// `1 + tr + det >= 0` (Jury's conditions; `1 - tr + det = (p - q) C^2` is never negative).
+    /// Returns the largest Courant number at which the wave does not grow. The conditions are
+    /// `det <= 1` and `1 + tr + det >= 0` (Jury; `1 - tr + det = (p - q) C^2` is never negative).
     /// NaN if the symbols are NaN.
     pub fn limit(&self) -> f64 {
         if self.kept > 1.0 + ROUNDING {
@@ -201,12 +203,12 @@ impl WaveStep {
     }
 }
 
-/// Sum of `(1 - s)^j` for j below `terms`; its limit is 1/s.
+/// Sums `(1 - s)^j` for j below `terms`. The limit of the series is 1/s.
 fn neumann(s: f64, terms: u32) -> f64 {
     (0..terms).fold(0.0, |sum, _| 1.0 + (1.0 - s) * sum)
 }
 
-/// A method with regularly spaced particles, for waves of any length.
+/// A method with regularly spaced particles, whose step is known for waves of any length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveMethod {
     /// Basis functions.
@@ -223,20 +225,21 @@ pub struct WaveMethod {
 }
 
 impl WaveMethod {
-    /// The step of a wave with `theta = k h` (rad).
+    /// Returns the step of a wave with `theta = k h` (rad).
     pub fn step(&self, theta: f64) -> WaveStep {
         WaveStep::new(self.transfer, self.scheme, &self.symbols(theta))
     }
 
-    /// The symbols of a wave with `theta` (rad).
+    /// Returns the symbols of a wave with `theta = k h` (rad).
     pub fn symbols(&self, theta: f64) -> WaveSymbols {
         let positions = WaveSymbols::shifted_positions(self.ppc, self.shift);
         WaveSymbols::new(self.spline, theta, &positions)
     }
 
-    /// Number of cells per wavelength above which the phase error stays below `tolerance`. A wave
-    /// without a phase counts as outside the tolerance. `None` if the error is not below the
-    /// tolerance at 1e4 cells, or if it is below the tolerance for all waves of two cells or more.
+    /// Returns the number of cells per wavelength above which the phase error stays below
+    /// `tolerance`. The error of a wave without a phase counts as too large. `None` if the error is
+    /// not below the tolerance at 1e4 cells, or if it is below the tolerance for all waves of two
+    /// cells or more.
     pub fn cells_for_phase_error(&self, courant: f64, tolerance: f64) -> Option<f64> {
         let is_within = |cells: f64| {
             let error = self.step(TAU / cells).phase_error(courant);
@@ -264,7 +267,7 @@ impl WaveMethod {
         Some(0.5 * (beyond + within))
     }
 
-    /// Largest Courant number at which no wave grows: the minimum of the limits over
+    /// Returns the largest Courant number at which no wave grows: the minimum of the limits over
     /// `0 < theta <= pi`. NaN if there are no particles.
     pub fn stability_limit(&self) -> f64 {
         let limit = |theta: f64| self.step(theta).limit();
@@ -273,7 +276,7 @@ impl WaveMethod {
         for k in 1..=WAVES {
             let theta = if k == WAVES { PI } else { f64::from(k) * spacing };
             let value = limit(theta);
-            // Written so that NaN remains.
+            // The negated comparison is true for NaN, so NaN replaces the minimum.
             if !(value >= least.0) {
                 least = (value, theta);
             }

@@ -3,8 +3,8 @@
 //! With N the map from nodes to particles and M the particle masses, velocities split uniquely into
 //! `v = N w + v0`, where v0 gives no momentum to any node, `N^T M v0 = 0`. No force acts against
 //! v0, which is in the null space of the map to the grid (Brackbill 1988; Gritton & Berzins 2017,
-//! Comp. Part. Mech. 4). The nodal velocity w is the least-squares fit `N^T M N w = N^T M v`, whose
-//! matrix is the consistent mass matrix. This matrix may be singular, which conjugate gradients
+//! Comp. Part. Mech. 4). The nodal velocity w is the least-squares fit `N^T M N w = N^T M v`. The
+//! matrix of the fit is the consistent mass matrix. It may be singular, which conjugate gradients
 //! allow. The preconditioner is the lumped mass matrix, so each iteration maps to the grid and back
 //! once, like PIC and XPIC.
 
@@ -14,7 +14,7 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{Kernel, ParticleField};
 use crate::mpm::step::solver::Solver;
 
-/// Energy of the residual that counts as rounding, as a share of the initial energy.
+/// Residual energy that counts as rounding, as a fraction of the initial energy.
 const ROUNDING: f64 = 1e-26;
 
 /// Maximum number of iterations. A mode that PIC multiplies by l needs about `1/sqrt(l)`
@@ -22,14 +22,14 @@ const ROUNDING: f64 = 1e-26;
 const MOST: usize = 200;
 
 impl<const D: usize> Solver<D> {
-    /// Kinetic energy (J) of the null-space part of the particle velocities, at the current
-    /// positions. Walls have no influence, because they fix nodes, and this part has no effect on
-    /// nodes.
+    /// Returns the kinetic energy (J) of the null-space part of the particle velocities, at the
+    /// current positions. Walls do not influence this part: they fix nodes, and the null-space part
+    /// has no effect on nodes.
     pub fn null_space_energy(&self) -> f64 {
         0.5 * square(&self.setup.particles, &self.null_space_velocity())
     }
 
-    /// Null-space part of the particle velocities (m/s).
+    /// Returns the null-space part of the particle velocities (m/s).
     pub fn null_space_velocity(&self) -> Vec<Vector<D>> {
         null_part(self.setup.kernel.as_ref(), &self.setup.grid, &self.setup.particles)
     }
@@ -52,7 +52,7 @@ fn null_part<const D: usize>(
     for _ in 0..MOST {
         to_nodes(&rest, &mut momentum);
         let seen = seen(&masses, &momentum);
-        // Written so that NaN ends the loop and stays in the residual.
+        // The negated comparison is true for NaN: the loop ends, and NaN remains in the residual.
         if !(seen > ROUNDING * size) {
             break;
         }
@@ -70,8 +70,8 @@ fn null_part<const D: usize>(
     rest
 }
 
-/// Nodal masses (kg) at the current particle positions; the masses of the grid are older than the
-/// last move.
+/// Computes nodal masses (kg) at the current particle positions. The masses of the grid belong to
+/// the positions before the last move.
 fn masses<const D: usize>(
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,
@@ -87,12 +87,12 @@ fn divided<const D: usize>(momentum: &Vector<D>, mass: f64) -> Vector<D> {
     if mass > 0.0 { momentum / mass } else { Vector::zeros() }
 }
 
-/// Twice the kinetic energy (J) of nodes with these momenta.
+/// Returns twice the kinetic energy (J) of nodes with these momenta.
 fn seen<const D: usize>(masses: &[f64], momentum: &[Vector<D>]) -> f64 {
     masses.iter().zip(momentum).map(|(m, p)| divided(p, *m).dot(p)).sum()
 }
 
-/// Twice the kinetic energy (J) of particles with these velocities.
+/// Returns twice the kinetic energy (J) of particles with these velocities.
 fn square<const D: usize>(particles: &Particles<D>, v: &[Vector<D>]) -> f64 {
     particles.mass.iter().zip(v).map(|(m, v)| m * v.norm_squared()).sum()
 }

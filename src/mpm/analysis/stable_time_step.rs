@@ -3,12 +3,16 @@
 //! Nodal velocities strain the particles, the stresses give forces, and the forces accelerate the
 //! nodes. This operator, `L = M^-1 K`, is applied by running the stages of a step on a small
 //! velocity. Power iteration gives the largest eigenvalue of L, the square of the highest
-//! frequency. Under USL an explicit step is stable up to `dt^2 L = 4/((2 - a) l)`, where a, between
-//! 0 and 1, is the share of a velocity that the particles return to the grid. So `dt = sqrt(2/L)`
-//! is stable for every mode. Under USF and MUSL the strain comes from grid velocities that were
-//! mapped to particles and back. With the maps N to particles and P to nodes, `L = P N M^-1 K`.
-//! This operator stays bounded if a node has little mass. The analysis needs no assumption about
-//! basis, mass matrix, particle positions or law, because it runs the passes of the solver.
+//! frequency.
+//!
+//! Under USL an explicit step is stable up to `dt^2 L = 4/((2 - a) l)`, where a, between 0 and 1,
+//! is the fraction of a velocity that the particles return to the grid. So `dt = sqrt(2/L)` is
+//! stable for every mode. Under USF and MUSL the strain comes from grid velocities that were mapped
+//! to particles and back. With the maps N to particles and P to nodes, `L = P N M^-1 K`. This
+//! operator stays bounded if a node has little mass.
+//!
+//! The analysis runs the passes of the solver and therefore makes no assumption about basis, mass
+//! matrix, particle positions or law.
 //!
 //! A load that depends on the displacement adds a stiffness k per unit mass to each particle. The
 //! maps to nodes and back are averages, so the load increases the square of a frequency by at most
@@ -25,32 +29,33 @@ use crate::mpm::step::solver::Solver;
 use crate::mpm::transfer::{TransferChoice, TransferKind, TransferName, kick};
 use crate::subject::{Checkpoint, Failure};
 
-/// Largest velocity in the iteration, divided by `h/longest`. Its strains are much larger than the
-/// rounding error, 1e-16, and much smaller than one. A quadratic viscosity is negligible at this
-/// velocity.
+/// Largest velocity in the iteration, divided by `h/longest`. The resulting strains are much larger
+/// than the rounding error, 1e-16, and much smaller than one. A quadratic viscosity is negligible
+/// at this velocity.
 const SPEED: f64 = 1e-7;
 
 /// Maximum number of repetitions. If stresses depend on rates, the frequency depends on the step,
 /// so each repetition uses the step that the previous one computed.
 const REPEATS: u32 = 12;
 
-/// Iterations of each repetition after the first, which starts from the mode of the previous one.
+/// Number of iterations in each repetition after the first. A repetition starts from the mode of
+/// the previous one, so a few iterations suffice.
 const AGAIN: u32 = 4;
 
-/// Shift of all eigenvalues, as a share of the largest estimate so far. It almost doubles the rate
-/// at which the other modes decay. It must be less than 1/2: otherwise the smallest eigenvalue
-/// becomes the largest in magnitude.
+/// Shift of all eigenvalues, as a fraction of the largest estimate so far. The shift almost doubles
+/// the rate at which the other modes decay. It must be less than 1/2: otherwise the smallest
+/// eigenvalue becomes the largest in magnitude.
 const SHIFT: f64 = 0.45;
 
 /// Relative change at which the step counts as converged.
 const SETTLED: f64 = 1e-3;
 
 impl<const D: usize> Solver<D> {
-    /// Maximum stable step (s) in the current state of the body, at most `longest`. Includes the
-    /// stiffness of loads, the damping of the law and artificial viscosity. Excludes the loads
-    /// themselves, other damping and wall friction. Each of the `rounds` of the power iteration
-    /// costs as much as a step. The result is an upper bound, a few percent too large after about
-    /// twenty rounds.
+    /// Computes the maximum stable step (s) in the current state of the body, at most `longest`.
+    /// The step takes into account the stiffness of loads, the damping of the law and artificial
+    /// viscosity, but not the loads themselves, other damping and wall friction. Each of the
+    /// `rounds` of the power iteration costs as much as a step. The result is an upper bound, a few
+    /// percent too large after about twenty rounds.
     ///
     /// # Errors
     /// Failures of the passes; [`Failure::Solve`] if there is no highest frequency.
@@ -80,8 +85,9 @@ impl<const D: usize> Solver<D> {
         Ok(dt)
     }
 
-    /// Power iteration: returns the largest ratio of the norm of `L mode` to the norm of `mode`.
-    /// The norm is weighted by the nodal masses; in this norm the matrix is symmetric.
+    /// Estimates the eigenvalue by power iteration: returns the largest ratio of the norm of
+    /// `L mode` to the norm of `mode`. The norm is weighted by the nodal masses, because the matrix
+    /// is symmetric in this norm.
     fn square_of_frequency(
         &mut self,
         start: &[u8],
@@ -105,10 +111,10 @@ impl<const D: usize> Solver<D> {
             for (found, rest) in found.iter_mut().zip(&rest) {
                 *found = (*found - rest) / dt;
             }
-            // Written so that NaN propagates.
+            // The comparison below is false for NaN, so NaN propagates to the result.
             let ratio = (self.size(&found) / self.size(mode)).sqrt();
             square = if square > ratio { square } else { ratio };
-            // The next mode is (L - shift) mode, up to its sign.
+            // The next mode is (L - shift) mode, up to a sign.
             let shift = SHIFT * square;
             for (mode, found) in mode.iter_mut().zip(found) {
                 *mode = *mode * shift + found;
@@ -117,8 +123,9 @@ impl<const D: usize> Solver<D> {
         Ok(square)
     }
 
-    /// Response of the nodes to a motion with `velocity` (m/s) for `dt` (s): their accelerations
-    /// (m/s2), or the velocities that P2G gives after these accelerations have acted for 1 s.
+    /// Returns the response of the nodes to a motion with `velocity` (m/s) for `dt` (s): their
+    /// accelerations (m/s2), or the velocities that P2G gives after these accelerations have acted
+    /// for 1 s.
     fn response(
         &mut self,
         start: &[u8],
@@ -144,7 +151,7 @@ impl<const D: usize> Solver<D> {
         strains_by_mapped_velocity(self.setup.scheme, self.setup.transfer.kind())
     }
 
-    /// Twice the kinetic energy of nodes with these velocities.
+    /// Returns twice the kinetic energy of nodes with these velocities.
     fn size(&self, field: &[Vector<D>]) -> f64 {
         self.setup.grid.mass.iter().zip(field).map(|(m, v)| m * v.norm_squared()).sum()
     }
@@ -159,7 +166,7 @@ impl<const D: usize> Solver<D> {
         self.visit_state(&mut Checkpoint::from_bytes(start));
     }
 
-    /// All state that a response changes, including the state of material and effects.
+    /// Visits all state that a response changes, including the state of material and effects.
     fn visit_state(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.setup);
         checkpoint.visit(&mut self.velocity_time);
@@ -167,16 +174,17 @@ impl<const D: usize> Solver<D> {
 }
 
 /// Whether velocities are mapped to particles and back before they strain the particles. For affine
-/// fields and series the loss in this mapping is neglected.
+/// fields and series, the loss of velocity in this mapping is neglected.
 fn strains_by_mapped_velocity(scheme: SchemeName, kind: TransferKind) -> bool {
     scheme != SchemeName::Usl && kind == TransferKind::Velocity
 }
 
-/// The simplest scheme and transfer with the same stable time step, to the last bit. The step is
-/// therefore computed once for all methods that share it. A response contains P2G of momentum and
-/// G2P of velocities only if velocities are mapped to particles and back, and then only in this
-/// mapping. All transfers except fits take forces and velocity gradients from the basis. All except
-/// series and cells take accelerations from the basis.
+/// Returns the simplest scheme and transfer with a bit-identical stable time step, so that the step
+/// is computed once for all methods that share it.
+///
+/// A response contains P2G of momentum and G2P of velocities only if velocities are mapped to
+/// particles and back, and only in this mapping. All transfers except fits take forces and velocity
+/// gradients from the basis. All except series and cells take accelerations from the basis.
 pub fn simplest_with_same_response(
     scheme: SchemeName,
     transfer: TransferChoice,
@@ -190,7 +198,7 @@ pub fn simplest_with_same_response(
     }
 }
 
-/// A pseudo-random number from -1 to 1 (splitmix64, Steele, Lea & Flood 2014).
+/// Returns a pseudo-random number from -1 to 1 (splitmix64, Steele, Lea & Flood 2014).
 fn scattered(k: u64) -> f64 {
     let mut z = k.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -11,11 +11,11 @@
 
 use crate::mpm::basis::BasisName;
 
-/// Smallest APIC inertia, in squared cell sizes, that counts as different from zero.
+/// Minimum APIC inertia, in squared cell sizes, that counts as different from zero.
 const SMALLEST_INERTIA: f64 = 1e-12;
 
-/// Basis functions of one axis: uniform B-splines with knots at the cell corners, and averages of
-/// linear functions over the domain of a particle.
+/// Basis functions of one axis: uniform B-splines, or averages of linear functions over the domain
+/// of a particle. The knots are at the cell corners.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spline {
     /// Piecewise linear functions, centred at cell corners.
@@ -33,7 +33,7 @@ pub enum Spline {
 }
 
 impl Spline {
-    /// Positions, in cells, of the functions that are non-zero in the cell from 0 to 1.
+    /// Returns the positions, in cells, of the functions that are non-zero in the cell from 0 to 1.
     fn places(self) -> &'static [f64] {
         match self {
             Self::Linear => &[0.0, 1.0],
@@ -42,8 +42,9 @@ impl Spline {
         }
     }
 
-    /// The functions of the solver with this name, for `ppc` particles per cell. Small motions do
-    /// not change the domains of particles, so contiguous and uniform GIMP are identical.
+    /// Returns the functions of the solver basis with this name, for `ppc` particles per cell.
+    /// Small motions do not change the domains of particles, so contiguous and uniform GIMP are
+    /// identical.
     pub fn of(basis: BasisName, ppc: u32) -> Self {
         match basis {
             BasisName::Linear => Self::Linear,
@@ -54,8 +55,8 @@ impl Spline {
         }
     }
 
-    /// Value and derivative (per cell) at the distance `x` (in cells) from the centre of the
-    /// function. At a knot the derivative is taken in the cell on the right.
+    /// Returns value and derivative (per cell) at the distance `x` (in cells) from the centre of
+    /// the function. At a knot the derivative is that of the cell on the right.
     fn at(self, x: f64) -> (f64, f64) {
         let (r, sign) = (x.abs(), if x < 0.0 { -1.0 } else { 1.0 });
         let (value, slope) = match self {
@@ -81,12 +82,12 @@ impl Spline {
     }
 }
 
-/// The linear function centred at 0.
+/// Evaluates the linear function centred at 0.
 fn hat(x: f64) -> f64 {
     (1.0 - x.abs()).max(0.0)
 }
 
-/// Integral of [`hat`] from minus infinity to `x`.
+/// Integrates [`hat`] from minus infinity to `x`.
 fn hat_integral(x: f64) -> f64 {
     let rest = hat(x);
     let tail = 0.5 * rest * rest;
@@ -111,8 +112,9 @@ pub struct WaveSymbols {
 }
 
 impl WaveSymbols {
-    /// Symbols of a wave with `theta` (rad) for particles of equal mass and volume at `positions`,
-    /// from 0 to 1 in each cell. A particle with D = 0 has no affine part. NaN without particles.
+    /// Computes the symbols of a wave with `theta` (rad) for particles of equal mass and volume at
+    /// `positions`, from 0 to 1 in each cell. A particle with D = 0 has no affine part. NaN without
+    /// particles.
     pub fn new(spline: Spline, theta: f64, positions: &[f64]) -> Self {
         let [mut stiffness, mut mass, mut affine] = [0.0; 3];
         for xi in positions {
@@ -140,20 +142,20 @@ impl WaveSymbols {
         Self { theta, stiffness: stiffness / count, mass, affine: mass + affine / count }
     }
 
-    /// Positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell (cells), translated by
-    /// `shift` cells and wrapped to 0 to 1.
+    /// Returns the positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell (cells),
+    /// translated by `shift` cells and wrapped to 0 to 1.
     pub fn shifted_positions(ppc: u32, shift: f64) -> Vec<f64> {
         let all = Self::regular_positions(ppc).into_iter().map(|xi| xi + shift);
         all.map(|xi| xi - libm::floor(xi)).collect()
     }
 
-    /// Positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell (cells).
+    /// Returns the positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell (cells).
     pub fn regular_positions(ppc: u32) -> Vec<f64> {
         (0..ppc).map(|j| (f64::from(j) + 0.5) / f64::from(ppc)).collect()
     }
 }
 
-/// Squared modulus of a complex number.
+/// Returns the squared modulus of a complex number.
 fn square([re, im]: [f64; 2]) -> f64 {
     re * re + im * im
 }

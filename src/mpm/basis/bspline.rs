@@ -1,4 +1,4 @@
-//! B-splines of degree 2 and 3: gradients without jumps.
+//! B-splines of degree 2 and 3, whose gradients are continuous.
 //!
 //! At walls the knots are open (repeated), so the first function is 1 there, and prescribing its
 //! coefficient prescribes the boundary value (Steffen, Kirby & Berzins 2008, IJNME 76, section 4;
@@ -22,13 +22,14 @@ pub struct QuadraticBSpline;
 #[derive(Debug, Clone, Copy)]
 pub struct CubicBSpline;
 
-/// Knot k of an axis of `cells` cells for degree `p` (in cells): open at walls, otherwise uniform.
+/// Returns knot k of an axis of `cells` cells for degree `p` (in cells): open at walls, otherwise
+/// uniform.
 fn knot(k: usize, p: usize, cells: usize, periodic: bool) -> f64 {
     let uniform = k as f64 - p as f64;
     if periodic { uniform } else { uniform.clamp(0.0, cells as f64) }
 }
 
-/// Greville abscissa of function `i`: the mean of its inner knots.
+/// Returns the Greville abscissa of function `i`, the mean of its inner knots.
 fn greville(i: usize, p: usize, cells: usize, periodic: bool) -> f64 {
     let knots: [f64; MOST_KNOTS] = array(0.0, |k| knot(i + 1 + k, p, cells, periodic));
     mean(&knots[..p])
@@ -42,14 +43,14 @@ fn mean(knots: &[f64]) -> f64 {
 /// Maximum number of knots around a cell: twice the largest degree.
 const MOST_KNOTS: usize = 6;
 
-/// The 2p knots around a cell for degree `p`, on an axis with walls: p knots up to the low side of
-/// the cell, and p knots from its high side. The rest of the array is not used.
+/// Returns the 2p knots around a cell for degree `p`, on an axis with walls: p knots up to the low
+/// side of the cell, and p knots from its high side. The rest of the array is not used.
 fn knots_around(cell: usize, p: usize, cells: usize) -> [f64; MOST_KNOTS] {
     array(0.0, |k| knot(cell + 1 + k, p, cells, false))
 }
 
-/// The K = p + 1 functions and their derivatives (per cell) at `s` (in cells) on an axis with
-/// walls, in a cell with the knots [`knots_around`].
+/// Evaluates the K = p + 1 functions and their derivatives (per cell) on an axis with walls. `s` is
+/// the position (in cells), in a cell with the knots `around` ([`knots_around`]).
 #[inline(always)]
 fn functions<const K: usize>(s: f64, around: &[f64; MOST_KNOTS]) -> ([f64; K], [f64; K]) {
     let p = K - 1;
@@ -66,7 +67,7 @@ fn functions<const K: usize>(s: f64, around: &[f64; MOST_KNOTS]) -> ([f64; K], [
         }
         value[degree] = saved;
     }
-    // N' = p N_(i,p-1)/(t_(i+p) - t_i) - p N_(i+1,p-1)/(t_(i+p+1) - t_(i+1))
+    // Derivatives: N' = p N_(i,p-1)/(t_(i+p) - t_i) - p N_(i+1,p-1)/(t_(i+p+1) - t_(i+1))
     let term = array::<K, _>(0.0, |r| match r {
         0 => 0.0,
         r => p as f64 * lower[r - 1] / (around[p + r - 1] - around[r - 1]),
@@ -75,8 +76,8 @@ fn functions<const K: usize>(s: f64, around: &[f64; MOST_KNOTS]) -> ([f64; K], [
     (value, slope)
 }
 
-/// The K functions and their derivatives (per cell) for uniform knots with unit spacing, at `xi`
-/// from 0 to 1 within the cell.
+/// Evaluates the K functions and their derivatives (per cell) for uniform knots with unit spacing.
+/// `xi` is the position in the cell, from 0 to 1.
 #[inline(always)]
 fn uniform<S: Simd, const K: usize>(simd: S, xi: S::F64x4) -> ([S::F64x4; K], [S::F64x4; K]) {
     let zero = simd.splat(0.0);
@@ -99,7 +100,7 @@ fn uniform<S: Simd, const K: usize>(simd: S, xi: S::F64x4) -> ([S::F64x4; K], [S
     (value, slope)
 }
 
-/// Functions along an axis away from walls, at `xi` from 0 to 1 within a cell.
+/// Evaluates the functions along an axis away from walls, at `xi` from 0 to 1 within a cell.
 #[inline(always)]
 fn along<S: Simd, const K: usize>(
     simd: S,
@@ -113,17 +114,17 @@ fn along<S: Simd, const K: usize>(
         weight,
         slope: array(xi, |r| slope[r] * inverse_h),
         offset: array(xi, |r| (first + r as f64) * h),
-        // A convolution of p + 1 boxes has p + 1 times the variance 1/12 of one box.
+        // The functions are convolutions of p + 1 boxes. The variance of each box is 1/12.
         variance: simd.splat(K as f64 / 12.0 * (h * h)),
     }
 }
 
-/// Range `low..high` of cells whose knots are not repeated.
+/// Returns the range `low..high` of cells whose knots are not repeated.
 fn uniform_cells(degree: usize, cells: f64, periodic: bool) -> (f64, f64) {
     if periodic { (0.0, cells) } else { (degree as f64 - 1.0, cells - degree as f64 + 1.0) }
 }
 
-/// Functions along an axis near walls, where knots may be repeated.
+/// Evaluates the functions along an axis near walls, where knots may be repeated.
 #[cold]
 #[inline(never)]
 fn along_wall<const D: usize, const K: usize>(
@@ -146,7 +147,7 @@ fn along_wall<const D: usize, const K: usize>(
     }
 }
 
-/// Recomputes the functions of the particles near a wall, among four particles.
+/// Recomputes the functions of those of four particles that are near a wall.
 #[cold]
 #[inline(never)]
 fn put_right<const D: usize, const K: usize>(
@@ -165,8 +166,8 @@ fn put_right<const D: usize, const K: usize>(
     }
 }
 
-/// Values, slopes (per cell) and offsets from the particle (in cells) near walls, where knots may
-/// be repeated.
+/// Returns values, slopes (per cell) and offsets from the particle (in cells) near walls, where
+/// knots may be repeated.
 fn at_wall<const K: usize>(cells: usize, cell: usize, xi: f64) -> [[f64; K]; 3] {
     let (p, s) = (K - 1, cell as f64 + xi);
     let around = knots_around(cell, p, cells);

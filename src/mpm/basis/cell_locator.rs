@@ -1,16 +1,16 @@
-//! Cells of particles, four at a time.
+//! Finds the cells of particles, four particles at a time.
 
 use crate::mpm::foundation::algebra::{Vector, WHOLE, array};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::packed_grid::Layout;
 use crate::mpm::foundation::simd::{F64x4, LANES, Simd};
 
-/// Parts of the basis functions that a pass needs in addition to their values.
+/// Quantities that a pass needs in addition to the values of the basis functions.
 #[derive(Debug, Clone, Copy)]
 pub struct WeightNeeds {
-    /// Derivatives.
+    /// Whether the pass needs derivatives.
     pub(in crate::mpm) slopes: bool,
-    /// Offsets from the particle and their variance.
+    /// Whether the pass needs offsets from the particle and their variance.
     pub(in crate::mpm) offsets: bool,
 }
 
@@ -20,10 +20,10 @@ pub struct CellLocator<const D: usize> {
     pub(super) h: f64,
     pub(super) inverse_h: f64,
     origin: [f64; D],
-    /// Cells along each axis.
+    /// Number of cells along each axis.
     pub(super) ends: [f64; D],
     pub(super) periodic: [bool; D],
-    /// Layout of packed fields.
+    /// Memory layout of packed fields.
     pub(in crate::mpm) layout: Layout,
     pub(super) needs: WeightNeeds,
 }
@@ -39,7 +39,7 @@ pub(super) struct CellPositions<F, const D: usize> {
     pub(super) inside: u32,
 }
 
-/// Mask for four particles inside the grid.
+/// Mask of four particles that are all inside the grid.
 const ALL: u32 = (1 << LANES) - 1;
 
 impl<const D: usize> CellLocator<D> {
@@ -67,7 +67,8 @@ impl<const D: usize> CellLocator<D> {
     ) -> CellPositions<S::F64x4, D> {
         let zero = simd.splat(0.0);
         let mut places = CellPositions { cell: [zero; D], xi: [zero; D], inside: ALL };
-        // By reference: store-to-load forwarding fails for scalar stores followed by a vector load.
+        // The four positions are read by reference. If they were copied, store-to-load forwarding
+        // would fail for scalar stores followed by a vector load.
         let few;
         let x = if let Some(four) = x[first..].first_chunk() {
             four
@@ -89,28 +90,28 @@ impl<const D: usize> CellLocator<D> {
         places
     }
 
-    /// Index of the first node of these cells in a packed field.
+    /// Returns the index of the first node of these cells in a packed field.
     #[inline(always)]
     pub(super) fn starts<F: F64x4>(&self, cell: &[F; D]) -> [u32; LANES] {
         let mut start = cell[0];
         for axis in 1..D {
             start += cell[axis] * self.layout.strides[axis] as f64;
         }
-        // From 2^52 on, the last bits of a number are its excess over 2^52 as an integer.
+        // Above 2^52, the last bits of a number are the integer by which it exceeds 2^52.
         let whole: [f64; LANES] = (start + (WHOLE - self.layout.before as f64)).into();
         array(0, |lane| whole[lane].to_bits() as u32)
     }
 }
 
-/// Positions of the last particles; NaN for missing ones.
+/// Returns the positions of the last particles, which are fewer than four; NaN for missing ones.
 #[cold]
 #[inline(never)]
 fn last<const D: usize>(x: &[Vector<D>]) -> [Vector<D>; LANES] {
     array(Vector::zeros(), |k| x.get(k).copied().unwrap_or(Vector::from_element(f64::NAN)))
 }
 
-/// Cells and positions within them, for `s` (in cells) along an axis. Some `s` are at the end of
-/// the axis, outside the axis, or NaN.
+/// Returns cells and positions within them, for `s` (in cells) along an axis. Some `s` are at the
+/// end of the axis, outside the axis, or NaN.
 #[cold]
 #[inline(never)]
 fn at_ends<const D: usize>(

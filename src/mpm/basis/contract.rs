@@ -1,5 +1,5 @@
-//! Interface between a basis and the loops: the basis, the patch of nodes of a particle, and a
-//! batch of patches.
+//! Interface between a basis and the loops over particles: the basis, the patch of nodes of a
+//! particle, and a batch of patches.
 
 use super::cell_locator::CellLocator;
 use crate::mpm::foundation::algebra::Vector;
@@ -13,10 +13,10 @@ use fearless_simd::Level;
 use std::fmt::Debug;
 use std::ops::Range;
 
-/// Particle domain over which a basis averages.
+/// Particle domain over which a basis averages its functions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Domain {
-    /// None: the particle is a point.
+    /// No domain: the particle is a point.
     Point,
     /// Domain of constant size.
     Fixed,
@@ -33,7 +33,7 @@ pub struct FourLanes {
     pub lane: usize,
 }
 
-/// Basis functions N_i on the grid. Adding one: `docs/exercises/basis.md`.
+/// Basis functions N_i on the grid. `docs/exercises/basis.md` describes how to add a basis.
 pub trait Basis: Sized + Sync + Send + 'static {
     /// Degree p of the polynomials that the basis reproduces.
     const DEGREE: u8;
@@ -42,27 +42,27 @@ pub trait Basis: Sized + Sync + Send + 'static {
     const DOMAIN: Domain;
 
     /// Whether grad N_i is the derivative of N_i with respect to the particle position. False for
-    /// CPDI, where it is a gradient averaged over the domain.
+    /// CPDI, whose grad N_i is a gradient averaged over the domain.
     const GRADIENT_OF_WEIGHT: bool = true;
 
     /// Whether a single patch contains all nodes of a particle at any position.
     const ONE_PATCH: bool = true;
 
-    /// Nodes of a particle with the functions there, as products of one-dimensional functions
+    /// Nodes of a particle with the basis functions there, as products of one-dimensional functions
     /// ([`Product`](super::Product)).
     type Patch<const D: usize>: Patch<D>;
 
-    /// Number of functions along an axis with `cells` cells.
+    /// Returns the number of functions along an axis with `cells` cells.
     fn count(cells: usize, periodic: bool) -> usize;
 
-    /// Position of function `index` along an axis with `cells` cells (in cells from the wall), such
-    /// that sum N_i x_i = x (Greville abscissa).
+    /// Returns the position of function `index` along an axis with `cells` cells (in cells from the
+    /// wall), such that sum N_i x_i = x (Greville abscissa).
     fn abscissa(index: usize, cells: usize, periodic: bool) -> f64;
 
-    /// Calls `visit` for every patch of particle `p`. A node may be in several patches: its weight
-    /// and gradient are then sums. A particle outside the grid has no patch; the solver reports
-    /// such particles when it moves them. Must be `#[inline(always)]`, because this function is
-    /// part of the hot loop.
+    /// Calls `visit` for every patch of particle `p`. If a node is in several patches, its weight
+    /// and gradient are the sums over these patches. A particle outside the grid has no patch; the
+    /// solver reports such particles when it moves them. Implementations must be
+    /// `#[inline(always)]`, because this function is part of the hot loop.
     fn patches<const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
@@ -72,8 +72,8 @@ pub trait Basis: Sized + Sync + Send + 'static {
 
     /// Stores the patches of the four particles of `lanes`. Returns a mask with bit k for particle
     /// `lanes.particle + k`. A bit is set if the particle has a single patch, which is then stored.
-    /// For other particles, use [`Basis::patches`]; its results are bit-identical. A basis
-    /// overrides this method to compute the weights of four particles at once.
+    /// For other particles, use [`Basis::patches`]. Both methods give bit-identical results. A
+    /// basis overrides this method to compute the weights of four particles at once.
     #[inline(always)]
     fn patches_x4<S: Simd, const D: usize>(
         _width: S,
@@ -108,32 +108,32 @@ pub trait Basis: Sized + Sync + Send + 'static {
         Self::patches(grid, particles, p, |patch| patch.visit(grid, &mut visit));
     }
 
-    /// Runs a loop over this basis. As a method of the basis, the loops of each basis file are a
-    /// separate code-generation unit. The loops take most of the compile time, and a change of one
-    /// file does not recompile the loops of other files.
+    /// Runs a loop over this basis. Because this is a method of the basis, the loops of each basis
+    /// file are a separate code-generation unit. The loops take most of the compile time, and a
+    /// change of one file does not recompile the loops of other files.
     fn run<P: SimdPass>(level: Level, pass: P) {
         simd::run(level, pass);
     }
 
-    /// Maximum number of nodes of a particle, counted once for each patch. The work counter uses
-    /// this number.
+    /// Returns the maximum number of nodes of a particle, where a node counts once for each patch.
+    /// The work counter uses this number.
     fn support(dimension: usize) -> u64;
 }
 
-/// Functions of one node at a particle.
+/// The basis function of one node, evaluated at a particle.
 #[derive(Debug, Clone, Copy)]
 pub struct NodeWeight<'a, const D: usize> {
     /// Number of the node.
     pub node: usize,
-    /// N_i at the particle.
+    /// Value of N_i at the particle.
     pub weight: f64,
-    /// grad N_i at the particle (1/m).
+    /// Gradient of N_i at the particle (1/m).
     pub gradient: &'a Vector<D>,
     /// Position of the function ([`Basis::abscissa`]) relative to the particle, x_i - x_p (m).
     pub offset: Vector<D>,
 }
 
-/// Nodes of a particle, with the weights there.
+/// Nodes of a particle, with the basis functions evaluated there.
 pub trait Patch<const D: usize>: Copy {
     /// Patches of a batch of particles.
     type Batch: PatchBatch<D>;
@@ -141,10 +141,10 @@ pub trait Patch<const D: usize>: Copy {
     /// Stores this patch in lane `lane` of a batch.
     fn put(&self, lane: usize, layout: &Layout, patches: &mut Self::Batch);
 
-    /// Moments of the weights.
+    /// Returns the moments of the weights.
     fn weight_moments(&self) -> WeightMoments<D>;
 
-    /// Mean (m) and variance (m^2) of `x_i - x_p` along each axis, for the only patch of a
+    /// Returns mean (m) and variance (m^2) of `x_i - x_p` along each axis, for the only patch of a
     /// particle. The covariance is zero, because functions are products.
     fn variance(&self) -> ([f64; D], [f64; D]);
 
@@ -166,22 +166,22 @@ pub struct NodeTerm<F, const D: usize> {
 }
 
 impl<F: Register, const D: usize> NodeTerm<F, D> {
-    /// No part.
+    /// A contribution without any part.
     pub(in crate::mpm) const NONE: Self = Self { value: None, slope: None, flux: None };
 }
 
 /// Patches of a batch of particles. Weights are computed for four particles at once. The loops over
 /// nodes process one patch after another, with four components of a node at once.
 pub trait PatchBatch<const D: usize>: Debug {
-    /// Empty batch.
+    /// Creates an empty batch.
     fn none() -> Self;
 
     /// Computes the products of weights that [`PatchBatch::scatter`] needs.
     fn compute_row_weights<S: Simd>(&mut self, simd: S, lanes: &Range<usize>);
 
     /// Computes offsets `x_i - x_p - mean` (m) and the inverse of the inertia tensor (1/m^2), for
-    /// cells of size `h` (m). Without `mean`, the mean over the nodes of each patch is used; its
-    /// particle must then have no other patch.
+    /// cells of size `h` (m). Without `mean`, the mean over the nodes of each patch is used. The
+    /// particle of the patch must then have no other patch.
     fn compute_offsets<S: Simd>(
         &mut self,
         simd: S,
@@ -190,7 +190,8 @@ pub trait PatchBatch<const D: usize>: Debug {
         mean: Option<&Vector<D>>,
     );
 
-    /// Product of the matrix with these columns and the inverse inertia tensor of patch `lane`.
+    /// Returns the product of the matrix with these columns and the inverse inertia tensor of patch
+    /// `lane`.
     fn divide<S: Simd>(&self, lane: usize, columns: &[S::F64x4; D]) -> [S::F64x4; D];
 
     /// Adds the terms of particles, each with its lane, to their nodes in `field`.
@@ -202,11 +203,11 @@ pub trait PatchBatch<const D: usize>: Debug {
         term: impl Fn(usize, T) -> NodeTerm<N::Lanes<S>, D>,
     );
 
-    /// Sum `sum_i field_i N_i`.
+    /// Returns the sum `sum_i field_i N_i`.
     fn gather<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4;
 
-    /// Sum `sum_i field_i N_i`, and the moments `sum_i field_i (x_i - x_p - mean)_a N_i` for each
-    /// axis.
+    /// Returns the sum `sum_i field_i N_i`, and the moments
+    /// `sum_i field_i (x_i - x_p - mean)_a N_i` for each axis.
     fn gather_moment<S: Simd>(
         &self,
         simd: S,
@@ -214,7 +215,8 @@ pub trait PatchBatch<const D: usize>: Debug {
         field: &FieldView<'_>,
     ) -> (S::F64x4, [S::F64x4; D]);
 
-    /// Sum `sum_i field_i N_i`, and the gradient `sum_i field_i dN_i/dx_a` for each axis.
+    /// Returns the sum `sum_i field_i N_i`, and the gradient `sum_i field_i dN_i/dx_a` for each
+    /// axis.
     fn gather_gradient<S: Simd>(
         &self,
         simd: S,

@@ -19,9 +19,9 @@
 //! linear fields: `sum_i x_i N_i = x`,
 //! `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
 //!
-//! A domain that extends beyond a wall is compressed along the axis until it ends at the wall,
-//! similar to the truncated domain of GIMP. The map of the whole domain is affine, so the sign of
-//! det R does not change. Moving single corners to the wall could change it.
+//! A domain that extends through a wall is compressed along the axis until it ends at the wall,
+//! similar to the truncated domain of GIMP. The whole domain is compressed by an affine map, which
+//! does not change the sign of det R. Moving single corners to the wall could change this sign.
 
 use super::contract::{Basis, Domain, NodeWeight, Patch};
 use super::product::{Product, ProductBatch};
@@ -36,11 +36,11 @@ use crate::mpm::foundation::particles::Particles;
 #[derive(Debug, Clone, Copy)]
 pub struct Cpdi;
 
-/// Maximum extent of a domain on a periodic axis (cells). Rounding would destroy the position of
-/// more distant corners within their cells.
+/// Maximum extent of a domain on a periodic axis (cells). For more distant corners, rounding would
+/// destroy the position within the cell.
 const FAR: f64 = 1e6;
 
-/// Centre and domain vectors of a particle (in cells), compressed to fit between the walls.
+/// Returns centre and domain vectors of a particle (in cells), compressed to fit between the walls.
 fn within<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,
@@ -65,16 +65,17 @@ fn within<const D: usize>(
     (centre, domain)
 }
 
-/// Hat functions at a corner, times the share of the corner. Gradients are proportional to weights.
+/// Hat functions at a corner, divided by the number of corners. Gradients are proportional to
+/// weights.
 #[derive(Debug, Clone, Copy)]
 pub struct Corner<const D: usize> {
     hats: Product<D, 2>,
-    /// `R^-T s_c` (1/m).
+    /// Vector `R^-T s_c` (1/m), which converts weights to gradients.
     outward: Vector<D>,
 }
 
-/// Hat functions at `s` (in cells) along `axis`. Corners that are outside the grid by round-off are
-/// moved to the wall.
+/// Evaluates the hat functions at `s` (in cells) along `axis`. Corners that are outside the grid by
+/// round-off are moved to the wall.
 #[inline(always)]
 fn hats<const D: usize>(grid: &Grid<D>, s: f64, own: f64, axis: usize) -> Weights1d<2> {
     let (first, cell, xi) = if grid.periodic[axis] {
@@ -155,7 +156,7 @@ impl Basis for Cpdi {
         }
     }
 
-    /// Nodes of the cells of all corners; a node shared by two corners counts twice.
+    /// Counts the nodes of the cells of all corners. A node shared by two corners counts twice.
     fn support(dimension: usize) -> u64 {
         4_u64.pow(dimension as u32)
     }
@@ -183,7 +184,7 @@ mod tests {
         particles
     }
 
-    /// Weight and gradient of every node, summed over its visits.
+    /// Returns weight and gradient of every node, summed over its visits.
     fn seen<B: Basis, const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
@@ -196,9 +197,9 @@ mod tests {
         seen
     }
 
-    /// Interpolated hat functions and their slopes along the domain vectors,
-    /// `dN/dxi_a = r_a . grad N`. They are averaged with two Gauss points per axis, which is exact
-    /// for functions multilinear in xi.
+    /// Compares weights and gradients with averages of the interpolated hat functions and their
+    /// slopes along the domain vectors, `dN/dxi_a = r_a . grad N`. The averages use two Gauss
+    /// points per axis, which is exact for functions multilinear in xi.
     fn averages<const D: usize>(periodic: bool) {
         let grid = grid::<D>(periodic);
         let x = Vector::from_fn(|axis, _| 1.4 + 0.07 * axis as f64);
@@ -237,8 +238,8 @@ mod tests {
         averages::<3>(periodic);
     }
 
-    /// The corners are at 0.8 and 1.4 cells. The slopes of the middle hat function cancel there,
-    /// and so does the derivative of its weight, but not its gradient.
+    /// The corners are at 0.8 and 1.4 cells. The slopes of the middle hat function at the corners
+    /// cancel. The derivative of its weight is therefore zero, but its gradient is not.
     #[test]
     fn the_gradient_is_not_that_of_the_weight() {
         let (x, domain) = (Vector::<1>::new(0.55), Matrix::<1>::new(0.15));
@@ -251,8 +252,8 @@ mod tests {
         }
     }
 
-    /// Largest nodal force of a uniform unit stress inside a sheared and rotated body in the middle
-    /// of the grid, `|sum_p V_p grad N_i| / h`.
+    /// Computes the largest nodal force of a uniform unit stress inside a sheared and rotated body
+    /// in the middle of the grid, `|sum_p V_p grad N_i| / h`.
     fn push<B: Basis>() -> f64 {
         let (from, to) = (Vector::<2>::from_element(-1.0), Vector::from_element(1.0));
         let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 0.5, 3);
@@ -271,14 +272,14 @@ mod tests {
         (0..grid.nodes()).filter(|&i| is_inside(i)).map(|i| total[i].norm()).fold(0.0, f64::max)
     }
 
-    /// Parallelograms tile a sheared body; boxes do not.
+    /// The parallelograms of CPDI tile a sheared body; the boxes of GIMP do not.
     #[test]
     fn a_uniform_stress_does_not_push_a_sheared_body() {
         assert_abs_diff_eq!(push::<Cpdi>(), 0.0, epsilon = 1e-14);
         assert!(push::<crate::mpm::basis::ContiguousGimp>() > 1e-3);
     }
 
-    /// Domains in 2-D with rotation, shear and unlimited stretch.
+    /// Tests domains in 2-D with rotation, shear and very large stretch.
     #[rstest]
     #[case::longer_than_the_grid(20.0)]
     #[case::far_longer(1e8)]

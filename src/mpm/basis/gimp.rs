@@ -2,9 +2,10 @@
 //! eqs 30-32).
 //!
 //! `N_i = 1/(2l) int hat_i` over `[x - l, x + l]`, `N_i' = (hat_i(x + l) - hat_i(x - l))/(2l)`. In
-//! several dimensions the domain stays aligned with the axes. uGIMP uses the reference size. In
-//! contiguous-particle GIMP (Wallstedt & Guilkey 2008) the half-length along an axis follows the
-//! diagonal of F, so that domains neither separate nor overlap. At walls the domain is truncated.
+//! several dimensions the domain remains aligned with the axes. uGIMP uses the reference size. In
+//! contiguous-particle GIMP (Wallstedt & Guilkey 2008) the half-length along an axis is multiplied
+//! by the diagonal entry of F, so that domains neither separate nor overlap. At walls the domain is
+//! truncated.
 //!
 //! The functions are computed separately for each axis, as hats averaged over a domain from `low`
 //! to `high`. Four particles are processed at a time if their domains have at most three nodes.
@@ -27,7 +28,7 @@ pub struct UniformGimp;
 #[derive(Debug, Clone, Copy)]
 pub struct ContiguousGimp;
 
-/// Half-length (m) of the domain of particle `p`.
+/// Returns the half-length (m) of the domain of particle `p` along `axis`.
 #[inline(always)]
 fn half<const D: usize>(particles: &Particles<D>, p: usize, axis: usize, follows: bool) -> f64 {
     let followed = particles.domain.get(p).filter(|_| follows);
@@ -61,7 +62,8 @@ fn patches<const D: usize>(
     }
 }
 
-/// Patches of four particles. The mask marks particles with one group of functions along each axis.
+/// Computes the patches of four particles. The mask marks particles with one group of functions
+/// along each axis.
 #[inline(always)]
 fn patches_x4<S: Simd, const D: usize>(
     simd: S,
@@ -100,21 +102,21 @@ fn patches_x4<S: Simd, const D: usize>(
     one
 }
 
-/// Half-lengths of the domains of the last particles.
+/// Returns the half-lengths of the domains of the last particles.
 #[cold]
 #[inline(never)]
 fn last<const D: usize>(particles: &Particles<D>, first: usize, axis: usize) -> [f64; LANES] {
     array(0.0, |k| half(particles, first + k, axis, true))
 }
 
-/// First nodes of domains, some before the first node of a periodic axis.
+/// Wraps the first nodes of domains. Some nodes are before the first node of a periodic axis.
 #[cold]
 #[inline(never)]
 fn beyond_seam<const D: usize>(grid: &Grid<D>, axis: usize, first: [f64; LANES]) -> [f64; LANES] {
     first.map(|first| grid.wrap_signed(first, axis) as f64)
 }
 
-/// Mask of non-negative lanes.
+/// Returns the mask of the lanes that are not negative.
 #[cold]
 #[inline(never)]
 fn not_below_zero(four: [f64; LANES]) -> u32 {
@@ -162,7 +164,7 @@ macro_rules! gimp {
                 patches_x4(simd, grid, locator, particles, lanes, follows, patches)
             }
 
-            /// Three nodes along an axis if the domain is at most one cell long.
+            /// The domain has three nodes along an axis if it is at most one cell long.
             fn support(dimension: usize) -> u64 {
                 3_u64.pow(dimension as u32)
             }
@@ -173,19 +175,19 @@ macro_rules! gimp {
 gimp!(UniformGimp, Fixed);
 gimp!(ContiguousGimp, Follows);
 
-/// Number of functions in a group: all functions along an axis if the domain is at most one cell
-/// long.
+/// Number of functions in a group. One group contains all functions along an axis if the domain is
+/// at most one cell long.
 pub(in crate::mpm) const AT_ONCE: usize = 3;
 
 /// Maximum half-length of a domain (cells); longer domains are truncated.
 const LONGEST: f64 = 2.5;
 
-/// Hat function of a node at distance z (cells).
+/// Evaluates the hat function of a node at distance z (cells).
 fn hat(z: f64) -> f64 {
     (1.0 - z.abs()).max(0.0)
 }
 
-/// Integral of the hat function from minus infinity to z.
+/// Integrates the hat function from minus infinity to z.
 fn integral(z: f64) -> f64 {
     let z = z.clamp(-1.0, 1.0);
     if z < 0.0 { 0.5 * (1.0 + z) * (1.0 + z) } else { 0.5 + z - 0.5 * z * z }
@@ -203,8 +205,8 @@ pub(in crate::mpm) struct Domain1dSimd<S: Simd> {
 }
 
 impl<S: Simd> Domain1dSimd<S> {
-    /// Domains centred at `at`. If there are walls, domains are truncated at node 0 and at node
-    /// `last`.
+    /// Creates domains centred at `at`. If there are walls, domains are truncated at node 0 and at
+    /// node `last`.
     #[inline(always)]
     pub(in crate::mpm) fn new(at: S::F64x4, half: S::F64x4, last: Option<f64>) -> Self {
         let half = half.abs().at_most(LONGEST);
@@ -215,15 +217,15 @@ impl<S: Simd> Domain1dSimd<S> {
         Self { at, low, high, first: low.floor() }
     }
 
-    /// Distance of the last of [`AT_ONCE`] nodes beyond the end of the domain; negative if the
-    /// domain has more nodes.
+    /// Returns the distance by which the last of [`AT_ONCE`] nodes is beyond the end of the domain;
+    /// negative if the domain has more nodes.
     #[inline(always)]
     pub(in crate::mpm) fn spare(&self) -> S::F64x4 {
         self.first + (AT_ONCE - 1) as f64 - self.high
     }
 
-    /// Functions of domains that end before the third node. The branches of [`integral`] and
-    /// [`hat`] are known there, and the results are bit-identical.
+    /// Evaluates the functions of domains that end before the third node. The branches of
+    /// [`integral`] and [`hat`] are then known in advance, and the results are bit-identical.
     #[inline(always)]
     pub(in crate::mpm) fn along(&self, simd: S, h: f64, inverse_h: f64) -> WeightsSimd<S, AT_ONCE> {
         let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
@@ -251,7 +253,7 @@ impl<S: Simd> Domain1dSimd<S> {
             mean += weight[k] * offset[k];
             second += weight[k] * offset[k] * offset[k];
         }
-        // A truncated domain is not centred at its particle.
+        // The mean is not zero for a truncated domain, which is not centred at its particle.
         WeightsSimd { weight, slope, offset, variance: second - mean * mean }
     }
 }
@@ -260,7 +262,7 @@ impl<S: Simd> Domain1dSimd<S> {
 #[derive(Clone, Copy)]
 pub(in crate::mpm) struct Domain1d {
     extent: Domain1dSimd<Plain>,
-    /// Number of groups of [`AT_ONCE`] nodes.
+    /// Number of groups of [`AT_ONCE`] nodes that the domain needs.
     pub(in crate::mpm) groups: usize,
 }
 
@@ -279,7 +281,7 @@ impl Domain1d {
         Self { extent, groups }
     }
 
-    /// Functions of one group.
+    /// Evaluates the functions of one group.
     #[inline(always)]
     pub(in crate::mpm) fn along<const D: usize>(
         &self,
@@ -295,7 +297,8 @@ impl Domain1d {
         along.take(0, grid.wrap_signed(first, axis))
     }
 
-    /// Functions of one group for a domain of any length; zero beyond the domain and beyond a wall.
+    /// Evaluates the functions of one group for a domain of any length; zero outside the domain and
+    /// outside the walls.
     #[inline(always)]
     fn one_of_many<const D: usize>(
         &self,

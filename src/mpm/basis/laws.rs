@@ -28,7 +28,7 @@ fn grid<B: Basis, const D: usize>(periodic: bool) -> Grid<D> {
 /// Half the extent of the particle domain along any axis (cells).
 const REACH: f64 = 0.3;
 
-/// One particle at `x`, with a domain of half a cell, slightly stretched and rotated.
+/// Creates one particle at `x`, with a domain of half a cell, slightly stretched and rotated.
 fn particle<const D: usize>(grid: &Grid<D>, x: Vector<D>) -> Particles<D> {
     let (from, to) = (Vector::zeros(), Vector::from_element(0.5 * grid.h));
     let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, grid.h, 1);
@@ -41,7 +41,7 @@ fn particle<const D: usize>(grid: &Grid<D>, x: Vector<D>) -> Particles<D> {
     particles
 }
 
-/// Scattered points, also on nodes, walls and corners.
+/// Returns scattered points, including points on nodes, walls and corners.
 fn points<const D: usize>(grid: &Grid<D>) -> Vec<Vector<D>> {
     let along = [0.0, 0.07, REACH, 0.5, 1.0, 1.93, 2.5, 3.0, 3.999, 4.0];
     (0..60)
@@ -53,13 +53,13 @@ fn points<const D: usize>(grid: &Grid<D>) -> Vec<Vector<D>> {
         .collect()
 }
 
-/// Whether the particle domain does not cross a wall. Domains that cross a wall are truncated.
+/// Whether the particle domain is inside the walls. A domain that crosses a wall is truncated.
 fn is_whole<B: Basis, const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> bool {
     let inside = REACH - 1e-12..=CELLS as f64 - REACH + 1e-12;
     B::DOMAIN == Domain::Point || (0..D).all(|axis| inside.contains(&grid.local(x, axis)))
 }
 
-/// Functions of one node for the particle.
+/// Basis functions of one node at the particle.
 struct NodeWeights<const D: usize> {
     node: usize,
     weight: f64,
@@ -67,7 +67,7 @@ struct NodeWeights<const D: usize> {
     offset: Vector<D>,
 }
 
-/// Nodes of the only particle. All tests share one copy of this long loop.
+/// Returns the nodes of the only particle. All tests share one copy of this long loop.
 #[inline(never)]
 fn node_weights<B: Basis, const D: usize>(
     grid: &Grid<D>,
@@ -116,8 +116,8 @@ fn hold<B: Basis, const D: usize>(periodic: bool) {
     }
 }
 
-/// Compares grad N with central differences, for bases with `GRADIENT_OF_WEIGHT`. Points with a
-/// node inside the stencil are excluded.
+/// Compares grad N with central differences, for bases with `GRADIENT_OF_WEIGHT`. Points are
+/// excluded if a node is inside the stencil.
 fn differentiate<B: Basis, const D: usize>(periodic: bool) {
     if !B::GRADIENT_OF_WEIGHT {
         return;
@@ -190,7 +190,7 @@ fn every_basis_obeys_its_laws(#[values(false, true)] periodic: bool) {
     obey::<exercise::QuadraticBernstein>(periodic);
 }
 
-/// Known values of functions in a cell at a wall.
+/// Tests known values of functions in a cell at a wall.
 #[rstest]
 #[case("linear", 0.25, &[0.75, 0.25])]
 #[case("quadratic_bspline", 0.0, &[1.0, 0.0, 0.0])]

@@ -13,7 +13,7 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{LANES, Plain, Simd};
 
-/// Hat functions along an axis, at `xi` from 0 to 1 within a cell.
+/// Evaluates the hat functions along an axis, at `xi` from 0 to 1 within a cell.
 #[inline(always)]
 fn along<S: Simd>(simd: S, xi: S::F64x4, h: f64, inverse_h: f64) -> WeightsSimd<S, 2> {
     let rest = simd.splat(1.0) - xi;

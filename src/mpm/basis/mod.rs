@@ -1,4 +1,5 @@
-//! The family of basis functions. A member is one file, one registration line and one `mod` line.
+//! The family of basis functions. A new basis requires one file, one registration line and one
+//! `mod` line.
 
 mod bspline;
 mod cell_locator;
@@ -32,13 +33,13 @@ family! {
 }
 
 impl BasisName {
-    /// Order of the displacement error on a smooth solution with the consistent mass matrix: p + 1
-    /// for degree p.
+    /// Returns the order of the displacement error on a smooth solution with the consistent mass
+    /// matrix: p + 1 for degree p.
     pub fn formal_order(self) -> f64 {
         with_basis!(self, B => f64::from(B::DEGREE) + 1.0)
     }
 
-    /// Position of function `node` of `grid` (m): the Greville abscissa on every axis.
+    /// Returns the position of function `node` of `grid` (m): the Greville abscissa on every axis.
     pub fn place<const D: usize>(self, grid: &Grid<D>, node: usize) -> Vector<D> {
         let along = |axis: usize| {
             let index = grid.index_on_axis(node, axis);

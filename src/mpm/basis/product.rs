@@ -1,8 +1,8 @@
-//! Products of one-dimensional functions, the patch type of most bases: one particle, a batch, and
-//! the P2G and G2P loops over the nodes of a batch.
+//! Products of one-dimensional functions, the patch type of most bases, for one particle and for a
+//! batch. Also contains the P2G and G2P loops over the nodes of a batch.
 //!
-//! G2P sums are factorised by axis. A node needs one product and one sum per function, not per
-//! axis.
+//! G2P sums are computed axis by axis. A node needs one product and one sum per function, instead
+//! of one per axis.
 
 use super::contract::{NodeTerm, NodeWeight, Patch, PatchBatch};
 use super::weights_1d::{Weights1d, Weights1dBatch, lane_functions, product};
@@ -64,7 +64,7 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
 
     #[inline(always)]
     fn visit(&self, grid: &Grid<D>, mut visit: impl FnMut(NodeWeight<'_, D>)) {
-        // Indices are wrapped once per axis, not once per node.
+        // Indices are wrapped once per axis instead of once per node.
         let nodes: [[usize; K]; D] =
             array([0; K], |axis| array(0, |k| grid.wrap(self.0[axis].first + k, axis)));
         for n in 0..K.pow(D as u32) {
@@ -107,11 +107,11 @@ pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0
     pub(in crate::mpm) axes: [Weights1dBatch<K>; D],
     /// Vectors that convert weights to gradients (1/m).
     pub(in crate::mpm) outward: [[Vector<D>; BATCH]; OUTWARD],
-    /// Products of the row weights of a plane and the plane weights.
+    /// Product of row weight and plane weight, for each row.
     row_weights: [[F64Batch; K]; K],
 }
 
-/// `sum + a b`, or `a b` if there is no sum.
+/// Returns `sum + a b`, or `a b` if there is no sum.
 #[inline(always)]
 fn plus_product<F: Register>(sum: Option<F>, a: F, b: f64) -> F {
     match sum {
@@ -121,11 +121,12 @@ fn plus_product<F: Register>(sum: Option<F>, a: F, b: f64) -> F {
 }
 
 impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
-    /// Number of rows in a plane, and number of planes; one for a missing axis.
+    /// Number of rows in a plane, and number of planes; one for an axis that the dimension does not
+    /// have.
     pub(in crate::mpm) const ROWS: usize = if D > 1 { K } else { 1 };
     pub(in crate::mpm) const PLANES: usize = if D > 2 { K } else { 1 };
 
-    /// Stores the starts of four patches.
+    /// Stores the index of the first node of four patches.
     #[inline(always)]
     pub(in crate::mpm) fn put_starts(&mut self, lane: usize, starts: [u32; LANES]) {
         self.start[lane % BATCH / LANES * LANES..][..LANES].copy_from_slice(&starts);
@@ -136,19 +137,20 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         self.start[lane % BATCH] as usize
     }
 
-    /// Weight of function `k` along `axis`; one for a missing axis.
+    /// Returns the weight of function `k` along `axis`; one for an axis that the dimension does not
+    /// have.
     #[inline(always)]
     pub(in crate::mpm) fn weight(&self, lane: usize, axis: usize, k: usize) -> f64 {
         if axis < D { self.axes[axis].weight[k].get(lane) } else { 1.0 }
     }
 
-    /// Weight of row `j` in plane `k`.
+    /// Returns the weight of row `j` in plane `k`.
     #[inline(always)]
     fn row_weight(&self, lane: usize, j: usize, k: usize) -> f64 {
         if D > 2 { self.row_weights[k][j].get(lane) } else { self.weight(lane, 1, j) }
     }
 
-    /// Adds the part of `flux . grad` across the first axis, for row `j` in plane `k`.
+    /// Adds the terms of `flux . grad` along all axes except the first, for row `j` in plane `k`.
     #[inline(always)]
     fn flux_across<F: Register>(
         &self,
@@ -166,8 +168,8 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         sum.plus_product(flux[2], self.axes[2].slope[k].get(lane) * self.weight(lane, 1, j))
     }
 
-    /// Converts the flux to a part of the value, for patches with gradients that are weights times
-    /// a vector.
+    /// Converts the flux to a part of the value. This applies to patches whose gradients are
+    /// weights times a vector.
     #[inline(always)]
     fn fold_flux<F: Register>(&self, lane: usize, term: NodeTerm<F, D>) -> NodeTerm<F, D> {
         let (Some(outward), Some(flux)) = (self.outward.first(), term.flux) else { return term };
@@ -195,7 +197,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         let NodeTerm { value, slope, flux } = self.fold_flux(lane, term);
         let (start, x, weights) =
             (self.start(lane), &self.axes[0], lane_functions(&self.axes[0].weight, lane));
-        // Loops, because closures are not always inlined.
+        // These are loops, because closures are not always inlined.
         let (mut first, mut rise) = ([None; K], [None; K]);
         for i in 0..K {
             if let Some(slope) = &slope {
@@ -350,7 +352,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> PatchBatch<D>
     }
 }
 
-/// `sum_k row_k factors_k`.
+/// Returns `sum_k row_k factors_k`.
 #[inline(always)]
 fn dot<S: Simd, const K: usize>(simd: S, row: &[Node4], factors: &[f64; K]) -> S::F64x4 {
     let mut sum = simd.load(row[0].0) * factors[0];
@@ -360,15 +362,15 @@ fn dot<S: Simd, const K: usize>(simd: S, row: &[Node4], factors: &[f64; K]) -> S
     sum
 }
 
-/// Adds term `k` of a sum, whose first term is term 0.
+/// Adds term `k` to a sum. Term 0 starts the sum.
 #[inline(always)]
 fn put<F: Register>(sum: &mut F, k: usize, a: F, b: f64) {
     *sum = if k == 0 { a * b } else { sum.plus_product(a, b) };
 }
 
 impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
-    /// `sum_i field_i N_i`, and for each axis the sum in which `others` replace the functions along
-    /// the axis.
+    /// Returns `sum_i field_i N_i`, and for each axis the sum in which `others` replace the
+    /// functions along this axis.
     #[inline(always)]
     pub(super) fn sums<S: Simd>(
         &self,
@@ -408,7 +410,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
     }
 }
 
-/// Field that receives the sums. The sums of K consecutive nodes are in registers.
+/// Field that receives the sums of P2G. The sums of K consecutive nodes are in registers.
 #[derive(Debug)]
 pub(super) struct NodeAccumulator<'a, S: Simd, N: PackedNode, const K: usize> {
     pub(in crate::mpm) simd: S,
@@ -418,7 +420,7 @@ pub(super) struct NodeAccumulator<'a, S: Simd, N: PackedNode, const K: usize> {
     sums: [N::Lanes<S>; K],
 }
 
-/// Marker for no node.
+/// Value of `NodeAccumulator::start` if no node has its sums in registers.
 const NONE: usize = usize::MAX;
 
 impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {

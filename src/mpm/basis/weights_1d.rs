@@ -8,26 +8,27 @@ use crate::mpm::foundation::simd::{F64Batch, F64x4, Simd};
 /// K neighbouring functions along one axis.
 #[derive(Debug, Clone, Copy)]
 pub struct Weights1d<const K: usize> {
-    /// Index of the first function. On a periodic axis the index wraps around. Indices beyond a
-    /// wall belong to functions with weight zero.
+    /// Index of the first function. On a periodic axis the index wraps around. Indices outside the
+    /// walls belong to functions with weight zero.
     pub first: usize,
-    /// Values.
+    /// Values of the functions.
     pub weight: [f64; K],
-    /// Derivatives (1/m).
+    /// Derivatives of the functions (1/m).
     pub slope: [f64; K],
-    /// Positions relative to the particle (m).
+    /// Positions of the functions relative to the particle (m).
     pub offset: [f64; K],
-    /// `sum weight offset^2` (m^2). The sum is taken about the mean if the particle has no other
-    /// functions along this axis.
+    /// Variance, `sum weight offset^2` (m^2). The sum is taken about the mean if the particle has
+    /// no other functions along this axis.
     pub variance: f64,
 }
 
 impl<const K: usize> Weights1d<K> {
-    /// No functions.
+    /// Functions with weight zero.
     pub const NONE: Self =
         Self { first: 0, weight: [0.0; K], slope: [0.0; K], offset: [0.0; K], variance: 0.0 };
 
-    /// Functions with the variance computed as a sum. A closed form, if available, is faster.
+    /// Creates functions with the variance computed as a sum. A closed form, if available, is
+    /// faster.
     #[inline(always)]
     pub fn new(first: usize, weight: [f64; K], slope: [f64; K], offset: [f64; K]) -> Self {
         let mut variance = 0.0;
@@ -37,7 +38,7 @@ impl<const K: usize> Weights1d<K> {
         Self { first, weight, slope, offset, variance }
     }
 
-    /// Sums over the functions of `weight offset^n` for n = 0, 1, 2.
+    /// Returns the sums over the functions of `weight offset^n` for n = 0, 1, 2.
     #[inline(always)]
     pub(in crate::mpm) fn moments(&self) -> [f64; 3] {
         let mut moments = [0.0; 3];
@@ -52,7 +53,7 @@ impl<const K: usize> Weights1d<K> {
     }
 }
 
-/// Product over all axes of the moments of these orders.
+/// Returns the product over all axes of the moments of these orders.
 #[inline(always)]
 pub(in crate::mpm) fn product<const D: usize>(
     moments: &[[f64; 3]; D],
@@ -68,18 +69,18 @@ pub(in crate::mpm) fn product<const D: usize>(
 /// K neighbouring functions of four particles in registers.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct WeightsSimd<S: Simd, const K: usize> {
-    /// Values.
+    /// Values of the functions.
     pub(in crate::mpm) weight: [S::F64x4; K],
-    /// Derivatives (1/m).
+    /// Derivatives of the functions (1/m).
     pub(in crate::mpm) slope: [S::F64x4; K],
-    /// Positions relative to the particle (m).
+    /// Positions of the functions relative to the particle (m).
     pub(in crate::mpm) offset: [S::F64x4; K],
-    /// `sum weight offset^2` (m^2) about the mean.
+    /// Variance, `sum weight offset^2` (m^2), about the mean.
     pub(in crate::mpm) variance: S::F64x4,
 }
 
 impl<S: Simd, const K: usize> WeightsSimd<S, K> {
-    /// Stores the parts listed in `needs`.
+    /// Stores the values, and the quantities listed in `needs`.
     #[inline(always)]
     pub(in crate::mpm) fn put(
         self,
@@ -120,24 +121,24 @@ impl<S: Simd, const K: usize> WeightsSimd<S, K> {
 /// K neighbouring functions of a batch of particles in memory.
 #[derive(Debug, Clone, Copy)]
 pub struct Weights1dBatch<const K: usize> {
-    /// Values.
+    /// Values of the functions.
     pub(in crate::mpm) weight: [F64Batch; K],
-    /// Derivatives (1/m).
+    /// Derivatives of the functions (1/m).
     pub(in crate::mpm) slope: [F64Batch; K],
-    /// Positions relative to the particle (m).
+    /// Positions of the functions relative to the particle (m).
     pub(in crate::mpm) offset: [F64Batch; K],
-    /// `sum weight offset^2` (m^2), about the mean if a particle has no other functions.
+    /// Variance, `sum weight offset^2` (m^2), about the mean if a particle has no other functions.
     pub(in crate::mpm) variance: F64Batch,
-    /// Offset from a mean (m).
+    /// Offset of each function from the mean (m).
     pub(in crate::mpm) offset_from_mean: [F64Batch; K],
-    /// Offset from the mean, times the weight (m).
+    /// Offset of each function from the mean, times the weight (m).
     pub(in crate::mpm) weighted_offset: [F64Batch; K],
     /// Inverse of the variance (1/m^2); zero if the variance is zero.
     pub(in crate::mpm) inverse: F64Batch,
 }
 
 impl<const K: usize> Weights1dBatch<K> {
-    /// No functions.
+    /// Functions with weight zero.
     pub(in crate::mpm) const NONE: Self = Self {
         weight: [F64Batch::ZERO; K],
         slope: [F64Batch::ZERO; K],
@@ -160,9 +161,9 @@ impl<const K: usize> Weights1dBatch<K> {
     }
 
     /// Computes offsets from `mean` (m), or from the mean of the functions of each particle, and
-    /// the inverse of the variance. Offsets are multiplied by weights before any sum. Near a wall
-    /// the offset is small and the weight is not, so rounding would otherwise affect the inertia
-    /// tensor.
+    /// the inverse of the variance. Offsets are multiplied by weights before any sum. Otherwise
+    /// rounding would affect the inertia tensor near a wall, where the offset is small and the
+    /// weight is not.
     #[inline(always)]
     pub(in crate::mpm) fn center_offsets<S: Simd>(
         &mut self,
@@ -196,7 +197,7 @@ impl<const K: usize> Weights1dBatch<K> {
     }
 }
 
-/// Functions of particle `lane` of a batch.
+/// Returns the functions of particle `lane` of a batch.
 #[inline(always)]
 pub(super) fn lane_functions<const K: usize>(functions: &[F64Batch; K], lane: usize) -> [f64; K] {
     array(0.0, |k| functions[k].get(lane))

@@ -8,7 +8,7 @@ use crate::subject::{Checkpoint, Column};
 ///
 /// Euler-Cromer is a leapfrog method: the velocities that move positions from t to t + dt belong to
 /// the middle of this interval. A step therefore advances velocities from t - dt/2 to t + dt/2, and
-/// a prescribed velocity is imposed with second order in any scheme. If the run starts from the
+/// a prescribed velocity is accurate to second order in any scheme. If the run starts from the
 /// velocities at t = 0, the first advance is shorter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advance {
@@ -16,24 +16,26 @@ pub struct Advance {
     pub from: f64,
     /// Time of the velocities after the advance (s).
     pub to: f64,
-    /// Factor of the accelerations (s).
+    /// Factor of the accelerations in the advance (s).
     pub dt: f64,
 }
 
-/// A condition on some nodes.
+/// A boundary condition on some nodes.
 ///
-/// Schemes use both hooks. USF and USL prescribe the mapped velocities and then add the
-/// accelerations. MUSL transfers the accelerations to the particles and prescribes the velocities
-/// that are mapped back. The hooks must be consistent: a prescribed velocity plus the prescribed
-/// acceleration must equal the prescribed velocity at the later time.
+/// Schemes use both [`hold_velocity`](Self::hold_velocity) and
+/// [`hold_acceleration`](Self::hold_acceleration). USF and USL prescribe the mapped velocities and
+/// then add the accelerations. MUSL transfers the accelerations to the particles and prescribes the
+/// velocities that are mapped back. The functions must be consistent: a prescribed velocity plus
+/// the change by the prescribed acceleration must equal the prescribed velocity at the later time.
 pub trait Boundary<const D: usize>: Send {
-    /// Columns with entries for nodes.
+    /// Returns the columns with entries for nodes.
     fn columns(&self) -> Vec<Column<'_>>;
 
-    /// Visits the state that persists between steps.
+    /// Visits the state that persists between steps, to store or restore it.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
-    /// Whether [`Boundary::hold_advance`] reads velocities, which are then mapped before forces.
+    /// Whether [`Boundary::hold_advance`] reads velocities. Velocities are then mapped before
+    /// forces.
     fn reads_velocity(&self) -> bool {
         false
     }
@@ -45,8 +47,8 @@ pub trait Boundary<const D: usize>: Send {
     fn hold_acceleration(&self, acceleration: &mut [Vector<D>], advance: &Advance);
 
     /// Imposes a condition on velocities (m/s) and accelerations (m/s2) together. The velocities
-    /// before the advance already satisfy the condition. Velocities have been mapped only if a
-    /// condition reads them.
+    /// before the advance already satisfy the condition. They have been mapped only if a condition
+    /// reads velocities.
     fn hold_advance(
         &mut self,
         _velocity: &mut [Vector<D>],
@@ -56,8 +58,8 @@ pub trait Boundary<const D: usize>: Send {
         self.hold_acceleration(acceleration, advance);
     }
 
-    /// Axis and end of a face with fixed normal velocity, if the wall carries the whole force of
-    /// its nodes. `None` for a wall that moves or releases nodes.
+    /// Returns axis and end of a face with fixed normal velocity, if the wall carries the complete
+    /// force of its nodes. `None` for a wall that moves or releases nodes.
     fn standing_face(&self) -> Option<(usize, Side)> {
         None
     }
@@ -75,7 +77,7 @@ pub enum Side {
     High,
 }
 
-/// Nodes of `grid` on one face, in ascending order.
+/// Returns the nodes of `grid` on one face, in ascending order.
 pub(in crate::mpm) fn nodes<const D: usize>(grid: &Grid<D>, axis: usize, side: Side) -> Vec<usize> {
     let index = match side {
         Side::Low => 0,

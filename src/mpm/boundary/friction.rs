@@ -1,16 +1,17 @@
-//! A wall with unilateral contact and Coulomb friction, `|t| <= mu N`. The wall cannot pull.
+//! A wall with unilateral contact and Coulomb friction, `|t| <= mu N`. The wall can push but not
+//! pull.
 //!
 //! At every node of the wall, a trial step without the wall gives `v* = v + dt a`. If the node
-//! would enter the wall (or, for a node already in contact, press on it), it stays on the wall,
-//! `v . n = a . n = 0`, as with a roller. The required impulse, `I = m |v* . n|`, limits the
-//! friction. If an impulse of at most `mu I` stops the tangential part of `v*`, the node sticks,
-//! `v = a = 0`, as on a fixed wall. Otherwise the node slides, and the impulse `mu I` against `v*`
-//! is subtracted from its acceleration. If the wall would have to pull, the node is free.
-//! (Bardenhagen, Brackbill & Sulsky 2000, CMAME 187, section 3, with a fixed wall as the other
-//! body.)
+//! would enter the wall, or if it already has contact and presses on the wall, the node stays on
+//! the wall: `v . n = a . n = 0`, as with a roller. The impulse of the wall, `I = m |v* . n|`,
+//! limits the friction. If an impulse of at most `mu I` stops the tangential part of `v*`, the node
+//! sticks: `v = a = 0`, as on a fixed wall. Otherwise the node slides, and friction against `v*`
+//! with the impulse `mu I` reduces its acceleration. If only a pull could keep the node on the
+//! wall, the node is free. (Bardenhagen, Brackbill & Sulsky 2000, CMAME 187, section 3, with a
+//! fixed wall as the other body.)
 //!
-//! Nodes store their contact state between two advances. This state is applied to velocities mapped
-//! in between. The same contact state is used for two bodies at a node.
+//! Nodes store their contact state between two advances. Velocities mapped in this interval are
+//! constrained by the stored state. Contact between two bodies uses the same states.
 
 use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::foundation::algebra::Vector;
@@ -22,7 +23,8 @@ use crate::subject::{Checkpoint, Column, Entry, Memory};
 pub struct Friction {
     nodes: Vec<(usize, ContactState)>,
     axis: usize,
-    /// 1 if the wall is at the low end of the axis and pushes upwards; -1 at the high end.
+    /// Sign of the direction from the wall into the grid: 1 at the low end of the axis, -1 at the
+    /// high end.
     inwards: f64,
     coefficient: f64,
 }
@@ -108,11 +110,11 @@ impl<const D: usize> Boundary<D> for Friction {
 /// State of a contact with Coulomb friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::mpm) enum ContactState {
-    /// The bodies do not touch.
+    /// The body does not touch the wall or the other body.
     Separated,
-    /// The bodies slide along each other.
+    /// The body slides along the wall or the other body.
     Slip,
-    /// The bodies move together.
+    /// The body sticks to the wall or the other body.
     Stick,
 }
 
@@ -139,7 +141,8 @@ mod tests {
 
     const ADVANCE: Advance = Advance { from: 0.0, to: 0.5, dt: 0.5 };
 
-    /// Velocity, acceleration and wall after one node of the wall has advanced from v with a.
+    /// Returns velocity, acceleration and wall after one node of the wall has advanced from v with
+    /// a.
     fn advanced(side: Side, v: [f64; 2], a: [f64; 2]) -> (Vector<2>, Vector<2>, Friction) {
         let grid = Grid::new(Vector::zeros(), 1.0, [1; 2], [false; 2], [2; 2]);
         let mut wall = Friction::face(&grid, 1, side, 0.25);
@@ -174,7 +177,7 @@ mod tests {
         assert_relative_eq!(acceleration, mirrored(held_a).into());
     }
 
-    /// Velocities mapped after the advance follow the contact state of the advance.
+    /// Velocities mapped after an advance are constrained by the contact state of this advance.
     #[rstest]
     #[case::free([3.0, 5.0], [0.7, 0.2])]
     #[case::slides([3.0, -1.0], [0.7, 0.0])]

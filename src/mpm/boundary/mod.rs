@@ -1,5 +1,5 @@
-//! The family of boundary conditions on the grid. A member is one file and one registration line
-//! below.
+//! The family of boundary conditions on the grid. A new condition requires one file and one
+//! registration line below.
 //!
 //! A face without a condition is free. A periodic axis needs no condition. With the bases of this
 //! crate, only the first and last functions on an axis are non-zero on its walls (open knots,

@@ -1,8 +1,8 @@
 //! A wall with a prescribed velocity, to which the body sticks: v = v(x, t).
 //!
-//! The nodes have the wall velocity at their own positions. The grid does not follow the wall,
-//! which stays at the face of the grid. A wall may therefore slide any distance along itself, but
-//! move along its normal only by a small part of a cell.
+//! The nodes have the wall velocity at their own positions. The wall stays at the face of the grid;
+//! the grid does not follow it. A wall may therefore slide any distance along itself, but may move
+//! along its normal only by a small fraction of a cell.
 
 use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::basis::BasisName;
@@ -34,9 +34,9 @@ impl<const D: usize> Prescribed<D> {
     }
 }
 
-/// `value` at `x` and `t` (s). Before the start the formula may be undefined and is not evaluated.
-/// The velocity is extrapolated through its value at the start, `v(-t) = 2 v(0) - v(t)`, which is
-/// exact for a constant acceleration.
+/// Returns `value` at `x` and `t` (s). Before the start the formula may be undefined and is not
+/// evaluated. Instead the velocity is extrapolated through its value at the start, `v(-t) = 2 v(0)
+/// - v(t)`, which is exact for a constant acceleration.
 pub(in crate::mpm) fn continued<const D: usize>(
     value: &VelocityField<D>,
     x: &Vector<D>,

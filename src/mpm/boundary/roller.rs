@@ -14,7 +14,7 @@ pub struct Roller {
 }
 
 impl Roller {
-    /// The nodes of `grid` on one face; the normal is `axis`.
+    /// Restrains the nodes of `grid` on one face along its normal, `axis`.
     pub fn face<const D: usize>(grid: &Grid<D>, axis: usize, side: Side) -> Self {
         Self { nodes: nodes(grid, axis, side), axis, side }
     }

@@ -74,7 +74,8 @@ mod tests {
     use crate::mpm::{Block, LinearElastic, Material, Matrix, StressUpdate, Vector};
     use approx::assert_relative_eq;
 
-    /// Alternately, one of two particles is compressed and the other one stretched.
+    /// In each step, one of two particles is compressed and the other one stretched. The roles
+    /// alternate from step to step.
     #[test]
     fn compression_is_resisted_and_nothing_of_it_stays() {
         let block = Block { from: Vector::zeros(), to: Vector::<2>::new(2.0, 1.0), density: 3.0 };
@@ -108,7 +109,7 @@ mod tests {
         }
     }
 
-    /// For a body that only expands, viscosity changes no bit.
+    /// Viscosity does not change the stress of a body that only expands, not even by one bit.
     #[test]
     fn expansion_is_free() {
         let block = Block { from: Vector::zeros(), to: Vector::<1>::new(1.0), density: 3.0 };

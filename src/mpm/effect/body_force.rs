@@ -1,5 +1,5 @@
-//! A body force that depends on the particle: b(X, t), for manufactured solutions, or b(X, t, u),
-//! for example the force of an elastic foundation, `b = -k u/rho0` (Winkler 1867).
+//! A body force per particle: b(X, t), for manufactured solutions, or b(X, t, u), for example the
+//! force of an elastic foundation, `b = -k u/rho0` (Winkler 1867).
 //!
 //! `f_ext_i = sum_p m_p b(X_p, t, x_p - X_p) N_i(x_p)`. Displacement and stress are both taken at
 //! the start of the step, so the order of the leapfrog method does not change.
@@ -11,9 +11,9 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::subject::Column;
 
-/// Writes the force per unit mass (m/s2) of every particle at a time (s), from the reference and
-/// current positions of the particles. During a run, the particles, their order and their reference
-/// positions do not change.
+/// Function that writes the force per unit mass (m/s2) of every particle at a time (s), from the
+/// reference and current positions of the particles. During a run, the particles, their order and
+/// their reference positions do not change.
 pub type ForceField<const D: usize> = Box<dyn FnMut(f64, &Particles<D>, &mut [Vector<D>]) + Send>;
 
 /// A body force b (m/s2).
@@ -25,12 +25,12 @@ pub struct BodyForce<const D: usize> {
 }
 
 impl<const D: usize> BodyForce<D> {
-    /// A body force that `field` computes.
+    /// Creates a body force that `field` computes.
     pub fn new(field: ForceField<D>) -> Self {
         Self { field, b: Vec::new(), stiffness: 0.0 }
     }
 
-    /// A body force computed for each particle from X and t.
+    /// Creates a body force that is computed for each particle from X and t.
     pub fn pointwise(b: impl Fn(&Vector<D>, f64) -> Vector<D> + Send + 'static) -> Self {
         Self::new(Box::new(move |t, particles, into| {
             for (into, label) in into.iter_mut().zip(&particles.x0) {
@@ -39,8 +39,8 @@ impl<const D: usize> BodyForce<D> {
         }))
     }
 
-    /// Sets the stiffness: the largest eigenvalue of -db/du (1/s2) among the particles at the
-    /// start.
+    /// Sets the stiffness, which is the largest eigenvalue of -db/du (1/s2) among the particles at
+    /// the start.
     #[must_use]
     pub fn with_stiffness(self, stiffness: f64) -> Self {
         Self { stiffness, ..self }

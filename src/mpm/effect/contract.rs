@@ -1,5 +1,4 @@
-//! Interface between an effect and the rest of the solver, and the constitutive update with its
-//! hooks.
+//! Interface between an effect and the rest of the solver, and the stress update with its hooks.
 
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
@@ -9,19 +8,19 @@ use crate::subject::{Checkpoint, Column, Failure};
 
 /// An addition to the equations of motion, with hooks between the passes of a step.
 pub trait Effect<const D: usize>: Send {
-    /// Name in suites.
+    /// Returns the name of the effect in suites.
     fn name(&self) -> &'static str;
 
-    /// Columns with entries for particles or nodes.
+    /// Returns the columns with entries for particles or nodes.
     fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
     }
 
-    /// Visits the state that persists between steps.
+    /// Visits the state that persists between steps, to store or restore it.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
     /// Whether the effect reads F. The column of F exists only if an effect, a basis or a material
-    /// reads it.
+    /// reads F.
     fn reads_deformation(&self) -> bool {
         false
     }
@@ -31,8 +30,8 @@ pub trait Effect<const D: usize>: Send {
         false
     }
 
-    /// Stiffness per unit mass (1/s2) at the start, for loads that depend on the displacement. A
-    /// stiffness reduces the stable time step.
+    /// Returns the stiffness per unit mass (1/s2) at the start, for loads that depend on the
+    /// displacement. A stiffness reduces the stable time step.
     fn stiffness(&self) -> f64 {
         0.0
     }
@@ -56,11 +55,12 @@ pub trait Effect<const D: usize>: Send {
     }
 
     /// Modifies `grid.force`, the sum of all forces. May read `grid.velocity`, the mapped
-    /// velocities before their advance. Called after all effects have added their forces.
+    /// velocities before their advance. This function is called after all effects have added their
+    /// forces.
     fn modify_force(&self, _grid: &mut Grid<D>) {}
 
-    /// Modifies the particle velocities, which belong to time `t` (s), after an advance by `dt`
-    /// (s). Called after G2P of velocities, and at the start of a run with `dt` = 0.
+    /// Modifies the particle velocities at time `t` (s), after an advance by `dt` (s). This
+    /// function is called after G2P of velocities, and at the start of a run with `dt` = 0.
     fn modify_velocity(&self, _t: f64, _dt: f64, _particles: &mut Particles<D>) {}
 
     /// Modifies the particle positions after the grid has moved the particles over `dt` (s).
@@ -69,7 +69,7 @@ pub trait Effect<const D: usize>: Send {
     /// Completes the initial state of the particles, after their columns have been created.
     fn start(&mut self, _material: &mut dyn Material<D>, _particles: &mut Particles<D>) {}
 
-    /// Hook before the strain update, with the grid velocities that strain the particles over `dt`
+    /// Runs before the strain update, with the grid velocities that strain the particles over `dt`
     /// (s). Returns the number of visited particle-node pairs.
     fn map_velocity(
         &mut self,
@@ -81,20 +81,20 @@ pub trait Effect<const D: usize>: Send {
         0
     }
 
-    /// Hook before the constitutive update, called if [`Effect::makes_stress`].
+    /// Runs before the stress update, if [`Effect::makes_stress`].
     fn before_stress(&mut self, _particles: &mut Particles<D>) {}
 
-    /// Hook after the constitutive update, called if [`Effect::makes_stress`].
+    /// Runs after the stress update, if [`Effect::makes_stress`].
     fn after_stress(&mut self, _particles: &mut Particles<D>) {}
 
-    /// Names of the passes of [`Effect::integrate_state`] in order, for reports.
+    /// Returns the names of the passes of [`Effect::integrate_state`] in order, for reports.
     fn state_passes(&self) -> &'static [&'static str] {
         &[]
     }
 
-    /// Integrates the effect's own state from `t` to `t + dt` (s). Called once per step, with
-    /// particle positions at `t` and up-to-date grid masses. Returns the number of visited
-    /// particle-node pairs.
+    /// Integrates the effect's own state from `t` to `t + dt` (s). This function is called once per
+    /// step, with particle positions at `t` and up-to-date grid masses. Returns the number of
+    /// visited particle-node pairs.
     ///
     /// # Errors
     /// The failure of the first particle whose state cannot be integrated.
@@ -110,7 +110,7 @@ pub trait Effect<const D: usize>: Send {
     }
 }
 
-/// Updates the stresses; returns [`StressUpdate::least_j`].
+/// Updates the stresses with the hooks of the effects; returns [`StressUpdate::least_j`].
 pub(in crate::mpm) fn strain<const D: usize>(
     effects: &mut [Box<dyn Effect<D>>],
     material: &mut dyn Material<D>,
@@ -136,7 +136,7 @@ mod tests {
     };
     use approx::assert_relative_eq;
 
-    /// A hot bar in compression. The stress is Hencky's for the elastic stretch 1.5/1.2 and E = 50,
+    /// A hot bar in compression has Hencky's stress for the elastic stretch 1.5/1.2 and E = 50,
     /// minus `q = rho (l D)^2` with l D = 0.3 and the density at the total stretch, 3/1.5.
     #[test]
     fn a_viscosity_has_the_density_of_the_expanded_body() {

@@ -7,13 +7,13 @@
 //! velocities, which FLIP retains. Damping of particles is stable for every alpha, dt, scheme and
 //! transfer. The damping affects strain and positions in the same step with MUSL, and in the next
 //! step with USF and USL. It is therefore of first order in time. The damping has no effect on a
-//! body at rest. An affine state (APIC) is not scaled, because it comes from grid velocities that
-//! were mapped from damped velocities.
+//! body at rest. The affine velocity of APIC is not multiplied by the factor, because it comes from
+//! grid velocities that were mapped from damped velocities.
 
 use super::contract::Effect;
 use crate::mpm::foundation::particles::Particles;
 
-/// A damping rate alpha(t) (1/s).
+/// Mass-proportional damping with the rate alpha(t) (1/s).
 pub struct Damping(pub Box<dyn Fn(f64) -> f64 + Send>);
 
 impl<const D: usize> Effect<D> for Damping {

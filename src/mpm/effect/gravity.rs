@@ -9,7 +9,7 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 
-/// Gravity, b(t) (m/s2).
+/// Gravity with the acceleration b(t) (m/s2).
 pub struct Gravity<const D: usize>(pub Box<dyn Fn(f64) -> Vector<D> + Send>);
 
 impl<const D: usize> Effect<D> for Gravity<D> {

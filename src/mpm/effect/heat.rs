@@ -11,10 +11,11 @@
 //! T_p   += dt sum_i Q_i/(c m_i) N_i                            as FLIP: increments only
 //! ```
 //!
-//! The published scheme maps only T_p. Row sums then give the mean over a function. At a wall this
-//! mean differs from the wall value. With linear functions the slope at the wall is a third too
-//! small, and the error at a face with heat flux is not of second order. With `g_p`, the slope of
-//! the previous step (as in TPIC), the map reproduces a linear field up to the wall.
+//! The published scheme maps only T_p, without the slope. Each node then gets a weighted mean of
+//! the temperatures in its support. At a wall this mean differs from the wall value. With linear
+//! functions the slope at the wall is a third too small, and the error at a face with heat flux is
+//! not of second order. With `g_p`, the slope of the previous step (as in TPIC), the map reproduces
+//! a linear field up to the wall.
 //!
 //! The method is of second order in space and of first order in time. The sum of `Q_i` is the heat
 //! flow into the body, to round-off. Neglected: heat from plastic work, viscosity and compression,
@@ -28,13 +29,14 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::subject::{Checkpoint, Column, Failure, Site};
 
-/// Writes the heat per unit mass and time (W/kg) of every particle at a time (s).
+/// Function that writes the heat per unit mass and time (W/kg) of every particle at a time (s).
 ///
 /// The heat may depend on T_p at the start of the step, but not on T_i, which would need another
-/// pass. The sum over particles is the integral of s for any such s. A sink s = -r c T adds its
-/// rate to the rate of conduction: with linear functions and equally spaced particles, forward
-/// Euler is stable for dt < 2/(4 k/(rho c h^2) + r). The stable time step is not predicted; the
-/// suite must state the step.
+/// pass. The sum over particles is the integral of s for any such s.
+///
+/// A sink s = -r c T adds its rate to the rate of conduction: with linear functions and equally
+/// spaced particles, forward Euler is stable for dt < 2/(4 k/(rho c h^2) + r). This stable time
+/// step is not predicted, so the suite must state the step.
 pub type HeatSource<const D: usize> = Box<dyn FnMut(f64, &Particles<D>, &mut [f64]) + Send>;
 
 /// Heat conduction in the body.
@@ -43,18 +45,18 @@ pub struct Heat<const D: usize> {
     capacity: f64,
     source: Option<(HeatSource<D>, Vec<f64>)>,
     faces: Vec<ThermalBoundary<D>>,
-    /// g_p (K/m).
+    /// Temperature gradients g_p of the particles (K/m).
     slope: Vec<Vector<D>>,
-    /// T_i (K).
+    /// Nodal temperatures T_i (K).
     temperature: Vec<f64>,
-    /// Q_i (W), later converted to a temperature rate (K/s).
+    /// Heat flows Q_i into the nodes (W), later converted to temperature rates (K/s).
     flow: Vec<f64>,
 }
 
 impl<const D: usize> Heat<D> {
-    /// Heat conduction in `particles`, with conductivity k (W/(m K), per m^(3-D)) and heat capacity
-    /// c (J/(kg K)). Also sets the particle temperatures (K): `initial` returns the temperature and
-    /// its gradient with respect to X at a reference position.
+    /// Creates heat conduction in `particles`, with conductivity k (W/(m K), per m^(3-D)) and heat
+    /// capacity c (J/(kg K)). Also sets the particle temperatures (K): `initial` returns the
+    /// temperature and its gradient with respect to X at a reference position.
     pub fn new(
         conductivity: f64,
         capacity: f64,
@@ -88,7 +90,7 @@ impl<const D: usize> Heat<D> {
         Self { faces, ..self }
     }
 
-    /// T_i (K) and g_p (K/m) of the last step.
+    /// Returns T_i (K) and g_p (K/m) of the last step.
     pub fn fields(&self) -> (&[f64], &[Vector<D>]) {
         (&self.temperature, &self.slope)
     }
@@ -196,7 +198,7 @@ mod tests {
     use crate::mpm::{Block, Matrix};
     use approx::assert_relative_eq;
 
-    /// A body that starts stretched and sheared has the temperature gradient with respect to x:
+    /// If a body starts stretched and sheared, its temperature gradient is taken with respect to x:
     /// `F^T grad T = Grad T`.
     #[test]
     fn slopes_at_the_start_are_those_of_the_deformed_body() {

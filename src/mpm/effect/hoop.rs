@@ -13,7 +13,7 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::subject::Column;
 
-/// The hoop effect for all particles.
+/// Hoop strain rates and hoop forces of all particles.
 #[derive(Debug, Clone, Default)]
 pub struct Hoop<const D: usize> {
     /// Grid velocities interpolated to the particles (m/s).

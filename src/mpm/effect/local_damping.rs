@@ -13,7 +13,7 @@
 use super::contract::Effect;
 use crate::mpm::foundation::grid::Grid;
 
-/// Share zeta of the unbalanced force, 0 <= zeta < 1.
+/// Local damping with the fraction zeta of the unbalanced force, 0 <= zeta < 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalDamping(pub f64);
 
@@ -29,7 +29,8 @@ impl<const D: usize> Effect<D> for LocalDamping {
     fn modify_force(&self, grid: &mut Grid<D>) {
         for (force, velocity) in grid.force.iter_mut().zip(&grid.velocity) {
             for (f, v) in force.iter_mut().zip(velocity) {
-                // A node with zero velocity is not damped. The check of the particles reports NaN.
+                // A node with zero velocity is not damped, and NaN is reported by the check of the
+                // particles.
                 if *v > 0.0 {
                     *f -= self.0 * f.abs();
                 } else if *v < 0.0 {

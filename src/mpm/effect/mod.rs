@@ -1,5 +1,5 @@
-//! The family of effects. A member is one file and one line of `members`. A solver has a list of
-//! effects. An effect that is not in the list adds no call, column or branch.
+//! The family of effects. A new effect requires one file and one line of `members`. A solver has a
+//! list of effects. An effect that is not in the list adds no call, column or branch.
 
 mod contract;
 mod hoop;
@@ -25,8 +25,8 @@ pub use traction::TractionField;
 
 use crate::members::each_effect;
 
-/// Declares the family of effects, from the lines of [`each_effect`](crate::members) with an
-/// effect.
+/// Declares the family of effects. The lines of [`each_effect`](crate::members) that name an effect
+/// declare a member.
 macro_rules! effects {
     ($(
         $(#[$meta:meta])*

@@ -13,7 +13,7 @@ use crate::subject::{Checkpoint, Column};
 /// Prescribed velocity v(X, t) (m/s) of a set of particles.
 pub struct PrescribedVelocity<const D: usize> {
     value: VelocityField<D>,
-    /// Particles and their initial positions (m).
+    /// Index and initial position (m) of each particle.
     members: Vec<(usize, Vector<D>)>,
 }
 
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
     use crate::mpm::Block;
 
-    /// A leapfrog method has its first velocities half a step before the start. There, the velocity
+    /// A leapfrog method starts with velocities at -dt/2. At this time, the velocity
     /// `v = X (1 + 2 t)` is X (1 - dt).
     #[test]
     fn a_velocity_is_continued_before_the_start() {

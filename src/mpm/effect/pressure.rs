@@ -17,7 +17,7 @@ use crate::subject::Column;
 /// A pressure (Pa) as a function of the reference position and time.
 pub type PressureField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send>;
 
-/// Pressure p(X, t) on one face or rim of the body; a negative pressure pulls.
+/// Pressure p(X, t) on one face or rim of the body. A negative pressure is a suction.
 pub struct Pressure<const D: usize> {
     value: PressureField<D>,
     site: PressedSurface<D>,
@@ -30,7 +30,7 @@ enum PressedSurface<const D: usize> {
 }
 
 impl<const D: usize> Pressure<D> {
-    /// A pressure on the outermost layer of `particles` on the face `side` of `axis`.
+    /// Creates a pressure on the outermost layer of `particles` on the face `side` of `axis`.
     pub fn at(
         particles: &Particles<D>,
         axis: usize,
@@ -41,7 +41,7 @@ impl<const D: usize> Pressure<D> {
         Self { value, site: PressedSurface::Face(Surface::new(particles, axis, side, placement)) }
     }
 
-    /// A pressure on a circular rim of a two-dimensional body filled with `particles`.
+    /// Creates a pressure on a circular rim of a two-dimensional body filled with `particles`.
     pub fn on_rim(particles: &Particles<D>, circle: &RimCircle, value: PressureField<D>) -> Self {
         Self { value, site: PressedSurface::Rim(facets(particles, circle)) }
     }

@@ -1,10 +1,10 @@
 //! The rim of a round two-dimensional body, divided into facets that carry a surface force.
 //!
-//! The particles at a rim form a staircase, so their shares of the surface are not equal, unlike on
-//! a face of a box. The circle is divided into arcs about half a spacing long. The force on an arc
-//! acts on the nearest particle, together with its moment. If linear fields are reproduced, the sum
-//! of `f_i (x) x_i` is then `f (x) x_s`, as for a force at the middle x_s of the arc. The area
-//! vectors are exact, so a uniform pressure has no resultant.
+//! The particles at a rim form a staircase. Unlike on a face of a box, their parts of the surface
+//! are not equal. The circle is therefore divided into arcs about half a spacing long. The force on
+//! an arc acts on the nearest particle, together with its moment. If the basis reproduces linear
+//! fields, the sum of `f_i (x) x_i` is then `f (x) x_s`, as for a force at the middle x_s of the
+//! arc. The area vectors are exact, so a uniform pressure has no resultant.
 
 use super::surface::put_at_surface;
 use crate::mpm::foundation::algebra::{Vector, cofactor};
@@ -36,18 +36,18 @@ pub(super) struct Facet<const D: usize> {
     area: Vector<D>,
 }
 
-/// A column of facets has no numbers for reports.
+/// Reports do not print the entries of a column of facets.
 impl<const D: usize> Entry for Facet<D> {}
 
-/// Arcs per particle spacing along the rim.
+/// Number of arcs per particle spacing along the rim.
 const PER_SPACING: f64 = 2.0;
 
-/// Maximum distance from the rim of particles that can carry a facet (spacings). A staircase rim is
-/// at most half a diagonal away from a particle.
+/// Maximum distance from the rim of particles that can carry a facet (spacings). Each point of the
+/// rim is at most half a diagonal of the particle lattice from a particle.
 const REACH: f64 = 2.0;
 
-/// Facets of `circle`, starting at the positive first axis. Every rim of a body has particles
-/// nearby.
+/// Divides `circle` into facets, starting at the positive first axis. Every rim of a body has
+/// particles nearby.
 pub(super) fn facets<const D: usize>(
     particles: &Particles<D>,
     circle: &RimCircle,
@@ -72,16 +72,16 @@ pub(super) fn facets<const D: usize>(
         };
         let label: Vector<D> = along(centre, radius);
         let distance = |p: &usize| (particles.x0[*p] - label).norm_squared();
-        // The first of several particles at the same distance.
+        // If several particles are at the same distance, the first one is chosen.
         let nearest = near.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         Some(Facet { particle: nearest, label, area: along([0.0; 2], outwards * length) })
     };
     (0..count as usize).filter_map(facet).collect()
 }
 
-/// Adds the forces of a pressure (Pa, per current area) on every facet, as a function of its
-/// reference position. F at the rim is taken from the particle, half a spacing away. Returns the
-/// number of visited particle-node pairs.
+/// Adds the forces of a pressure (Pa, per current area) on every facet. `pressure` is a function of
+/// the reference position. F at the rim is taken from the particle, half a spacing away. Returns
+/// the number of visited particle-node pairs.
 pub(super) fn press<const D: usize>(
     facets: &[Facet<D>],
     particles: &Particles<D>,
@@ -105,8 +105,8 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// For a circle in a square of particles, the facets form a closed curve, and each facet is
-    /// near its particle.
+    /// The facets of a circle in a square of particles form a closed curve, and each facet is near
+    /// its particle.
     #[rstest]
     #[case::outer(1.0)]
     #[case::inner(-1.0)]
@@ -120,7 +120,7 @@ mod tests {
         assert!(sum.norm() <= 1e-14, "{sum}");
         let length: f64 = facets.iter().map(|facet| facet.area.norm()).sum();
         assert_relative_eq!(length, TAU * 1.3, max_relative = 1e-3);
-        // Twice the area of the polygon by the divergence theorem; negative around a hole.
+        // Computes twice the area of the polygon by the divergence theorem; negative around a hole.
         let doubled: f64 = facets
             .iter()
             .map(|facet| facet.area.dot(&(facet.label - Vector::from([2.0, 1.9]))))

@@ -1,4 +1,4 @@
-//! A force on a set of particles, shared among them by reference volume.
+//! A force on a set of particles, distributed among them in proportion to reference volume.
 //!
 //! `f_ext_i += f(t) sum_p (V0_p/V0) N_i(x_p)` over the set, with its total reference volume V0.
 //! This is a body force that is uniform in the reference configuration and follows the particles.
@@ -13,7 +13,7 @@ use crate::subject::Column;
 /// A total force f(t) on a set of particles (N, per m^(3-D) of thickness).
 pub struct SetForce<const D: usize> {
     value: Box<dyn Fn(f64) -> Vector<D> + Send>,
-    /// Particles and their shares of the force; the sum of the shares is 1.
+    /// Index of each particle with its fraction of the force. The sum of the fractions is 1.
     shares: Vec<(usize, f64)>,
 }
 

@@ -1,8 +1,8 @@
 //! The surface of a body, represented by the layer of particles at one of its faces.
 //!
-//! Each particle of the layer represents a share A_p of the face. The middle of the share is
-//! `X_s = X_p + s/2 N` with the spacing s along the normal N. A traction there is mapped to the
-//! grid in one of two ways ([`Placement`]):
+//! Each particle of the layer represents a part of the face with the area A_p. The middle of this
+//! part is `X_s = X_p + s/2 N` with the spacing s along the normal N. A traction there is mapped to
+//! the grid in one of two ways ([`Placement`]):
 //!
 //! - at the particle, `f_i += f N_i(x_p)`, half a spacing inside, as in the original MPM. The sum
 //!   of the forces is exact, but their moment is not. The moment arm of forces along the face is
@@ -50,14 +50,15 @@ pub(super) struct Surface {
     pub(super) area: f64,
     /// Half a spacing along the axis (m); not used for a mapped body.
     depth: f64,
-    /// For a mapped body, the column of the domain matrix whose end is on the face, and its sign.
+    /// Column of the domain matrix whose end is on the face, and its sign; `None` unless the body
+    /// is mapped.
     column: Option<(usize, f64)>,
-    /// Difference between the index of a particle in this layer and the particle below it.
+    /// Index difference between a particle of this layer and the particle below.
     below: usize,
 }
 
 impl Surface {
-    /// The layer of `particles` at the face `side` of `axis`, for a box.
+    /// Finds the layer of `particles` at the face `side` of `axis`.
     pub(super) fn new<const D: usize>(
         particles: &Particles<D>,
         axis: usize,
@@ -89,12 +90,12 @@ impl Surface {
         Self { layer, placement, axis, outwards, area, depth, column: None, below }
     }
 
-    /// Outward normal in the reference configuration.
+    /// Returns the outward normal in the reference configuration.
     pub(super) fn normal<const D: usize>(&self) -> Vector<D> {
         Vector::from_fn(|i, _| if i == self.axis { self.outwards } else { 0.0 })
     }
 
-    /// Vector from particle `p` to the middle of its share of the face, in the reference
+    /// Returns the vector from particle `p` to the middle of its part of the face, in the reference
     /// configuration (m).
     fn to_face<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
         match self.column {
@@ -103,24 +104,24 @@ impl Surface {
         }
     }
 
-    /// Middle of the face share of particle `p`, X_s (m).
+    /// Returns the middle X_s of the face part of particle `p` (m).
     pub(super) fn label<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
         particles.x0[p] + self.to_face(particles, p)
     }
 
-    /// F at the surface above particle `p`.
+    /// Returns F at the surface above particle `p`.
     pub(super) fn def_grad<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Matrix<D> {
         self.continued(&particles.def_grad, p)
     }
 
-    /// Out-of-plane stretch at the surface above particle `p`.
+    /// Returns the out-of-plane stretch at the surface above particle `p`.
     pub(super) fn across<const D: usize>(&self, particles: &Particles<D>, p: usize) -> f64 {
         if particles.across.is_empty() { 1.0 } else { self.continued(&particles.across, p) }
     }
 
-    /// Value of a column at the surface above particle `p`, extrapolated linearly from this
-    /// particle and the particle below it. The value of the particle itself belongs to a point half
-    /// a spacing away.
+    /// Returns the value of a column at the surface above particle `p`, extrapolated linearly from
+    /// this particle and the particle below. The value of particle `p` itself would be that of a
+    /// point half a spacing away.
     fn continued<T>(&self, column: &[T], p: usize) -> T
     where
         T: Copy + Mul<f64, Output = T> + Sub<Output = T>,
@@ -135,8 +136,8 @@ impl Surface {
         here * 1.5 - below * 0.5
     }
 
-    /// Face area of particle `p` in the reference configuration (m^(D-1)). For a body of revolution
-    /// the area is per radian, at the radius of the face (m^2/rad).
+    /// Returns the face area of particle `p` in the reference configuration (m^(D-1)). For a body
+    /// of revolution the area is per radian, at the radius of the face (m^2/rad).
     fn area<const D: usize>(&self, particles: &Particles<D>, p: usize) -> f64 {
         let is_revolved = !particles.stress_across.is_empty();
         if is_revolved { self.area * self.label(particles, p)[0] } else { self.area }
@@ -179,7 +180,7 @@ pub(super) fn put_at_surface<const D: usize>(
     arm: Vector<D>,
 ) {
     kernel.p2g_point_force(particles, p, force, grid);
-    // The arm in the configuration in which the basis is evaluated.
+    // Arm in the configuration in which the basis is evaluated.
     let arm = match particles.def_grad.get(p) {
         Some(f) if particles.current_position.is_empty() => f * arm,
         _ => arm,
@@ -190,19 +191,19 @@ pub(super) fn put_at_surface<const D: usize>(
 /// Maximum distance from the face that counts as rounding error (spacings).
 const ROUNDING: f64 = 1e-6;
 
-/// The layer of particles at a plane face.
+/// The layer of particles at a plane face of a mapped body.
 pub(super) struct MappedFace {
     /// Particles of the layer, in ascending order.
     pub(super) layer: Vec<usize>,
-    /// The column of the domain matrix whose end is on the face, and its sign.
+    /// Column of the domain matrix whose end is on the face, and its sign.
     pub(super) column: (usize, f64),
-    /// Area of the face per particle (m^(D-1)). Along a straight side in 2-D, all shares are equal.
+    /// Area of the face per particle (m^(D-1)). Along a straight side in 2-D, the areas are equal.
     pub(super) area: f64,
 }
 
 impl MappedFace {
-    /// The outermost face along `axis` in the direction `outwards` (1 or -1). `None` for a body
-    /// that is not a mapped box.
+    /// Finds the outermost face along `axis` in the direction `outwards` (1 or -1). `None` for a
+    /// body that is not a mapped box.
     pub(super) fn outermost<const D: usize>(
         particles: &Particles<D>,
         axis: usize,
@@ -238,10 +239,10 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Sides: axis, direction, length and position of each side.
+    /// Axis, direction, length and position of each side of a panel.
     type Sides<'a> = &'a [(usize, f64, f64, f64)];
 
-    /// Vertical and horizontal sides of a panel are found for any slope of the particle rows.
+    /// Vertical and horizontal sides of a panel are recognised for any slope of the particle rows.
     #[rstest]
     #[case::slanting(
         [[0.0, 0.0], [3.0, 0.0], [2.0, 2.0], [0.0, 2.0]],

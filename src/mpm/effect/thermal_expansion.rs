@@ -1,6 +1,6 @@
-//! Thermal expansion: strain due to temperature, which by itself causes no stress.
+//! Thermal expansion: a strain due to temperature that causes no stress in a free body.
 //!
-//! For a law of the total deformation, F is split as `F = theta Fe` with the stretch
+//! For a law that depends only on F, F is split as `F = theta Fe` with the stretch
 //! `theta = 1 + alpha (T - T0)` on every axis, and the law uses Fe (Stojanovic, Djuric & Vujosevic
 //! 1964; Lubarda 2004, Appl. Mech. Rev. 57). A free body then expands exactly by theta. For a law
 //! in rate form the thermal strain increment is subtracted, `sigma -= E/(1 - 2 nu) alpha dT I`
@@ -17,28 +17,29 @@ use crate::subject::{Checkpoint, Column};
 
 /// Thermal expansion. The effect that computes temperatures must come earlier in the list.
 pub struct ThermalExpansion<const D: usize> {
-    /// alpha (1/K).
+    /// Coefficient of thermal expansion alpha (1/K).
     coefficient: f64,
-    /// T0 (K), at which the undeformed body is free of stress.
+    /// Temperature T0 (K), at which the undeformed body is free of stress.
     reference: f64,
     law: ExpansionLaw<D>,
 }
 
 /// Form of the expansion, which depends on the kind of law.
 enum ExpansionLaw<const D: usize> {
-    /// Fe, which replaces F while stresses are computed.
+    /// The law uses `elastic`, which is Fe, in place of F while stresses are computed.
     OfDeformation { elastic: Vec<Matrix<D>> },
-    /// `E/(1 - 2 nu)` (Pa), and the temperatures for which the stresses were computed (K).
+    /// The stress changes by `modulus`, `E/(1 - 2 nu)` (Pa), times the thermal strain since
+    /// `before`, the temperatures for which the stresses were computed (K).
     InRateForm { modulus: f64, before: Vec<f64> },
 }
 
 impl<const D: usize> ThermalExpansion<D> {
-    /// Expansion for a law of the total deformation, with alpha (1/K) and T0 (K).
+    /// Creates the expansion for a law that depends only on F, with alpha (1/K) and T0 (K).
     pub fn of_deformation(coefficient: f64, reference: f64) -> Self {
         Self { coefficient, reference, law: ExpansionLaw::OfDeformation { elastic: Vec::new() } }
     }
 
-    /// Expansion for a law in rate form, with Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the expansion for a law in rate form, with Young's modulus (Pa) and Poisson's ratio.
     pub fn in_rate_form(coefficient: f64, reference: f64, young: f64, poisson: f64) -> Self {
         let modulus = young / (1.0 - 2.0 * poisson);
         Self {
@@ -69,7 +70,7 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
 
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         match &mut self.law {
-            // This state is overwritten before it is read.
+            // Fe is overwritten before it is read, so it is not stored.
             ExpansionLaw::OfDeformation { .. } => {}
             ExpansionLaw::InRateForm { before, .. } => checkpoint.visit(&mut before[..]),
         }
@@ -125,7 +126,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// One particle at 30 K, which is 10 K above the reference.
+    /// Creates one particle at 30 K, which is 10 K above the reference temperature.
     fn warm<const D: usize>() -> Particles<D> {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
         let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
@@ -148,7 +149,7 @@ mod tests {
         assert_relative_eq!(body.vol[0], 1.2 * 1.2 * 1.2, max_relative = 1e-14);
     }
 
-    /// A fixed bar has the stress `P_e(1/theta)`, by Hencky's `sigma = E ln(Fe)/Fe`.
+    /// A fixed bar has the stress `P_e(1/theta)`, where Hencky's law gives `sigma = E ln(Fe)/Fe`.
     #[test]
     fn a_bar_that_is_held_has_the_stress_of_its_inverse_stretch() {
         let mut bar = warm::<1>();

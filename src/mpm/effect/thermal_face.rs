@@ -2,7 +2,7 @@
 //!
 //! Every basis of this crate conforms to the walls of the grid: along the normal, one function is 1
 //! at the wall, and all others are 0. The wall nodes therefore have the temperature of the face.
-//! The face share of node i is `sum_p A_p N_i` over the layer of particles at the face, evaluated
+//! The face area of node i is `sum_p A_p N_i` over the layer of particles at the face, evaluated
 //! along the face only. Heat enters at the face. If heat entered at the particles half a spacing
 //! inside, the error would be of first order.
 //!
@@ -24,8 +24,8 @@ pub type ScalarField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send
 /// Heat inflow (W/m^(D-1)) as a function of position, time (s) and local temperature (K).
 pub type HeatInflow<const D: usize> = Box<dyn Fn(&Vector<D>, f64, f64) -> f64 + Send>;
 
-/// Condition on a face that is not insulated. A field of second order in space has two kinds of
-/// conditions: a prescribed value, or a prescribed flux, which may depend on the value.
+/// Condition on a face that is not insulated: a prescribed value, or a prescribed flux, which may
+/// depend on the value. A differential equation of second order in space has only these two kinds.
 pub enum Thermal<const D: usize> {
     /// Temperature (K): Dirichlet condition.
     Temperature(ScalarField<D>),
@@ -38,7 +38,7 @@ pub struct ThermalBoundary<const D: usize> {
     condition: Thermal<D>,
     axis: usize,
     wall: usize,
-    /// Nodes and their positions (m).
+    /// Index and position (m) of each node on the face.
     nodes: Vec<(usize, Vector<D>)>,
     /// Particles next to the face.
     layer: Vec<usize>,
@@ -49,7 +49,7 @@ pub struct ThermalBoundary<const D: usize> {
 }
 
 impl<const D: usize> ThermalBoundary<D> {
-    /// Imposes `condition` on the face `side` of `axis` of `grid`, which has the functions of
+    /// Imposes `condition` on the face `side` of `axis`. The functions on `grid` are those of
     /// `basis`.
     pub fn new(
         grid: &Grid<D>,
@@ -73,7 +73,7 @@ impl<const D: usize> ThermalBoundary<D> {
         }
     }
 
-    /// Columns with entries for particles and nodes.
+    /// Returns the columns with entries for particles and nodes.
     pub(super) fn columns(&self) -> [Column<'_>; 3] {
         [
             Column::of_particles("face layer", &self.layer),
@@ -82,8 +82,8 @@ impl<const D: usize> ThermalBoundary<D> {
         ]
     }
 
-    /// Sets the `temperature` (K) of the face nodes at time `t` (s), if the temperature is
-    /// prescribed.
+    /// If the temperature is prescribed, sets the `temperature` (K) of the face nodes at time `t`
+    /// (s).
     pub(super) fn hold_temperature(&self, t: f64, temperature: &mut [f64]) {
         if let Thermal::Temperature(value) = &self.condition {
             for (i, x) in &self.nodes {
@@ -92,8 +92,8 @@ impl<const D: usize> ThermalBoundary<D> {
         }
     }
 
-    /// Sets the temperature `rate` (K/s) of the face nodes from `t` to `t + dt` (s), if the
-    /// temperature is prescribed.
+    /// If the temperature is prescribed, sets the temperature `rate` (K/s) of the face nodes from
+    /// `t` to `t + dt` (s).
     pub(super) fn hold_rate(&self, t: f64, dt: f64, rate: &mut [f64]) {
         if let Thermal::Temperature(value) = &self.condition {
             for (i, x) in &self.nodes {
@@ -113,7 +113,7 @@ impl<const D: usize> ThermalBoundary<D> {
         temperature: &[f64],
         flow: &mut [f64],
     ) -> u64 {
-        // A face with a prescribed temperature has neither a layer nor shares.
+        // A face with a prescribed temperature has neither a layer nor areas.
         self.gather_shares(particles, kernel, grid);
         if let Thermal::Inflow(density) = &self.condition {
             for (i, x) in &self.nodes {
@@ -123,8 +123,8 @@ impl<const D: usize> ThermalBoundary<D> {
         self.layer.len() as u64 * kernel.support()
     }
 
-    /// Computes the face share of each face node. The layer of particles may contribute to any
-    /// node; each contribution is added to the face node on the same normal.
+    /// Computes the face area of each face node. The layer of particles may contribute to any node;
+    /// each contribution is added to the face node on the same normal.
     fn gather_shares(&mut self, particles: &Particles<D>, kernel: &dyn Kernel<D>, grid: &Grid<D>) {
         self.share.fill(0.0);
         for &p in &self.layer {

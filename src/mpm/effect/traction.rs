@@ -1,10 +1,10 @@
 //! A surface traction on the layer of particles at the surface.
 //!
 //! `f_ext_i += sum_p p0 A_p N_i(x_p)` over this layer, where A_p is the surface area of a particle
-//! in the reference configuration. This is a dead load, `P N = p0(X, t)`. The surface of the body
-//! need not coincide with nodes: the force follows the particles (Wobbes & Tielen 2015, Steffen's
-//! bar), also on faces that rotate and bend. By default the force acts half a particle spacing
-//! inside the surface ([`Placement`]).
+//! in the reference configuration. The traction is a dead load, `P N = p0(X, t)`. The surface of
+//! the body need not coincide with nodes, because the force follows the particles, even on faces
+//! that rotate and bend (Wobbes & Tielen 2015, Steffen's bar). By default the force acts half a
+//! particle spacing inside the surface ([`Placement`]).
 
 use super::contract::Effect;
 use super::surface::{Placement, Surface};
@@ -25,7 +25,7 @@ pub struct Traction<const D: usize> {
 }
 
 impl<const D: usize> Traction<D> {
-    /// A traction p0(t) on the outermost layer of `particles` at the face `side` of `axis`.
+    /// Creates a traction p0(t) on the outermost layer of `particles` at the face `side` of `axis`.
     pub fn on(
         particles: &Particles<D>,
         axis: usize,
@@ -35,7 +35,7 @@ impl<const D: usize> Traction<D> {
         Self::at(particles, axis, side, Placement::Particles, Box::new(move |_, t| value(t)))
     }
 
-    /// A traction p0(X, t), with X on the surface, at `placement`.
+    /// Creates a traction p0(X, t), with X on the surface, at `placement`.
     pub fn at(
         particles: &Particles<D>,
         axis: usize,

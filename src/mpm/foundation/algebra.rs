@@ -1,7 +1,7 @@
 //! Vectors and matrices in D dimensions.
 //!
-//! The determinant functions of `nalgebra` require trait bounds for generic sizes; the functions of
-//! this module do not.
+//! The determinant functions of `nalgebra` require trait bounds for generic sizes; the functions
+//! here do not.
 
 use crate::dimension::with_dimension;
 use crate::subject::Entry;
@@ -12,14 +12,14 @@ pub type Vector<const D: usize> = nalgebra::SVector<f64, D>;
 /// A D x D matrix.
 pub type Matrix<const D: usize> = nalgebra::SMatrix<f64, D, D>;
 
-/// Numbers are written row by row; a vector is a matrix with one column.
+/// Writes numbers row by row; a vector is a matrix with one column.
 impl<const R: usize, const C: usize> Entry for nalgebra::SMatrix<f64, R, C> {
     fn write(&self, numbers: &mut Vec<f64>) {
         numbers.extend(self.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<_>>()));
     }
 }
 
-/// Determinant by expansion; D = 1, 2 or 3.
+/// Computes the determinant by expansion; D = 1, 2 or 3.
 ///
 /// # Panics
 /// For any other D.
@@ -34,12 +34,12 @@ pub fn det<const D: usize>(m: &Matrix<D>) -> f64 {
     }
 }
 
-/// Determinant of a tensor in `d` dimensions, given row by row; d = 1, 2 or 3.
+/// Computes the determinant of a tensor in `d` dimensions, given row by row; d = 1, 2 or 3.
 pub fn det_of_rows(d: usize, rows: &[f64]) -> f64 {
     with_dimension!(d, D => det(&Matrix::<D>::from_row_slice(rows)))
 }
 
-/// Matrix of cofactors, `det(m) m^-T`; D = 1, 2 or 3.
+/// Computes the matrix of cofactors, `det(m) m^-T`; D = 1, 2 or 3.
 ///
 /// # Panics
 /// For any other D.
@@ -49,7 +49,7 @@ pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
         2 if i == j => m[(1 - i, 1 - j)],
         2 => -m[(1 - i, 1 - j)],
         3 => {
-            // The next two indices in the cycle 0, 1, 2, which accounts for the sign.
+            // The next two indices in the cycle 0, 1, 2. With these, no sign factor is needed.
             let ([i1, j1], [i2, j2]) = ([i, j].map(|k| (k + 1) % 3), [i, j].map(|k| (k + 2) % 3));
             m[(i1, j1)] * m[(i2, j2)] - m[(i1, j2)] * m[(i2, j1)]
         }
@@ -57,7 +57,7 @@ pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
     })
 }
 
-/// `a b`, always inlined for particle loops that are compiled for wider registers.
+/// Computes `a b`. Always inlined, because particle loops are compiled for wider registers.
 #[inline(always)]
 pub(in crate::mpm) fn product<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
     let mut product = Matrix::zeros();
@@ -73,13 +73,13 @@ pub(in crate::mpm) fn product<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> M
     product
 }
 
-/// The dyad a b^T.
+/// Computes the dyad a b^T.
 pub fn dyad<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> Matrix<D> {
     a * b.transpose()
 }
 
-/// `[f(0), f(1), ...]`, built from an array of `nothing`. Used in the hot loop, because
-/// `std::array::from_fn` is not always inlined.
+/// Returns `[f(0), f(1), ...]`; `nothing` is the initial value of each entry. The hot loop needs
+/// this function, because `std::array::from_fn` is not always inlined.
 #[inline(always)]
 pub(in crate::mpm) fn array<const N: usize, T: Copy>(
     nothing: T,
@@ -92,12 +92,13 @@ pub(in crate::mpm) fn array<const N: usize, T: Copy>(
     array
 }
 
-/// 2^52. Numbers from here to twice this value are integers, and their last bits are the excess
-/// over 2^52 as an integer.
+/// 2^52. All `f64` from 2^52 to 2^53 are integers. The last bits of each are the integer by which
+/// it exceeds 2^52.
 pub(in crate::mpm) const WHOLE: f64 = 4_503_599_627_370_496.0;
 
-/// Equals `libm::floor` from -2^51 to 2^51. In the hot loop, a call would cost more than all other
-/// operations, and a conversion to integers and back would cost as much as the weights.
+/// Rounds down; equals `libm::floor` from -2^51 to 2^51. In the hot loop, a call would cost more
+/// than all other operations, and a conversion to integers and back would cost as much as the
+/// weights.
 #[inline(always)]
 pub(in crate::mpm) fn floor(x: f64) -> f64 {
     const SHIFT: f64 = 1.5 * WHOLE;

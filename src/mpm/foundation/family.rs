@@ -1,4 +1,4 @@
-//! Registration: one line defines a member and its name.
+//! Registration: one line defines a family member and its name.
 
 /// Declares a family of types that suites choose by name.
 ///
@@ -49,7 +49,7 @@ macro_rules! family {
 }
 pub(in crate::mpm) use family;
 
-/// Declares a family of objects that suites choose by name.
+/// Declares a family of trait objects that suites choose by name.
 ///
 /// `objects! { /// docs  pub enum Names; /// docs  pub fn make -> Trait; "flip" => Flip: Flip, }`
 /// defines the enum of names and a function that creates the object with a given name, in any
@@ -78,8 +78,8 @@ macro_rules! objects {
 }
 pub(in crate::mpm) use objects;
 
-/// Declares a family of objects that suites choose by name and parameter. Each type has a constant
-/// `PARAMETER` and a constructor `new`.
+/// Declares a family of trait objects that suites choose by name and parameter. Each type has a
+/// constant `PARAMETER` and a constructor `new`.
 macro_rules! objects_with_parameter {
     ($(#[$meta:meta])* pub enum $names:ident: $parameter:ty;
         $(#[$fn_meta:meta])* fn $make:ident -> $contract:ident;
@@ -96,7 +96,7 @@ macro_rules! objects_with_parameter {
         }
 
         impl $names {
-            /// The parameter.
+            /// Returns the range and texts of the parameter.
             pub fn parameter(self) -> $parameter {
                 const D: usize = 1;
                 match self {

@@ -1,8 +1,8 @@
 //! Checks that the state of the particles is finite.
 //!
-//! A NaN spreads through shared nodes to other particles, or is hidden by a node that is fixed or
-//! has no mass. Each quantity is therefore checked where it is computed, and the failure names the
-//! particle with the first NaN.
+//! Through shared nodes a NaN can spread to other particles. A node that is fixed or has no mass
+//! can hide a NaN. Each quantity is therefore checked where it is computed, and the failure names
+//! the first particle with a NaN.
 
 use super::particles::Particles;
 use super::simd::{LANES, vectorized};
@@ -57,8 +57,8 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Whether every number of a column is finite. Runs on all threads and without early exit, so that
-/// the compiler can check several numbers at a time.
+/// Whether every number of a column is finite. The check runs on all threads and has no early exit,
+/// so that the compiler can check several numbers at a time.
 pub(in crate::mpm) fn all_finite<const R: usize, const C: usize>(
     column: &[SMatrix<f64, R, C>],
 ) -> bool {
@@ -87,7 +87,7 @@ pub(in crate::mpm) fn all_finite<const R: usize, const C: usize>(
     ) && rest.iter().all(is_finite)
 }
 
-/// Searches for the first invalid particle only if the column is not finite.
+/// Finds the first particle with an invalid matrix; searches only if the column is not finite.
 fn first_matrix<const R: usize, const C: usize>(
     quantity: &'static str,
     column: &[SMatrix<f64, R, C>],

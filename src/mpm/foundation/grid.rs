@@ -13,7 +13,7 @@ pub struct Grid<const D: usize> {
     pub origin: Vector<D>,
     /// Cell size (m).
     pub h: f64,
-    /// Cells along each axis.
+    /// Number of cells along each axis.
     pub cells: [usize; D],
     /// Whether each axis is periodic.
     pub periodic: [bool; D],
@@ -21,20 +21,20 @@ pub struct Grid<const D: usize> {
     pub counts: [usize; D],
     /// Nodal mass m_i (kg).
     pub mass: Vec<f64>,
-    /// Nodal momentum, then velocity, v_i (kg m/s, then m/s).
+    /// Nodal momentum (kg m/s); later in the step, nodal velocity v_i (m/s).
     pub velocity: Vec<Vector<D>>,
     /// Nodal force f_i = f_int + f_ext (N).
     pub force: Vec<Vector<D>>,
     /// Nodal acceleration a_i (m/s2).
     pub acceleration: Vec<Vector<D>>,
     inverse_h: f64,
-    /// Number of cells along each axis, as `f64` for comparisons with positions.
+    /// Number of cells along each axis, as `f64` for comparison with positions.
     ends: [f64; D],
 }
 
 impl<const D: usize> Grid<D> {
-    /// A grid of `cells` cells of size `h` with its lowest corner at `origin`, and `counts` basis
-    /// functions along the axes ([`Basis::count`](crate::mpm::Basis::count)).
+    /// Creates a grid of `cells` cells of size `h` with its lowest corner at `origin`. `counts` is
+    /// the number of basis functions along each axis ([`Basis::count`](crate::mpm::Basis::count)).
     pub fn new(
         origin: Vector<D>,
         h: f64,
@@ -58,12 +58,12 @@ impl<const D: usize> Grid<D> {
         }
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub fn nodes(&self) -> usize {
         self.mass.len()
     }
 
-    /// Columns of the nodal fields.
+    /// Returns the columns of the nodal fields.
     pub fn columns(&self) -> [Column<'_>; 4] {
         [
             Column::of_nodes("mass", &self.mass),
@@ -73,12 +73,12 @@ impl<const D: usize> Grid<D> {
         ]
     }
 
-    /// Deletes the fields of a motion, for a body at rest.
+    /// Deletes the fields that describe motion, for a body that does not move.
     pub(in crate::mpm) fn forget_motion(&mut self) {
         (self.velocity, self.force, self.acceleration) = (Vec::new(), Vec::new(), Vec::new());
     }
 
-    /// Volume of a cell (m^D).
+    /// Returns the volume of a cell (m^D).
     pub fn cell_volume(&self) -> f64 {
         (0..D).map(|_| self.h).product()
     }
@@ -92,7 +92,7 @@ impl<const D: usize> Grid<D> {
                 || {
                     for (value, m) in piece.iter_mut().zip(mass) {
                         for axis in 0..D {
-                            // Always computed, because a branch would cost more.
+                            // The ratio is always computed, because a branch would cost more.
                             let ratio = value[axis] / *m;
                             value[axis] = if *m > 0.0 { ratio } else { 0.0 };
                         }
@@ -102,8 +102,8 @@ impl<const D: usize> Grid<D> {
         });
     }
 
-    /// Cell that contains `x`; `None` outside the grid or if `x` is NaN. A point on the last face
-    /// belongs to the last cell.
+    /// Returns the cell that contains `x`; `None` outside the grid or if `x` is NaN. A point on the
+    /// last face belongs to the last cell.
     #[inline]
     pub fn cell(&self, x: &Vector<D>) -> Option<[usize; D]> {
         let mut cell = [0; D];
@@ -118,8 +118,8 @@ impl<const D: usize> Grid<D> {
         Some(cell)
     }
 
-    /// Cell that contains `x`, and the position in the cell, from 0 to 1 on each axis; `None`
-    /// outside the grid.
+    /// Returns the cell that contains `x`, and the position in the cell, from 0 to 1 on each axis;
+    /// `None` outside the grid.
     #[inline(always)]
     pub fn locate(&self, x: &Vector<D>) -> Option<([usize; D], [f64; D])> {
         let (mut cell, mut xi) = ([0; D], [0.0; D]);
@@ -130,8 +130,8 @@ impl<const D: usize> Grid<D> {
         Some((cell, xi))
     }
 
-    /// Cell and position in the cell, from 0 to 1, along one axis at the position `s`
-    /// ([`Grid::local`]); `None` outside the grid.
+    /// Returns the cell index and the position in the cell, from 0 to 1, on one axis. `s` is the
+    /// position in units of h ([`Grid::local`]). `None` outside the grid.
     #[inline(always)]
     pub(in crate::mpm) fn locate_along(&self, s: f64, axis: usize) -> Option<(f64, f64)> {
         let (s, end) = (self.within(s, axis), self.ends[axis]);
@@ -143,14 +143,14 @@ impl<const D: usize> Grid<D> {
         Some((low, s - low))
     }
 
-    /// Position along `axis` in units of h, measured from the first wall.
+    /// Returns the position along `axis` in units of h, measured from the first wall.
     #[inline(always)]
     pub fn local(&self, x: &Vector<D>, axis: usize) -> f64 {
         (x[axis] - self.origin[axis]) * self.inverse_h
     }
 
-    /// Position along `axis` in units of h ([`Grid::local`]), wrapped into the grid on a periodic
-    /// axis.
+    /// Returns the position along `axis` in units of h ([`Grid::local`]), wrapped into the grid on
+    /// a periodic axis.
     #[inline(always)]
     pub fn wrapped(&self, x: &Vector<D>, axis: usize) -> f64 {
         self.within(self.local(x, axis), axis)
@@ -165,18 +165,18 @@ impl<const D: usize> Grid<D> {
         s - n * libm::floor(s / n)
     }
 
-    /// Number of periods between `x` and the grid on a periodic axis.
+    /// Returns the number of periods between `x` and the grid on a periodic axis.
     pub fn turns(&self, x: &Vector<D>, axis: usize) -> f64 {
         libm::floor(self.local(x, axis) / self.cells[axis] as f64)
     }
 
-    /// Index of a function on `axis`, wrapped into the grid on a periodic axis.
+    /// Wraps the index of a basis function into the grid on a periodic axis.
     #[inline]
     pub fn wrap(&self, index: usize, axis: usize) -> usize {
         if self.periodic[axis] { index % self.counts[axis] } else { index }
     }
 
-    /// Like [`Grid::wrap`], for an integral number that may be negative.
+    /// Wraps an index like [`Grid::wrap`]; `index` is an integral number that may be negative.
     #[inline(always)]
     pub fn wrap_signed(&self, index: f64, axis: usize) -> usize {
         let n = self.counts[axis] as f64;
@@ -185,13 +185,13 @@ impl<const D: usize> Grid<D> {
         index as i64 as usize
     }
 
-    /// 1/h (1/m).
+    /// Returns 1/h (1/m).
     #[inline(always)]
     pub fn inverse_h(&self) -> f64 {
         self.inverse_h
     }
 
-    /// Index of the node with the given index on each axis.
+    /// Returns the node number for the given index on each axis.
     #[inline]
     pub fn node(&self, index: &[usize; D]) -> usize {
         let mut number = 0;
@@ -201,7 +201,7 @@ impl<const D: usize> Grid<D> {
         number
     }
 
-    /// Index of a node on one axis.
+    /// Returns the index of a node on one axis.
     pub fn index_on_axis(&self, node: usize, axis: usize) -> usize {
         let stride: usize = self.counts[..axis].iter().product();
         node / stride % self.counts[axis]

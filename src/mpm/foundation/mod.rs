@@ -1,5 +1,6 @@
 //! Data and arithmetic for all methods: vectors, registers, threads, the grid, the particles, and
-//! the macros that register members of families. This module imports no basis, kernel or step.
+//! the macros that register members of families. This module does not depend on the basis, the
+//! kernel or the step.
 
 pub(in crate::mpm) mod algebra;
 pub(in crate::mpm) mod family;

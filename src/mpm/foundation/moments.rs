@@ -3,23 +3,24 @@
 use super::algebra::{Matrix, Vector, dyad};
 use crate::subject::Column;
 
-/// Smallest valid second moment, as a share of h^2. Smaller values are rounding errors: all weight
-/// is on one node along that axis, as for a particle on a node of the linear basis.
+/// Minimum valid second moment, as a fraction of h^2. A smaller value is a rounding error: all
+/// weight is on one node along that axis, for example if a particle is on a node of the linear
+/// basis.
 pub(in crate::mpm) const SMALLEST: f64 = 1e-13;
 
 /// Moments of the weights of a patch.
 #[derive(Debug, Clone, Copy)]
 pub struct WeightMoments<const D: usize> {
-    /// `sum_i (x_i - x_p) N_i` (m).
+    /// First moment about the particle, `sum_i (x_i - x_p) N_i` (m).
     pub first: Vector<D>,
-    /// `sum_i (x_i - x_p) (x) (x_i - x_p) N_i` (m^2).
+    /// Second moment about the particle, `sum_i (x_i - x_p) (x) (x_i - x_p) N_i` (m^2).
     pub second: Matrix<D>,
 }
 
 /// Moments of the weights of each particle.
 #[derive(Debug, Clone, Default)]
 pub struct Moments<const D: usize> {
-    /// `sum_i (x_i - x_p) N_i` (m): weighted mean of the node positions, relative to the particle.
+    /// Weighted mean of the node positions, relative to the particle: `sum_i (x_i - x_p) N_i` (m).
     pub mean: Vec<Vector<D>>,
     /// `D_p = sum_i (x_i - x_p) (x) (x_i - x_p) N_i`, about the mean (m^2): the inertia tensor of
     /// APIC (Jiang et al. 2015, eq. 8).
@@ -27,13 +28,13 @@ pub struct Moments<const D: usize> {
 }
 
 impl<const D: usize> Moments<D> {
-    /// Resizes the columns to `particles` particles.
+    /// Resizes the columns to this number of particles.
     pub fn resize(&mut self, particles: usize) {
         self.mean.resize(particles, Vector::zeros());
         self.second.resize(particles, Matrix::zeros());
     }
 
-    /// Columns for the checkpoint.
+    /// Returns the columns for the checkpoint.
     pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 2] {
         [Column::of_particles("mean", &self.mean), Column::of_particles("D", &self.second)]
     }
@@ -44,13 +45,13 @@ impl<const D: usize> Moments<D> {
 pub(in crate::mpm) struct InertiaTensor<const D: usize> {
     /// Weighted mean of the node positions, relative to the particle (m).
     pub(in crate::mpm) mean: Vector<D>,
-    /// D_p (m^2).
+    /// Inertia tensor D_p about the mean (m^2).
     pub(in crate::mpm) second: Matrix<D>,
 }
 
 impl<const D: usize> InertiaTensor<D> {
-    /// Moments of products of one-dimensional functions, from mean and variance along each axis.
-    /// D_p is diagonal.
+    /// Computes the moments of products of one-dimensional functions from mean and variance along
+    /// each axis. D_p is diagonal.
     #[inline(always)]
     pub(in crate::mpm) fn diagonal(mean: [f64; D], variance: [f64; D]) -> Self {
         let mut inertia = Self { mean: Vector::zeros(), second: Matrix::zeros() };
@@ -61,20 +62,20 @@ impl<const D: usize> InertiaTensor<D> {
         inertia
     }
 
-    /// Moments of general weights.
+    /// Computes the moments about the mean from those about the particle, for general weights.
     #[inline(always)]
     pub(in crate::mpm) fn full(weight_moments: &WeightMoments<D>) -> Self {
         let mean = weight_moments.first;
         Self { mean, second: weight_moments.second - dyad(&mean, &mean) }
     }
 
-    /// `matrix D_p^-1`.
+    /// Computes `matrix D_p^-1`.
     pub(in crate::mpm) fn divide(&self, matrix: &Matrix<D>, h: f64) -> Matrix<D> {
         matrix * inverse(self.second, SMALLEST * h * h)
     }
 }
 
-/// Inverse on the axes whose second moment exceeds `smallest`; zero on other axes.
+/// Inverts the tensor on the axes whose second moment exceeds `smallest`; zero on other axes.
 fn inverse<const D: usize>(mut second: Matrix<D>, smallest: f64) -> Matrix<D> {
     let lost: [bool; D] = std::array::from_fn(|axis| !(second[(axis, axis)] > smallest));
     let drop = |matrix: &mut Matrix<D>, diagonal: f64| {

@@ -1,11 +1,12 @@
-//! Particles: one column per quantity, and the configuration in which the basis is evaluated.
+//! Particles: one column per quantity, and the configuration (current or reference) in which the
+//! basis is evaluated.
 
 use super::algebra::{Matrix, Vector, det};
 use crate::named::named;
 use crate::subject::Column;
 
-/// The material points as a structure of arrays with `n` particles. A column exists only if a
-/// member of the solver reads it.
+/// The material points as a structure of arrays. A column exists only if some part of the solver
+/// reads it.
 #[derive(Debug, Clone)]
 pub struct Particles<const D: usize> {
     /// Reference positions X (m): the labels at which errors are evaluated.
@@ -49,7 +50,7 @@ pub struct Particles<const D: usize> {
     pub spacing: Vector<D>,
 }
 
-/// A box-shaped body, for filling with particles.
+/// A box-shaped body that can be filled with particles.
 #[derive(Debug, Clone, Copy)]
 pub struct Block<const D: usize> {
     /// Lowest corner (m).
@@ -61,19 +62,19 @@ pub struct Block<const D: usize> {
 }
 
 impl<const D: usize> Block<D> {
-    /// Centres of equal parts, see [`Particles::fill`].
+    /// Returns the centres of equal parts, see [`Particles::fill`].
     pub fn centres(&self, h: f64, per_axis: usize) -> impl Iterator<Item = Vector<D>> {
         let (length, count) = (self.to - self.from, self.counts(h, per_axis));
         (0..count.iter().product()).map(move |p| centre(p, self, &length, &count))
     }
 
-    /// Lengths of a part (m).
+    /// Returns the lengths of a part (m).
     pub fn spacing(&self, h: f64, per_axis: usize) -> Vector<D> {
         let (length, count) = (self.to - self.from, self.counts(h, per_axis));
         Vector::from_fn(|axis, _| length[axis] / count[axis] as f64)
     }
 
-    /// Number of parts along each axis.
+    /// Returns the number of parts along each axis.
     pub fn counts(&self, h: f64, per_axis: usize) -> [usize; D] {
         std::array::from_fn(|axis| {
             let length = self.to[axis] - self.from[axis];
@@ -83,16 +84,16 @@ impl<const D: usize> Block<D> {
 }
 
 impl<const D: usize> Particles<D> {
-    /// Fills `block` with equally spaced particles, each at the centre of its part, at rest and
-    /// free of stress. Along each axis, the number of particles per cell of size `h` is as close to
-    /// `per_axis` as the body length allows. The number is exact if the body is a whole number of
-    /// cells long.
+    /// Fills `block` with equally spaced particles at rest and free of stress, each at the centre
+    /// of an equal part. Along each axis, the number of particles per cell of size `h` is as close
+    /// to `per_axis` as the body length allows. The number is exact if the body is a whole number
+    /// of cells long.
     pub fn fill(block: &Block<D>, h: f64, per_axis: usize) -> Self {
         Self::fill_where(block, h, per_axis, |_| true)
     }
 
-    /// Fills `block` and keeps the particles whose reference position is `inside`, each with the
-    /// full volume of its part.
+    /// Fills `block` and keeps the particles for whose reference position `inside` is true, each
+    /// with the full volume of its part.
     pub fn fill_where(
         block: &Block<D>,
         h: f64,
@@ -160,7 +161,7 @@ impl<const D: usize> Particles<D> {
         }
     }
 
-    /// Whether any particle has an initial F other than the identity, including NaN.
+    /// Whether the initial F of any particle differs from the identity or is NaN.
     pub(in crate::mpm) fn is_deformed(&self) -> bool {
         self.def_grad.iter().any(|f| *f != Matrix::<D>::identity())
     }
@@ -177,29 +178,29 @@ impl<const D: usize> Particles<D> {
         }
     }
 
-    /// Current position of particle `p` (m), in either frame.
+    /// Returns the current position of particle `p` (m), in either frame.
     pub fn position(&self, p: usize) -> &Vector<D> {
         &self.positions()[p]
     }
 
-    /// Current positions (m), in either frame.
+    /// Returns the current positions (m), in either frame.
     #[inline(always)]
     pub fn positions(&self) -> &[Vector<D>] {
         if self.current_position.is_empty() { &self.x } else { &self.current_position }
     }
 
-    /// Current positions (m), mutable.
+    /// Returns the current positions (m), mutable.
     pub fn positions_mut(&mut self) -> &mut Vec<Vector<D>> {
         if self.current_position.is_empty() { &mut self.x } else { &mut self.current_position }
     }
 
-    /// Deletes the columns of a motion, for a body at rest.
+    /// Deletes the columns that describe motion, for a body that does not move.
     pub(in crate::mpm) fn forget_motion(&mut self) {
         (self.v, self.sigma, self.grad_v) = (Vec::new(), Vec::new(), Vec::new());
         self.def_grad = Vec::new();
     }
 
-    /// All columns of this body.
+    /// Returns all columns of this body.
     pub fn columns(&self) -> Vec<Column<'_>> {
         let all = [
             Column::of_particles("X", &self.x0),
@@ -222,7 +223,7 @@ impl<const D: usize> Particles<D> {
         all.into_iter().filter(|column| column.size.entries > 0).collect()
     }
 
-    /// Number of particles.
+    /// Returns the number of particles.
     pub fn len(&self) -> usize {
         self.x.len()
     }
@@ -233,7 +234,8 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Centre of part `p`, computed from the index of the part to avoid accumulated rounding.
+/// Returns the centre of part `p`, computed from the index of the part to avoid accumulated
+/// rounding.
 fn centre<const D: usize>(
     mut p: usize,
     block: &Block<D>,
@@ -271,8 +273,8 @@ impl<const D: usize> Particles<D> {
         self.x.clone_from(&self.x0);
     }
 
-    /// Stress times volume (N m) of particle `p`, the factor of basis gradients in the internal
-    /// force: V sigma, or V0 P = V sigma F^-T in the total-Lagrangian frame.
+    /// Returns stress times volume (N m) of particle `p`, the factor of basis gradients in the
+    /// internal force: V sigma, or V0 P = V sigma F^-T in the total-Lagrangian frame.
     #[inline(always)]
     pub fn flux(&self, p: usize) -> Matrix<D> {
         let flux = self.sigma[p] * self.vol[p];
@@ -281,7 +283,7 @@ impl<const D: usize> Particles<D> {
 
     #[inline(never)]
     fn in_reference(&self, p: usize, flux: &Matrix<D>) -> Matrix<D> {
-        // If F has no inverse, the particle is inverted, and the next stage reports it.
+        // If F has no inverse, the particle is inverted. The next stage then reports a failure.
         flux * self.def_grad[p].try_inverse().unwrap_or_else(Matrix::zeros).transpose()
     }
 
@@ -314,8 +316,8 @@ mod tests {
         let block = Block { from, to, density: 1.0 };
         let ring = |x: &Vector<2>| (0.75..=1.25).contains(&x.norm());
         let particles = Particles::fill_where(&block, 0.125, 2, ring);
-        // In half spacings, the centres are odd numbers and the radii are 24 and 40, so the test is
-        // exact in integers.
+        // The unit is half a spacing: the centres are odd numbers and the radii are 24 and 40, so
+        // the test is exact in integers.
         let odd = || (-63..64_i32).step_by(2);
         let squares = odd().flat_map(|a| odd().map(move |b| a * a + b * b));
         let inside = squares.filter(|square| (24 * 24..=40 * 40).contains(square)).count();

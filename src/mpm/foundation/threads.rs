@@ -1,11 +1,11 @@
-//! Recursive halving of work among threads. One thread computes each number from the same inputs,
-//! so results do not depend on the number of threads.
+//! Splits work among threads by recursive halving. Each number is computed by one thread from the
+//! same inputs, so results do not depend on the number of threads.
 
-/// Maximum number of particles or nodes that are not split among threads.
+/// Maximum number of particles or nodes that one thread processes without a split.
 pub(in crate::mpm) const FEW: usize = 1 << 14;
 
 /// Runs both closures, in parallel if there are several threads. With one thread, rayon is not
-/// called, because it would wake another thread.
+/// used, because it would wake another thread.
 pub(in crate::mpm) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     if rayon::current_num_threads() == 1 {
         one();
@@ -22,7 +22,8 @@ fn call_once(work: &mut Option<impl FnOnce()>) {
     }
 }
 
-/// Not generic, so that `rayon::join` is compiled once instead of once per pair of closures.
+/// Joins closures behind pointers, so that `rayon::join` is compiled once instead of once per pair
+/// of closures.
 fn join_any(one: &mut (dyn FnMut() + Send), other: &mut (dyn FnMut() + Send)) {
     rayon::join(one, other);
 }
@@ -35,15 +36,15 @@ pub(in crate::mpm) fn split<T>(
     column.map(|column| column.split_at_mut(count.min(column.len()))).unzip()
 }
 
-/// Pieces of a column that fit the cache, split among threads.
+/// Splits a column into pieces that fit the cache, and the pieces among threads.
 pub(in crate::mpm) const PIECES: RowChunks = RowChunks { length: FEW / 4, few: FEW };
 
-/// Rows of a field, split among threads.
+/// Splits a field into rows, and the rows among threads.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct RowChunks {
     /// Number of entries in a row; the last row may have fewer.
     pub(in crate::mpm) length: usize,
-    /// Maximum number of entries that are not split among threads.
+    /// Maximum number of entries that one thread processes without a split.
     pub(in crate::mpm) few: usize,
 }
 

@@ -11,7 +11,7 @@ use crate::mpm::foundation::simd::{BATCH, LANES, Simd};
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// Batch of patches of basis `B`.
+/// Batch of patches of the basis `B`.
 pub(in crate::mpm) type Batch<B, const D: usize> = <<B as Basis>::Patch<D> as Patch<D>>::Batch;
 
 /// Mask of all lanes.
@@ -41,9 +41,11 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
 
     /// Calls `visit` for the patches of the batch that starts at particle `first`, in order. The
     /// arguments are the patches, their range of lanes (particle `first + k` is lane k), and, for a
-    /// particle with several patches, the moments of all its patches. Returns a mask: for bases
-    /// with one patch, the lanes of particles inside the grid; otherwise [`ALL`]. Particles outside
-    /// the grid are skipped.
+    /// particle with several patches, the moments of all its patches. Particles outside the grid
+    /// are skipped.
+    ///
+    /// Returns a mask. For bases with one patch, it contains the lanes of particles inside the
+    /// grid; otherwise it is [`ALL`].
     #[inline(always)]
     pub(in crate::mpm) fn visit<S: Simd>(
         &self,
@@ -95,7 +97,7 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
     }
 }
 
-/// Mean and second moments of the weights of particle `p` over all its patches.
+/// Computes mean and second moments of the weights of particle `p` over all its patches.
 #[inline(always)]
 pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
     grid: &Grid<D>,
@@ -119,7 +121,7 @@ pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
     if B::ONE_PATCH || patches == 1 { one } else { InertiaTensor::full(&all) }
 }
 
-/// Columns of a matrix, each in a register, starting at lane `from`.
+/// Loads the columns of a matrix, each into a register, starting at lane `from`.
 #[inline(always)]
 pub(super) fn columns<S: Simd, const D: usize>(
     simd: S,
@@ -135,8 +137,8 @@ pub(super) fn columns<S: Simd, const D: usize>(
     })
 }
 
-/// Writes the columns of a matrix, which start at lane `from`, number by number. Store-to-load
-/// forwarding fails for a matrix that is stored as a whole.
+/// Writes the columns of a matrix, which start at lane `from`. They are written number by number,
+/// because store-to-load forwarding fails for a matrix that is stored as a whole.
 #[inline(always)]
 pub(super) fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(
     matrix: &mut Matrix<D>,
@@ -151,8 +153,8 @@ pub(super) fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(
     }
 }
 
-/// Columns of `matrix D_p^-1`, each in a register, starting at lane `from`. Uses the inertia tensor
-/// of all patches of the particle if given, otherwise the tensor of its only patch.
+/// Computes the columns of `matrix D_p^-1`, each in a register, starting at lane `from`. Uses the
+/// inertia tensor of all patches of the particle if given, otherwise the tensor of its only patch.
 #[inline(always)]
 pub(super) fn divide<B: Basis, S: Simd, const D: usize>(
     simd: S,

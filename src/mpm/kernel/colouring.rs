@@ -1,12 +1,12 @@
 //! Blocks of particles in two colours, for P2G on several threads.
 //!
 //! The last axis divides the nodes into layers. Particles that are neighbours in memory mostly have
-//! nodes in neighbouring layers. The particles of a large scene are divided into consecutive blocks
-//! of alternating colour. Blocks of one colour have no common node and run in parallel; an odd
-//! block adds to the sums of its even neighbours.
+//! nodes in neighbouring layers. The particles of a large scene are therefore divided into
+//! consecutive blocks of alternating colour, even and odd. Blocks of one colour have no common node
+//! and run in parallel. An odd block then adds to the sums of its even neighbours.
 //!
-//! The cuts, and therefore the bits of the results, depend only on the particles, not on the number
-//! of threads. A small scene, or a scene with particles in no spatial order, is one block.
+//! The division, and therefore the bits of the results, depend only on the particles, not on the
+//! number of threads. A small scene, or a scene with particles in no spatial order, is one block.
 
 use super::contract::LoopSettings;
 use crate::mpm::basis::{Basis, Domain};
@@ -18,16 +18,18 @@ use crate::mpm::foundation::simd::BATCH;
 use crate::mpm::foundation::threads::RowChunks;
 use std::ops::Range;
 
-/// Number of chunks in the smallest block: the resolution of the search for layers.
+/// Number of chunks in the smallest block. The chunk is the smallest unit when layers are assigned
+/// to blocks.
 const CHUNKS: usize = 8;
 
-/// Number of independent minima and maxima in one loop over positions.
+/// Number of independent minima and maxima in one loop over positions; a single one would be
+/// slower.
 const TOGETHER: usize = 8;
 
 /// Numbers of blocks to try, largest first. The nodes of one block should fit the cache.
 const COUNTS: [usize; 8] = [512, 256, 128, 64, 32, 16, 8, 4];
 
-/// Consecutive particles, and the layers of their nodes.
+/// A block of consecutive particles, with the layers that contain their nodes.
 #[derive(Debug)]
 pub(in crate::mpm) struct ParticleBlock {
     pub(in crate::mpm) particles: Range<usize>,
@@ -64,14 +66,15 @@ impl Span {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// Extent of these particles. A particle with a NaN position has no nodes.
+    /// Returns the extent of these particles. A particle with a NaN position has no nodes.
     fn from_particles<B: Basis, const D: usize>(
         particles: &Particles<D>,
         these: Range<usize>,
     ) -> Self {
         let (mut span, x) = (Self::NONE, &particles.x[these.clone()]);
         if B::DOMAIN == Domain::Point {
-            // Several chains, because in a single chain each minimum waits for the previous one.
+            // In a single minimum, each comparison would wait for the previous one. Several run in
+            // parallel.
             let (many, rest) = x.as_chunks::<TOGETHER>();
             let mut spans = [span; TOGETHER];
             for several in many {
@@ -96,23 +99,24 @@ impl Span {
         span
     }
 
-    /// Layers of the packed field that may contain nodes of the extent.
+    /// Returns the layers of the packed field that may contain nodes of particles in this extent.
     fn layers<B: Basis, const D: usize>(self, grid: &Grid<D>) -> Range<usize> {
         let axis = D - 1;
         let (cells, all) = (grid.cells[axis] as f64, layers(grid).end);
         let local = |x: f64| (x - grid.origin[axis]) * grid.inverse_h();
         let (low, high) = (local(self.low), local(self.high));
-        // Domains have complete groups of nodes, and their ends are known up to rounding.
+        // A domain uses all nodes of the cells that it overlaps, and its ends are known only up to
+        // rounding.
         let (below, above) = match B::DOMAIN {
             Domain::Point => (0.0, f64::from(B::DEGREE)),
             Domain::Fixed | Domain::Follows => (1.0, MARGIN as f64 + 1.0),
         };
         let wraps = low - below < 0.0 || high + (above - f64::from(B::DEGREE)) >= cells;
-        // The nodes of the other end follow beyond a periodic end.
+        // A block at a periodic end also has nodes at the other end, so it gets all layers.
         if !(low <= high) || grid.periodic[axis] && wraps {
             return 0..all;
         }
-        // First node of a cell; some bases have several nodes per cell.
+        // Index of the first node of a cell. Some bases have several nodes per cell.
         let per_cell = (B::count(2, true) - B::count(1, true)) as f64;
         let node = |x: f64| libm::floor(x.clamp(0.0, cells - 1.0)) * per_cell;
         let (first, last) = (node(low) - below, node(high) + above);
@@ -125,7 +129,7 @@ impl Blocks {
         Self { settings, spans: Vec::new(), colours: Default::default() }
     }
 
-    /// Number of particles in a chunk, a multiple of the batch size.
+    /// Returns the number of particles in a chunk, a multiple of the batch size.
     fn chunk(&self) -> usize {
         (self.settings.min_block / CHUNKS).next_multiple_of(BATCH)
     }
@@ -153,8 +157,8 @@ impl Blocks {
         }
     }
 
-    /// Cuts the particles into `count` blocks. Returns whether the blocks are in spatial order and
-    /// blocks of one colour have no common node.
+    /// Divides the particles into `count` blocks. Returns whether the blocks are in spatial order
+    /// and blocks of one colour have no common node.
     fn cut_into<B: Basis, const D: usize>(
         &mut self,
         count: usize,
@@ -188,7 +192,8 @@ mod tests {
     use crate::mpm::foundation::particles::Block;
     use rstest::rstest;
 
-    /// A body in a grid that is long along its last axis, with slightly displaced particles.
+    /// Creates a body in a grid that is long along its last axis, with slightly displaced
+    /// particles.
     fn scene<B: Basis, const D: usize>(periodic: bool) -> (Grid<D>, Particles<D>) {
         let h = 0.25;
         let cells = std::array::from_fn(|axis| match (axis + 1 == D, D) {
@@ -242,7 +247,7 @@ mod tests {
         for &name in BasisName::ALL {
             with_basis!(name, B => is_cut_in_every_dimension::<B>(periodic));
         }
-        // This basis has two functions per cell.
+        // The Bernstein basis has two functions per cell.
         is_cut_in_every_dimension::<QuadraticBernstein>(periodic);
     }
 }

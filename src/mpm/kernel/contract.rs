@@ -95,7 +95,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
     );
 
     /// Calls `entry` with the node, the weight N_i and the gradient (1/m) of every function at
-    /// particle `p`. If a node appears several times, its function is the sum.
+    /// particle `p`. If a node occurs several times, its function is the sum of these entries.
     fn functions(
         &self,
         grid: &Grid<D>,
@@ -104,9 +104,8 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         entry: &mut dyn FnMut(usize, f64, &Vector<D>),
     );
 
-    /// Adds the forces of a moment, `moment grad N_i(x_p)`, to the nodes of particle `p`. The sum
-    /// of these forces is zero: `moment = f (x) d` (N m) moves the force f from the particle by d
-    /// (m).
+    /// Adds the nodal forces of a moment, `moment grad N_i(x_p)`, on particle `p`. The sum of these
+    /// forces is zero: `moment = f (x) d` (N m) moves the force f from the particle by d (m).
     fn p2g_point_moment(
         &self,
         particles: &Particles<D>,
@@ -124,16 +123,16 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         gradient: &mut [Vector<D>],
     );
 
-    /// Number of particles visited by each part of the passes.
+    /// Returns the number of particles visited by each part of the passes.
     fn tally(&self) -> &Tally;
 
-    /// Maximum number of nodes of a particle.
+    /// Returns the maximum number of nodes of a particle.
     fn support(&self) -> u64;
 
-    /// Kind of particle domain that the basis needs.
+    /// Returns the kind of particle domain that the basis needs.
     fn domain(&self) -> Domain;
 
-    /// An empty grid with the functions of this basis.
+    /// Creates an empty grid with the functions of this basis.
     fn grid(&self, origin: Vector<D>, h: f64, cells: [usize; D], periodic: [bool; D]) -> Grid<D>;
 }
 
@@ -192,25 +191,26 @@ pub trait Scalars<const D: usize> {
 }
 
 /// Gradient of the velocity field around each particle. `mean_p` is the weighted mean of the node
-/// positions, which is the position of the particle unless a wall truncates its domain. The affine
-/// part is taken about `mean_p`, and therefore has no momentum.
+/// positions. It is the position of the particle unless a wall truncates the particle domain. The
+/// affine part is taken about `mean_p`, and therefore has no momentum.
 #[derive(Debug, Clone, Copy)]
 pub enum Affine<'a, const D: usize> {
-    /// `C_p` (1/s).
+    /// Gradients `C_p` (1/s).
     Slope(&'a [Matrix<D>]),
-    /// `C_p = B_p D_p^-1` with the first moment B_p (m^2/s). D_p belongs to the weights at the
+    /// First moments `B_p` (m^2/s), with `C_p = B_p D_p^-1`. D_p belongs to the weights at the
     /// particle position.
     Moment(&'a [Matrix<D>]),
 }
 
 impl<'a, const D: usize> Affine<'a, D> {
-    /// C_p or B_p of each particle.
+    /// Returns C_p or B_p of each particle.
     pub fn state(self) -> &'a [Matrix<D>] {
         let (Self::Slope(state) | Self::Moment(state)) = self;
         state
     }
 
-    /// Natural scale of the state for velocities of scale `speed` (m/s) and cells of size `h` (m).
+    /// Returns the typical magnitude of the state for velocities of magnitude `speed` (m/s) and
+    /// cells of size `h` (m).
     pub fn size(self, speed: f64, h: f64) -> f64 {
         match self {
             Self::Slope(_) => speed / h,
@@ -222,26 +222,26 @@ impl<'a, const D: usize> Affine<'a, D> {
 /// Velocity field around each particle, `v_p + C_p (x - mean_p)`.
 #[derive(Debug, Clone, Copy)]
 pub struct ParticleField<'a, const D: usize> {
-    /// v_p (m/s).
+    /// Velocities v_p (m/s).
     pub v: &'a [Vector<D>],
-    /// C_p; `None` for a constant field.
+    /// Velocity gradients C_p; `None` for a constant field.
     pub affine: Option<Affine<'a, D>>,
 }
 
 /// Discrete divergence of the stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Divergence {
-    /// `f_int_i = - sum_p V_p sigma_p grad N_i(x_p)` (N).
+    /// With basis gradients: `f_int_i = - sum_p V_p sigma_p grad N_i(x_p)` (N).
     Gradient,
-    /// `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - mean_p) N_i(x_p)` (N), with the gradient of a
-    /// least-squares fit instead of the basis gradient (Hu et al. 2018, eq. 18).
+    /// With gradients of a least-squares fit:
+    /// `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - mean_p) N_i(x_p)` (N) (Hu et al. 2018, eq. 18).
     Fit,
 }
 
-/// Parts of one P2G pass.
+/// Quantities that one P2G pass computes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct P2gRequest<'a, const D: usize> {
-    /// `m_i = sum_p m_p N_i(x_p)` (kg) into `grid.mass`.
+    /// Whether to compute the mass `m_i = sum_p m_p N_i(x_p)` (kg) into `grid.mass`.
     pub mass: bool,
     /// Momentum `sum_p m_p (v_p + C_p (x_i - mean_p)) N_i(x_p)` (kg m/s) into `grid.velocity`.
     pub momentum: Option<ParticleField<'a, D>>,
@@ -250,8 +250,8 @@ pub struct P2gRequest<'a, const D: usize> {
 }
 
 impl<const D: usize> P2gRequest<'_, D> {
-    /// Names of the parts for reports. The moments of the weights count as a part, once for each
-    /// position of the particles.
+    /// Returns the names of the parts for reports. The moments of the weights count as a part, once
+    /// for each position of the particles.
     pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
         let affine = self.momentum.and_then(|field| field.affine);
         let has_moments = self.mass && matches!(affine, Some(Affine::Moment(_)));
@@ -269,29 +269,31 @@ fn named_parts(parts: [(&'static str, bool); 5]) -> impl Iterator<Item = &'stati
     parts.into_iter().filter_map(|(name, is_requested)| is_requested.then_some(name))
 }
 
-/// Parts of one G2P pass. They use nodal velocities unless stated otherwise.
+/// Quantities that one G2P pass computes. Nodal velocities are interpolated unless stated
+/// otherwise.
 #[derive(Debug, Default)]
 pub struct G2pRequest<'a, const D: usize> {
-    /// `value_p += dt sum_i a_i N_i(x_p)` with `dt` (s), from nodal accelerations.
+    /// Time `dt` (s) in `value_p += dt sum_i a_i N_i(x_p)`, from nodal accelerations.
     pub change: Option<f64>,
-    /// After `change`: `value_p <- keep value_p + factor sum_i v_i N_i(x_p)` with `keep` and
-    /// `factor`.
+    /// Factors `keep` and `factor` in `value_p <- keep value_p + factor sum_i v_i N_i(x_p)`, after
+    /// `change`.
     pub mix: Option<(f64, f64)>,
-    /// Target of `change` and `mix` (m/s).
+    /// Column that `change` and `mix` update (m/s).
     pub value: Option<&'a mut [Vector<D>]>,
-    /// `moment_p = sum_i v_i (x) (x_i - mean_p) N_i(x_p)` (m^2/s).
+    /// Column for `moment_p = sum_i v_i (x) (x_i - mean_p) N_i(x_p)` (m^2/s).
     pub moment: Option<&'a mut [Matrix<D>]>,
-    /// `moment_p D_p^-1` (1/s): the gradient of a least-squares fit (Hu et al. 2018, eq. 17),
-    /// computed in the same visit to the nodes as the moment.
+    /// Column for `moment_p D_p^-1` (1/s): the gradient of a least-squares fit (Hu et al. 2018, eq.
+    /// 17), computed in the same visit to the nodes as the moment.
     pub fit: Option<&'a mut [Matrix<D>]>,
-    /// `gradient_p = sum_i v_i (x) grad N_i(x_p)` (1/s).
+    /// Column for `gradient_p = sum_i v_i (x) grad N_i(x_p)` (1/s).
     pub gradient: Option<&'a mut [Matrix<D>]>,
-    /// Position after `dt` (s), `advected_p = x_p + dt sum_i v_i N_i(x_p)` (m).
+    /// Time `dt` (s), and the column for the positions after it,
+    /// `advected_p = x_p + dt sum_i v_i N_i(x_p)` (m).
     pub advected: Option<(f64, &'a mut [Vector<D>])>,
 }
 
 impl<const D: usize> G2pRequest<'_, D> {
-    /// Names of the parts for reports.
+    /// Returns the names of the parts for reports.
     pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
         named_parts([
             ("g2p velocity", self.change.is_some()),
@@ -308,8 +310,8 @@ impl<const D: usize> G2pRequest<'_, D> {
 pub struct LoopSettings {
     /// Instruction set of the loops. Results are bit-identical for every set.
     pub level: Level,
-    /// Minimum number of particles for blocks on several threads; smaller scenes fit the cache.
-    /// Sums over blocks have a different rounding order.
+    /// Minimum number of particles for blocks on several threads, because smaller scenes fit the
+    /// cache. Sums over blocks have a different rounding order.
     pub min_particles: usize,
     /// Minimum number of particles per block, such that a block shares only a small part of its
     /// nodes with its neighbours.
@@ -317,13 +319,14 @@ pub struct LoopSettings {
 }
 
 impl Default for LoopSettings {
-    /// The best level of this processor, and default block sizes.
+    /// Returns the best level of this processor, and default block sizes.
     fn default() -> Self {
         Self { level: Level::new(), min_particles: 1 << 17, min_block: 1 << 13 }
     }
 }
 
-/// Number of particles visited by each part of the passes, counted from the first call of `take`.
+/// Number of particles visited by each part of the passes. Counting starts with the first call of
+/// `take`.
 #[derive(Debug, Default)]
 pub struct Tally(OnceLock<[AtomicU64; NAMES.len()]>);
 
@@ -357,8 +360,8 @@ impl Tally {
         }
     }
 
-    /// Parts of passes since the last call, with the number of visited particles summed over
-    /// `tallies`.
+    /// Returns the parts of passes since the last call, each with the number of visited particles
+    /// summed over `tallies`.
     pub(in crate::mpm) fn take(tallies: &[&Self]) -> Vec<(&'static str, u64)> {
         let taken = |part: usize| {
             let counts = tallies.iter().map(|tally| tally.0.get_or_init(Default::default));

@@ -11,12 +11,11 @@ use crate::mpm::foundation::simd::{BATCH, F64x4, LANES, Simd, SimdPass, componen
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// G2P pass over two packed fields for velocities and accelerations, or over one field with both
-/// ([`are_beside`]).
+/// G2P pass. Velocities and accelerations are in two packed fields, or in one ([`are_beside`]).
 pub(in crate::mpm) struct Gather<'a, const D: usize, B> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,
-    /// Particles of the pass.
+    /// Range of the particles of the pass.
     pub(in crate::mpm) range: Range<usize>,
     pub(in crate::mpm) request: G2pRequest<'a, D>,
     pub(in crate::mpm) fields: [FieldView<'a>; 2],
@@ -51,7 +50,8 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
         }
     }
 
-    /// Clears the sums of some particles. Matrices are cleared only if a pass uses them.
+    /// Clears the sums of the particles for which `left_out` is true. Matrices are cleared only if
+    /// a pass uses them.
     #[inline(always)]
     fn reset(&mut self, simd: S, moments: bool, gradients: bool, left_out: impl Fn(usize) -> bool) {
         let zero = simd.splat(0.0);
@@ -78,13 +78,12 @@ fn put<B: Basis, F: F64x4>(sum: &mut F, term: F) {
 }
 
 impl<const D: usize, B: Basis> Gather<'_, D, B> {
-    /// Whether the request includes moments, directly or divided by D_p.
+    /// Whether the request needs moments, either directly or divided by D_p.
     fn takes_moments(&self) -> bool {
         self.request.moment.is_some() || self.request.fit.is_some()
     }
 
-    /// Adds the sums over the nodes of patches. `moments` states whether this includes the sums of
-    /// [`Self::takes_moments`].
+    /// Adds the sums over the nodes of patches. `moments` is the result of [`Self::takes_moments`].
     #[inline(always)]
     fn gather_patches<S: Simd>(
         &self,
@@ -186,7 +185,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
 }
 
 impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
-    // Sums of two axes at once, with their factors.
+    // The loop computes sums of two axes at once, together with their factors.
     const NEEDS_AVX512: bool = D == 3;
 
     #[inline(always)]
@@ -211,7 +210,7 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
                     self.gather_patches(simd, patches, lanes, of_all, offsets, &mut sums);
                 },
             );
-            // Lanes beyond the last particle are not written.
+            // Particles outside the grid get zero. Lanes after the last particle are not written.
             let unseen = !seen & ALL >> BATCH.saturating_sub(self.particles.len() - first);
             if unseen != 0 {
                 sums.reset(simd, offsets, slopes, |lane| unseen >> lane & 1 == 1);

@@ -44,19 +44,19 @@ use std::any::Any;
 use std::marker::PhantomData;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Kernel of the basis with this name.
+/// Creates the kernel of the basis with this name.
 pub fn kernel<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
     kernel_with(basis, LoopSettings::default())
 }
 
-/// Kernel of the basis with this name and the given loop settings.
+/// Creates the kernel of the basis with this name and the given loop settings.
 pub fn kernel_with<const D: usize>(basis: BasisName, settings: LoopSettings) -> Box<dyn Kernel<D>> {
     let kernel = kernel_in_dimension(D, basis, settings).downcast::<Box<dyn Kernel<D>>>();
     *kernel.unwrap_or_else(|_| unreachable!("no kernel in {D} dimensions"))
 }
 
-/// A `Box<dyn Kernel<D>>` as `Any`. The function is not generic, so that the loops are compiled
-/// only in this crate and not in each crate that uses a kernel.
+/// Creates a `Box<dyn Kernel<D>>` as `Any`. The function is not generic, so that the loops are
+/// compiled only in this crate and not in each crate that uses a kernel.
 fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSettings) -> Box<dyn Any> {
     fn boxed<const D: usize>(basis: BasisName, settings: LoopSettings) -> Box<dyn Kernel<D>> {
         with_basis!(basis, B => Box::new(Loops::<B>::new(settings)))
@@ -66,7 +66,7 @@ fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSetting
 
 /// Kernel of basis `B`.
 struct Loops<B> {
-    /// Memory reused by all passes; results do not depend on the old contents.
+    /// Memory reused by all passes. Results do not depend on the old contents.
     workspace: Mutex<Workspace>,
     tally: Tally,
     basis: PhantomData<B>,
@@ -79,7 +79,7 @@ impl<B> Loops<B> {
     }
 
     fn workspace(&self) -> MutexGuard<'_, Workspace> {
-        // A panic does not matter, because the next pass overwrites all contents.
+        // A panic in an earlier pass is harmless, because the next pass overwrites all contents.
         self.workspace.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

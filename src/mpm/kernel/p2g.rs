@@ -16,20 +16,20 @@ use std::ops::Range;
 pub(in crate::mpm) struct Scatter<'a, const D: usize, B, N> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,
-    /// Particles of the pass.
+    /// Range of the particles of the pass.
     pub(in crate::mpm) range: Range<usize>,
     pub(in crate::mpm) request: &'a P2gRequest<'a, D>,
     pub(in crate::mpm) field: FieldViewMut<'a, N>,
     pub(in crate::mpm) basis: PhantomData<B>,
 }
 
-/// Whether a request needs nodes of eight numbers. In more than one dimension, four numbers cannot
+/// Whether a request needs nodes of eight numbers: in more than one dimension, four numbers cannot
 /// hold momentum, mass and force.
 pub(in crate::mpm) fn wants_wide_nodes<const D: usize>(request: &P2gRequest<'_, D>) -> bool {
     request.force.is_some() && (request.mass || request.momentum.is_some())
 }
 
-/// Momentum of a particle, and its mass in the last lane.
+/// Returns the momentum of a particle, with its mass in the last lane.
 #[inline(always)]
 fn inertial<S: Simd, const D: usize>(simd: S, m: f64, v: &Vector<D>) -> S::F64x4 {
     let mut lanes = [0.0, 0.0, 0.0, 1.0];
@@ -39,20 +39,21 @@ fn inertial<S: Simd, const D: usize>(simd: S, m: f64, v: &Vector<D>) -> S::F64x4
     simd.load(lanes) * m
 }
 
-/// Columns of `-V sigma` (J) of particle `p`, or of the corresponding flux in the total-Lagrangian
-/// frame.
+/// Returns the columns of `-V sigma` (J) of particle `p`, or of the corresponding flux in the
+/// total-Lagrangian frame.
 #[inline(always)]
 fn flux<S: Simd, const D: usize>(simd: S, particles: &Particles<D>, p: usize) -> [S::F64x4; D] {
     if !particles.current_position.is_empty() {
         return columns(simd, &-particles.flux(p), force_lane(D));
     }
-    // Avoids a matrix in memory: its store would not be forwarded to the loads of its columns.
+    // The columns are scaled one by one. A product matrix in memory would be slow, because its
+    // store is not forwarded to the loads of its columns.
     let stress = columns(simd, &particles.sigma[p], force_lane(D));
     array(simd.splat(0.0), |axis| stress[axis] * -particles.vol[p])
 }
 
-/// Particles `first + lanes` with their patches, and, for a particle with several patches, the
-/// moments of all its patches.
+/// Particles `first + lanes` with their patches. For a particle with several patches, `of_all`
+/// contains the moments of all its patches.
 struct Visit<'a, const D: usize, B: Basis> {
     first: usize,
     lanes: Range<usize>,
@@ -64,8 +65,8 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     /// Whether a node has lanes for momentum and mass in addition to a force.
     const HOLDS_ALL: bool = N::IS_WIDE || D == 1;
 
-    /// Adds the terms of particles, with an affine part (`SLOPE`) and a part along the gradient
-    /// (`FLUX`).
+    /// Adds the terms of particles. With `SLOPE` these contain an affine part, and with `FLUX` a
+    /// part along the gradient.
     #[inline(always)]
     fn add<S: Simd, const SLOPE: bool, const FLUX: bool>(
         &mut self,
@@ -74,8 +75,8 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     ) {
         let Self { grid, particles, request, .. } = self;
         let (zero, h) = (simd.splat(0.0), grid.h);
-        // Unrequested lanes are not unpacked, so their contents do not matter. Positions, which
-        // every body has, replace velocities, which a body at rest does not have.
+        // Lanes without a request are not unpacked, so their contents do not matter. A body at rest
+        // has no velocities; positions, which every body has, are used in their place.
         let (v, affine) =
             request.momentum.map_or((&*particles.x, None), |field| (field.v, field.affine));
         let is_fit = request.force == Some(Divergence::Fit);

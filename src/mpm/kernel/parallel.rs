@@ -24,7 +24,7 @@ impl<const D: usize, N: PackedNode> Target<'_, D, N> {
         Target { field: self.field.reborrow(), columns: self.columns.reborrow() }
     }
 
-    /// Splits into the nodes before `layer` and the nodes from `layer`.
+    /// Splits the target into the nodes before `layer` and the nodes from `layer`.
     fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
         let field = self.field.split_at::<D>(layer);
         let columns = self.columns.split_at(grid, layer);
@@ -32,7 +32,7 @@ impl<const D: usize, N: PackedNode> Target<'_, D, N> {
     }
 }
 
-/// Function that adds a block of particles to a field that contains its nodes.
+/// Function that adds a block of particles to a field that contains all nodes of the block.
 type Add<'a, N> = dyn Fn(&ParticleBlock, FieldViewMut<'_, N>) + Sync + 'a;
 
 /// Clears `target`, calls `add` for all blocks, each with a field that contains its nodes, and
@@ -53,7 +53,7 @@ struct Schedule<'a, const D: usize, N> {
 }
 
 impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
-    /// Runs even blocks, the odd blocks between them, and optionally one odd block after the last
+    /// Adds even blocks, the odd blocks between them, and optionally one odd block after the last
     /// even block. No other block adds to the layers in `own`.
     fn tree(
         &self,
@@ -82,12 +82,12 @@ impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
             self.add(between, done, target.reborrow());
             return self.add(last, end..own.end, target);
         }
-        // Two odd blocks run in parallel.
+        // The two odd blocks run in parallel.
         let (low, high) = target.split_at(self.grid, end);
         join(|| self.add(between, done, low), || self.add(last, end..own.end, high));
     }
 
-    /// Adds a block, if any, and unpacks the layers `done`, to which no later block adds.
+    /// Adds a block, if any. Then unpacks the layers `done`, to which no later block adds.
     fn add(&self, block: &[ParticleBlock], done: Range<usize>, mut target: Target<'_, D, N>) {
         if let [block] = block {
             (self.add)(block, target.field.reborrow());
@@ -97,7 +97,7 @@ impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
 }
 
 impl<const D: usize> G2pRequest<'_, D> {
-    /// Splits into requests for the first `count` particles and for the remaining ones.
+    /// Splits the request into one for the first `count` particles and one for the remaining ones.
     fn split_at(self, count: usize) -> (Self, Self) {
         let Self { change, mix, .. } = self;
         let value = split(self.value, count);
@@ -122,7 +122,8 @@ impl<const D: usize> G2pRequest<'_, D> {
     }
 }
 
-/// Runs `work` for parts of `range`, each with the request for its particles.
+/// Splits `range` into parts and runs `work` for each, with the request for the particles of the
+/// part.
 pub(in crate::mpm) fn par_split<const D: usize>(
     range: Range<usize>,
     request: G2pRequest<'_, D>,

@@ -15,7 +15,7 @@ use crate::mpm::foundation::particles::Particles;
 use fearless_simd::Level;
 use std::marker::PhantomData;
 
-/// Memory of a pass in addition to the particles and the grid.
+/// Memory of a pass, in addition to the particles and the grid.
 #[derive(Debug)]
 pub(in crate::mpm) struct Workspace {
     level: Level,
@@ -57,7 +57,7 @@ impl<const D: usize> P2g<'_, D> {
             let pass = Scatter::<D, B, N> { grid, particles, range, request, field, basis };
             B::run(level, pass);
         };
-        // Sums beyond a periodic end must be added to their nodes before unpacking.
+        // At a periodic end, margins must be added to the nodes that they repeat before unpacking.
         let (at_once, after) = if grid.periodic.contains(&true) {
             (None, Some(columns))
         } else {
@@ -82,7 +82,7 @@ impl Workspace {
         }
     }
 
-    /// P2G of all parts of `request` into `columns`.
+    /// Runs P2G of all parts of `request` into `columns`.
     pub(in crate::mpm) fn scatter<B: Basis, const D: usize>(
         &mut self,
         particles: &Particles<D>,
@@ -100,7 +100,7 @@ impl Workspace {
         }
     }
 
-    /// G2P of all parts of `request`, with `field` as the nodal velocities.
+    /// Runs G2P of all parts of `request`, with `field` as the nodal velocities.
     pub(in crate::mpm) fn gather<B: Basis, const D: usize>(
         &mut self,
         grid: &Grid<D>,

@@ -9,10 +9,10 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::{Block, Particles};
 use crate::subject::{Checkpoint, Column, Failure};
 
-/// A three-dimensional law for a body in its meridian plane.
+/// A three-dimensional law, applied to a body of revolution in its meridian plane.
 pub(super) struct Axisymmetric {
     law: Box<dyn Material<3>>,
-    /// The three-dimensional columns that the law reads and writes.
+    /// Particle columns in three dimensions, which the law reads and writes.
     space: Particles<3>,
 }
 
@@ -40,7 +40,7 @@ impl Axisymmetric {
     }
 }
 
-/// No particles.
+/// Creates an empty set of particles.
 fn none() -> Particles<3> {
     let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
     Particles::fill_where(&Block { from, to, density: 1.0 }, 1.0, 1, |_| false)
@@ -102,14 +102,14 @@ impl<const D: usize> Material<D> for Axisymmetric {
         self.law.checkpoint(checkpoint);
     }
 
-    /// Energy per radian.
+    /// Returns the energy per radian.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let mut space = none();
         enter(particles, &mut space);
         self.law.energy(&space)
     }
 
-    /// The hoop stretch is computed from the positions, and its rate from the velocities.
+    /// Starts from the hoop stretch computed from the positions, and its rate from the velocities.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         for p in 0..particles.len() {
             let r = particles.position(p)[0];
@@ -132,8 +132,8 @@ mod tests {
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-    /// Compares stress, volume and energy with every law in space, including the hoop, for several
-    /// steps.
+    /// Compares stress, volume and energy with those of every law in 3-D, including the hoop, over
+    /// several steps.
     #[test]
     fn a_body_of_revolution_has_its_law_in_space() {
         for plan in every() {

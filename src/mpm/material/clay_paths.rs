@@ -1,4 +1,4 @@
-//! Modified Cam-clay along paths of deformation with fixed axes, against closed forms.
+//! Compares modified Cam-clay with closed forms along paths of deformation with fixed axes.
 
 use super::CamClay;
 use super::specimen::{SLOW, Specimen};
@@ -6,18 +6,19 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use rstest::rstest;
 
-/// Clay with M = 1.2, kappa = 0.02, lambda = 0.1 and nu = 0.25, under 100 Pa.
+/// Creates clay with M = 1.2, kappa = 0.02, lambda = 0.1 and nu = 0.25 under a mean stress of 100
+/// Pa.
 fn clay(preconsolidation: f64) -> CamClay {
     CamClay::new(1.2, 0.02, 0.1, 0.25, 100.0, preconsolidation)
 }
 
-/// A specimen whose first axis is under the axial stress, at this state.
+/// Creates a specimen in the initial state of the law. The first axis is the axial one.
 fn specimen(law: CamClay) -> Specimen<3> {
     Specimen::with(Box::new(law))
 }
 
-/// p and q after `steps` equal steps that add these axial and lateral logarithmic strains,
-/// positive in compression; J is the volume ratio then.
+/// Applies `steps` equal steps that add these axial and lateral logarithmic strains (positive in
+/// compression). Returns p and q of the Kirchhoff stress.
 fn squeeze(specimen: &mut Specimen<3>, [axial, lateral]: [f64; 2], steps: u32) -> [f64; 2] {
     let stretch = |strain: f64| libm::exp(-strain / f64::from(steps));
     let [along, across] = [axial, lateral].map(stretch);
@@ -31,13 +32,14 @@ fn squeeze(specimen: &mut Specimen<3>, [axial, lateral]: [f64; 2], steps: u32) -
     [-tau.trace() / 3.0, tau[(1, 1)] - tau[(0, 0)]]
 }
 
-/// Shear at constant volume with this deviatoric strain.
+/// Returns the axial and lateral strains of a shear at constant volume. `strain` is its deviatoric
+/// strain.
 fn undrained(strain: f64) -> [f64; 2] {
     [strain, -0.5 * strain]
 }
 
-/// The limits of p and q in infinitely many steps, by Richardson's extrapolation in powers of
-/// the step, and the observed order of p.
+/// Extrapolates p and q to infinitely many steps by Richardson's method in powers of the step. Also
+/// returns the observed order of p.
 fn limit(run: impl Fn(u32) -> [f64; 2]) -> ([f64; 2], f64) {
     let mut rows: Vec<Vector<2>> = (6..=13).map(|k| Vector::from(run(1 << k))).collect();
     let (coarse, fine) = (rows[6] - rows[5], rows[7] - rows[6]);
@@ -48,8 +50,8 @@ fn limit(run: impl Fn(u32) -> [f64; 2]) -> ([f64; 2], f64) {
     (rows[0].into(), libm::log2(coarse[0] / fine[0]))
 }
 
-/// Values of closed forms by an independent program: p, q and the deviatoric strain. The
-/// return is of the first order in the number of steps.
+/// Compares with closed forms for p and q at this deviatoric strain, evaluated by an independent
+/// program. The return is of first order in the number of steps.
 #[rstest]
 #[case::low([95.265_762_753, 28.579_728_826], 0.003_504_455_447)]
 #[case::middle([83.651_164_207, 50.190_698_524], 0.008_175_376_601)]
@@ -64,7 +66,8 @@ fn undrained_shear_has_its_closed_form(#[case] expected: [f64; 2], #[case] strai
     assert!((0.97..1.03).contains(&order), "order {order}");
 }
 
-/// Elastic at constant p up to `q_y = M sqrt(p0 (pc - p0))`, then given by a closed form.
+/// The clay is elastic at constant p up to `q_y = M sqrt(p0 (pc - p0))`. Then a closed form
+/// applies.
 #[test]
 fn undrained_shear_of_overconsolidated_clay_has_its_closed_form() {
     let at_yield = 84.852_813_742 * 0.02 / (3.0 * 0.6 * 100.0);
@@ -81,7 +84,7 @@ fn undrained_shear_of_overconsolidated_clay_has_its_closed_form() {
     assert!((0.97..1.03).contains(&order), "order {order}");
 }
 
-/// `p = p0/2^(1 - kappa/lambda)` and `q = M p`, for any number of steps.
+/// The final state is `p = p0/2^(1 - kappa/lambda)` and `q = M p`, for any number of steps.
 #[rstest]
 fn undrained_shear_ends_at_a_critical_state(#[values(4, 300)] steps: u32) {
     let mut clay = specimen(clay(100.0));
@@ -90,8 +93,8 @@ fn undrained_shear_ends_at_a_critical_state(#[values(4, 300)] steps: u32) {
     assert_relative_eq!(q, 68.921_901_299_8, max_relative = 1e-10);
 }
 
-/// Isotropic compression: swelling below `pc`, the line of compression above, and swelling
-/// again; exact in any number of steps.
+/// Isotropic compression follows the swelling line below `pc` and the compression line above it.
+/// Expansion follows a swelling line again. The result is exact in any number of steps.
 #[rstest]
 fn isotropic_compression_follows_its_two_lines(#[values(1, 7)] steps: u32) {
     let mut clay = specimen(clay(150.0));
@@ -123,7 +126,7 @@ fn compression_stays_on_the_k0_line(
     assert_relative_eq!(ratio, 0.642_867_258_385, max_relative = 1e-11);
 }
 
-/// `eta (1 - L)/(3 r) + 2 eta L/(M^2 - eta^2) = 2/3` with `L = 1 - kappa/lambda`.
+/// Solves `eta (1 - L)/(3 r) + 2 eta L/(M^2 - eta^2) = 2/3` with `L = 1 - kappa/lambda` for eta.
 fn k0_ratio() -> f64 {
     let (mut low, mut high) = (0.0, 1.2);
     for _ in 0..60 {
@@ -135,15 +138,15 @@ fn k0_ratio() -> f64 {
     low
 }
 
-/// A particle under a mean stress of 100 Pa with this stress ratio, on the yield surface.
+/// Creates clay under a mean stress of 100 Pa with this stress ratio, on the yield surface.
 fn on_the_k0_line(eta: f64) -> CamClay {
     let tau = Vector::<3>::new(-1.0 - 2.0 / 3.0 * eta, -1.0 + eta / 3.0, -1.0 + eta / 3.0);
     let consolidation = 100.0 * (1.0 + eta * eta / 1.44);
     clay(100.0).starting_at(Matrix::from_diagonal(&(tau * 100.0)), consolidation)
 }
 
-/// Uniaxial compression inside the yield surface has `q = 2 r (p - p0)`, and is reversible. A cycle
-/// of volume and shear is not: `q = 3 r (p - p0)/kappa eps_q` remains.
+/// Uniaxial compression inside the yield surface has `q = 2 r (p - p0)` and is reversible. A cycle
+/// of volume and shear is not reversible: `q = 3 r (p - p0)/kappa eps_q` remains.
 #[test]
 fn elastic_strain_has_its_closed_forms() {
     let mut soil = specimen(clay(1000.0));

@@ -1,4 +1,4 @@
-//! Interface between materials and the solver, and between materials and the compiler of suites.
+//! Interface between materials and the solver, and between materials and the suite compiler.
 
 use super::stress_update::StressUpdate;
 use super::tangent::StressResponse;
@@ -6,7 +6,7 @@ use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
 
-/// [`MaterialProperties::takes_averaged_volume`] of every law in rate form.
+/// Implements [`MaterialProperties::takes_averaged_volume`] for every law in rate form.
 ///
 /// # Errors
 /// Always, because such a law reads the velocity gradient.
@@ -16,24 +16,24 @@ pub(super) fn rate_form_averages_no_volume() -> Result<(), &'static str> {
 
 /// Properties of a law that determine which problems can be stated with it.
 pub trait MaterialProperties {
-    /// Stiffness at rest against strain along one axis (Pa): `rho0 c^2` of the fastest wave, in a
-    /// body with the reference density `density` (kg/m3).
+    /// Returns the stiffness at rest against strain along one axis (Pa): `rho0 c^2` of the fastest
+    /// wave, in a body with the reference density `density` (kg/m3).
     fn wave_modulus(&self, density: f64) -> f64;
 
-    /// Speed (m/s) of the fastest wave at rest, in a body with the reference density `density`
-    /// (kg/m3).
+    /// Returns the speed (m/s) of the fastest wave at rest, in a body with the reference density
+    /// `density` (kg/m3).
     fn wave_speed(&self, density: f64) -> f64 {
         (self.wave_modulus(density) / density).sqrt()
     }
 
-    /// Whether stress is a function of F alone. Only then may a body start in the state of a stated
-    /// motion, and a body force may be manufactured.
+    /// Checks that stress is a function of F alone. Only then may a body start in the state of a
+    /// stated motion, and a body force may be manufactured.
     ///
     /// # Errors
     /// The reason why stress depends on other quantities.
     fn depends_on_deformation_alone(&self) -> Result<(), &'static str>;
 
-    /// Whether the initial deformation determines the initial stress, so that a body may start
+    /// Checks that the initial deformation determines the initial stress, so that a body may start
     /// deformed.
     ///
     /// # Errors
@@ -42,8 +42,8 @@ pub trait MaterialProperties {
         self.depends_on_deformation_alone()
     }
 
-    /// Whether a body may have an initial stress in its reference configuration, in addition to the
-    /// stress of the law.
+    /// Checks that a body may have an initial stress in its reference configuration, in addition to
+    /// the stress of the law.
     ///
     /// # Errors
     /// The reason why a body may not have an initial stress.
@@ -51,8 +51,8 @@ pub trait MaterialProperties {
         self.depends_on_deformation_alone()
     }
 
-    /// Whether the stress may be computed at the averaged volume ratio of F-bar. This requires that
-    /// the law reads F, or stores only J.
+    /// Checks that the stress may be computed at the averaged volume ratio of F-bar. This requires
+    /// that the law reads F, or stores only J.
     ///
     /// # Errors
     /// The reason why the averaged volume ratio is not supported.
@@ -60,8 +60,8 @@ pub trait MaterialProperties {
         self.depends_on_deformation_alone()
     }
 
-    /// Whether the law has a consistent tangent ([`Material::response`]), which implicit solvers
-    /// need.
+    /// Checks that the law has a consistent tangent ([`Material::response`]), which implicit
+    /// solvers need.
     ///
     /// # Errors
     /// The reason why the law has no tangent.
@@ -74,7 +74,7 @@ pub trait MaterialProperties {
         false
     }
 
-    /// First parameter that contradicts another one, if any.
+    /// Returns the first parameter that contradicts another one, if any.
     fn contradiction(&self) -> Option<Contradiction> {
         None
     }
@@ -84,7 +84,7 @@ pub trait MaterialProperties {
         false
     }
 
-    /// Whether the stored energy is a function of the state in `dimension` dimensions.
+    /// Checks that the stored energy is a function of the state in `dimension` dimensions.
     ///
     /// # Errors
     /// The reason, as the part of a sentence that follows the name of the law.
@@ -105,32 +105,33 @@ pub struct Contradiction {
     pub explanation: &'static str,
 }
 
-/// Closed forms of a law, with which tests of the family compare its stress. For laws with flow or
-/// heat during a step, the values apply to one infinitely long step from a state of rest.
+/// Closed forms of a law, with which tests of all materials compare its stress. For laws with flow
+/// or heat during a step, the values apply to one infinitely long step from a state of rest.
 #[cfg(test)]
 pub(super) trait ClosedForms {
-    /// Cauchy stress (Pa) under simple shear in the plane: components 11, 12 and 22.
+    /// Returns the Cauchy stress (Pa) under simple shear in the plane: components 11, 12 and 22.
     fn simple_shear(&self, gamma: f64) -> [f64; 3];
 
-    /// Cauchy stress (Pa) along and across a uniaxial stretch, with the other axes fixed. `None` if
-    /// the law depends on the history; a test in the file of the law then covers this case.
+    /// Returns the Cauchy stress (Pa) along and across a uniaxial stretch, with the other axes
+    /// fixed. `None` if the law depends on the history; a test in the file of the law then covers
+    /// this case.
     fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]>;
 
-    /// Energy density (J/m3), up to a constant, whose derivative is the stress without flow. `None`
-    /// for a law in rate form.
+    /// Returns the energy density (J/m3), up to a constant. Its derivative is the stress without
+    /// flow. `None` for a law in rate form.
     fn energy_density(&self, f: &Matrix<3>) -> Option<f64>;
 
-    /// Stress (Pa) caused by rounding of J in a step of zero length.
+    /// Returns the stress (Pa) caused by rounding of J in a step of zero length.
     fn rounding(&self) -> f64 {
         0.0
     }
 
-    /// Mean stress (Pa) of a specimen at rest, positive in compression.
+    /// Returns the mean stress (Pa) of a specimen at rest, positive in compression.
     fn pressure_at_rest(&self) -> f64 {
         0.0
     }
 
-    /// Stored energy (J/m3) of a specimen at rest.
+    /// Returns the stored energy (J/m3) of a specimen at rest.
     fn energy_at_rest(&self) -> f64 {
         0.0
     }
@@ -138,10 +139,10 @@ pub(super) trait ClosedForms {
 
 /// A constitutive law with its private state. The solver makes one virtual call per step.
 pub trait Material<const D: usize>: Send {
-    /// Whether the law reads F. The column of F exists only if the law or the basis reads it.
+    /// Whether the law reads F. The column of F exists only if the law or the basis reads F.
     fn reads_deformation(&self) -> bool;
 
-    /// Whether the law stores the out-of-plane stretch, whose column exists only in this case.
+    /// Whether the law stores the out-of-plane stretch. The column exists only in this case.
     fn keeps_stretch_across(&self) -> bool {
         false
     }
@@ -152,26 +153,27 @@ pub trait Material<const D: usize>: Send {
         false
     }
 
-    /// Whether an undeformed body at rest has a stress, which `start_deformed` then sets.
+    /// Whether an undeformed body at rest has a stress; [`start_deformed`](Self::start_deformed)
+    /// sets it.
     fn is_stressed_at_rest(&self) -> bool {
         false
     }
 
-    /// State that the law stores for each particle.
+    /// Returns the state that the law stores for each particle.
     fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
     }
 
-    /// Visits the state of the law.
+    /// Visits the state of the law, to store or restore it.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
-    /// This law in plane stress, sigma_33 = 0; `None` if plane stress is not implemented.
+    /// Returns this law in plane stress, sigma_33 = 0; `None` if plane stress is not implemented.
     fn in_plane_stress(&self) -> Option<Box<dyn Material<D>>> {
         None
     }
 
-    /// Stored energy of all particles (J); `None` if the work of the stress is not a function of
-    /// the state. Dissipated energy is not included.
+    /// Returns the stored energy of all particles (J); `None` if the work of the stress is not a
+    /// function of the state. Dissipated energy is not included.
     fn energy(&self, _: &Particles<D>) -> Option<f64> {
         None
     }
@@ -190,9 +192,9 @@ pub trait Material<const D: usize>: Send {
         Ok(())
     }
 
-    /// Kirchhoff stress and consistent tangent of particle `p` at the deformation gradient `f`.
-    /// Both belong to a step that starts from the stored state of the law, which does not change.
-    /// `None` if the law has no tangent.
+    /// Returns the Kirchhoff stress and consistent tangent of particle `p` at the deformation
+    /// gradient `f`. Both belong to a step that starts from the stored state of the law, which does
+    /// not change. `None` if the law has no tangent.
     fn response(&self, _p: usize, _f: &Matrix<D>) -> Option<StressResponse<D>> {
         None
     }

@@ -29,14 +29,14 @@ impl Corotated {
         Self { lambda, mu }
     }
 
-    /// Principal stresses (Pa) from the squared stretches: `(F - R) F^T = V^2 - V`.
+    /// Returns the principal stresses (Pa) from the squared stretches: `(F - R) F^T = V^2 - V`.
     #[inline(always)]
     fn principal<const D: usize>(&self, squares: &Vector<D>, j: f64) -> Vector<D> {
         let pressure = self.lambda * (j - 1.0);
         squares.map(|square| pressure + 2.0 * self.mu * (square - square.sqrt()) / j)
     }
 
-    /// Energy density W (J/m^D).
+    /// Returns the energy density W (J/m^D).
     fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
         let excess = spectral(&(f * f.transpose())).0.map(|square| square.sqrt() - 1.0);
         let dilation = det(f) - 1.0;

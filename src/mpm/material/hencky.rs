@@ -33,21 +33,22 @@ impl Hencky {
         assembled(&self.principal(&half_log(&squares), j), &axes)
     }
 
-    /// Principal stresses (Pa) from the logarithmic strains.
+    /// Returns the principal stresses (Pa) from the logarithmic strains.
     #[inline(always)]
     fn principal<const D: usize>(&self, strain: &Vector<D>, j: f64) -> Vector<D> {
         let pressure = self.lambda * strain.sum();
         strain.map(|eps| (pressure + 2.0 * self.mu * eps) / j)
     }
 
-    /// Energy density W (J/m^D).
+    /// Returns the energy density W (J/m^D).
     fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
         let strain = half_log(&spectral(&(f * f.transpose())).0);
         0.5 * self.lambda * strain.sum() * strain.sum() + self.mu * strain.norm_squared()
     }
 }
 
-/// A plate. Stress and energy are functions of the in-plane strains, with another lambda.
+/// Hencky elasticity in plane stress: stress and energy depend on the in-plane strains, with the
+/// first Lame parameter of a plate.
 struct HenckyPlate {
     plane: Hencky,
     thinning: f64,

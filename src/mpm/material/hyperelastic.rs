@@ -1,4 +1,4 @@
-//! Stress and energy over all particles, for laws that depend only on the deformation gradient.
+//! Stress and energy of all particles, for laws that depend only on the deformation gradient.
 
 use super::spectral::{MatrixBatch, assembled_batch, spectral_batch};
 use super::stress_update::{StressBlock, StressUpdate};
@@ -6,7 +6,7 @@ use crate::mpm::foundation::algebra::{Matrix, Vector, det, product};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
 
-/// Sum of the particle energies (J), from the energy per reference volume (J/m^D).
+/// Sums the particle energies (J), from the energy per reference volume (J/m^D).
 pub(super) fn stored_energy<const D: usize>(
     particles: &Particles<D>,
     density: impl Fn(&Matrix<D>) -> f64,
@@ -16,7 +16,7 @@ pub(super) fn stored_energy<const D: usize>(
 }
 
 /// Sets volumes, and computes Cauchy stresses from F for several particles at a time. `of_j`
-/// computes the inputs of `cauchy` from J.
+/// computes from J the numbers that `cauchy` needs in addition to F.
 pub(super) fn set_stress_by_batch<const D: usize, const N: usize>(
     body: &mut StressUpdate<'_, D>,
     of_j: impl Fn(&F64Batch) -> [F64Batch; N] + Sync,
@@ -38,9 +38,9 @@ pub(super) fn set_stress_by_batch<const D: usize, const N: usize>(
     );
 }
 
-/// Sets volumes and Cauchy stresses, whose axes are the axes of `F F^T`. For several particles at a
-/// time, `of_squares` computes the inputs of the law from the squared stretches. `principal`
-/// computes the stresses (Pa) from these inputs and J.
+/// Sets volumes and Cauchy stresses, for laws whose stress has the axes of `F F^T`. `of_squares`
+/// converts the squared stretches of several particles at a time. `principal` computes the
+/// principal stresses (Pa) from the converted values and J.
 pub(super) fn set_stress_along_axes<const D: usize>(
     body: &mut StressUpdate<'_, D>,
     of_squares: impl Fn(&F64Batch) -> F64Batch + Sync,

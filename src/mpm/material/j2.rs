@@ -46,8 +46,8 @@ impl YieldSurface for VonMises {
         Some((PrincipalStrain { deviator, ..*trial }, flow))
     }
 
-    /// The stress deviator has the length `sqrt(2/3) (Y + H (alpha + flow))`. The slope of this
-    /// length along the strain deviator is `2 mu H/(3 mu + H)`.
+    /// On the yield surface, the stress deviator has the length `sqrt(2/3) (Y + H (alpha + flow))`.
+    /// The slope of this length along the strain deviator is `2 mu H/(3 mu + H)`.
     fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>> {
         let (mu, hardening) = (self.elasticity.mu, self.hardening);
         let (_, flow) = self.return_from(trial, flowed)?;
@@ -58,7 +58,7 @@ impl YieldSurface for VonMises {
         Some(modulus_of_invariants(trial, &mean, (length, &slope)))
     }
 
-    /// The stress deviator ends on the yield surface.
+    /// After the return, the stress deviator lies on the yield surface.
     #[cfg(test)]
     fn isochoric(&self, e: f64) -> [f64; 2] {
         let mu = self.elasticity.mu;
@@ -77,9 +77,9 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Uniaxial strain is elastic to `Y/(2 mu)`. Beyond yield, `d tau_1 = K d eps` and
-    /// `tau_1 - tau_2 = Y` without hardening (benchmark V18, in Kirchhoff stress and logarithmic
-    /// strain). Unloading is elastic until yield in the opposite direction.
+    /// Uniaxial strain is elastic up to `Y/(2 mu)`. After yield without hardening,
+    /// `d tau_1 = K d eps` and `tau_1 - tau_2 = Y` (benchmark V18, in Kirchhoff stress and
+    /// logarithmic strain). Unloading is elastic until yield in the opposite direction.
     #[rstest]
     fn uniaxial_strain_has_its_closed_form(#[values(0.0, 40.0)] hardening: f64) {
         pull::<1>(hardening);

@@ -14,7 +14,7 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 #[path = "../../../tests/exercises/st_venant_kirchhoff.rs"]
 mod exercise;
 
-/// A rotation about an oblique axis (Rodrigues' formula); the identity in 1-D.
+/// Returns a rotation about an oblique axis (Rodrigues' formula); the identity in 1-D.
 fn rotation<const D: usize>(angle: f64) -> Matrix<D> {
     let w = 1.0 / 3.0_f64.sqrt();
     let spin = match D {
@@ -32,9 +32,9 @@ fn in_space<const D: usize>(m: &Matrix<D>, beyond: f64) -> Matrix<3> {
     space
 }
 
-/// Whether the law reads F, so that its stress is objective under any rotation in one step. A law
-/// of the velocity gradient is objective only in the rate: a rotation during a step causes an error
-/// of second order in the angle.
+/// Whether the law reads F. Its stress is then objective under any rotation in one step. A law that
+/// reads only the velocity gradient is objective only in the rate: a rotation during a step causes
+/// an error of second order in the angle.
 fn reads_deformation(plan: MaterialPlan) -> bool {
     plan.build::<1>().reads_deformation()
 }
@@ -77,8 +77,8 @@ fn stress_is_the_derivative_of_the_energy<const D: usize>(plan: MaterialPlan) {
 }
 
 /// The stored energy is the potential of the stress. At rest the energy equals its closed form
-/// (zero for a solid). The energy is accurate to second order in small strains, although the test
-/// takes a difference of larger numbers.
+/// (zero for a solid). The test subtracts large numbers, but the energy must be accurate to second
+/// order in small strains.
 fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
     let law = plan.closed_forms();
     for (size, tolerance) in [(0.25, 1e-13), (1e-2, 1e-11), (1e-6, 1e-6)] {
@@ -92,7 +92,8 @@ fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
         let expected = law.energy_density(&spaced).zip(rest).map(|(energy, rest)| energy - rest);
         let found = found.map(|found| found - start);
         let Some((found, expected)) = found.zip(expected) else { return };
-        // The expected difference cancels, so the rounding error has the size of the moduli.
+        // The expected value is a difference of large numbers, so its rounding error has the size
+        // of the moduli.
         assert_relative_eq!(found, expected, max_relative = tolerance, epsilon = 3e-13);
     }
 }
@@ -122,8 +123,8 @@ fn rotation_in_a_step_only_turns_the_stress<const D: usize>(plan: MaterialPlan) 
     }
 }
 
-/// Tests `sigma(Q L Q^T + W) = Q sigma(L) Q^T` for the velocity gradient L and any spin W: isotropy
-/// and frame indifference. A law that reads F must pass the stronger test above.
+/// Tests isotropy and frame indifference, `sigma(Q L Q^T + W) = Q sigma(L) Q^T`, for the velocity
+/// gradient L and any spin W. A law that reads F must pass the stronger test above.
 fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     if reads_deformation(plan) {
         return;
@@ -136,7 +137,7 @@ fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(found, turned, epsilon = 1e-12 * turned.norm() + rounding);
 }
 
-/// A step without deformation does not change the stress of a state, including plastic flow.
+/// A step without deformation does not change the stress, even after plastic flow.
 fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
     let mut specimen = Specimen::<D>::new(plan);
     let first = specimen.deform(&(Matrix::identity() + scattered(0.25, 0.3)), SLOW);
@@ -144,8 +145,8 @@ fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(again, first, epsilon = 1e-11);
 }
 
-/// The stress agrees to second order in the strain. For a law in rate form one step is less
-/// accurate.
+/// A body that starts deformed has the same stress as after one step to this deformation, to second
+/// order in the strain. For a law in rate form the error is larger, because only one step is made.
 fn a_deformed_start_has_the_stress_of_the_way_there<const D: usize>(plan: MaterialPlan) {
     if plan.properties().starts_deformed().is_err() {
         return;
@@ -230,7 +231,7 @@ fn simple_shear_has_its_closed_forms() {
     }
 }
 
-/// Stress along and across a uniaxial stretch, with the other axes fixed.
+/// Tests the stress along and across a uniaxial stretch, with the other axes fixed.
 #[test]
 fn stretch_has_its_closed_forms() {
     let stretch = 1.3;

@@ -2,8 +2,8 @@
 //!
 //! `d eps = sym(grad v) dt`, `sigma += lambda tr(d eps) I + 2 mu d eps`, `V *= det(I + grad v dt)`
 //! (Wobbes & Tielen 2015, step 5; in 1-D `V *= 1 + d eps`). In the limit dt -> 0 the 1-D form
-//! integrates to `sigma = E ln F`. It agrees with small-strain elasticity only to first order in
-//! the strain. Reports separate this difference from the discretisation error.
+//! integrates to `sigma = E ln F`. This stress agrees with small-strain elasticity only to first
+//! order in the strain. Reports separate the difference from the discretisation error.
 //!
 //! The rate is the plain stress rate, without Jaumann or Green-Naghdi terms. To first order in the
 //! step, a spin adds no stress, but it does not rotate the current stress either. In more than one
@@ -44,13 +44,13 @@ impl LinearElastic {
     }
 }
 
-/// `eps e^eps - e^eps + 1`, the integral of `s e^s`. For small `eps` the sum would cancel, and a
-/// series is evaluated instead.
+/// Returns `eps e^eps - e^eps + 1`, the integral of `s e^s`. For small `eps` the terms would
+/// cancel, so a series is evaluated instead.
 fn logarithmic_work(eps: f64) -> f64 {
     if eps.abs() > 0.05 {
         return eps * libm::exp(eps) - libm::expm1(eps);
     }
-    // sum over n of (n - 1)/n! eps^n
+    // Terms of sum over n of (n - 1)/n! eps^n.
     let mut power = 1.0;
     let terms = (1..=9).map(|n| {
         power *= eps / f64::from(n);
@@ -62,8 +62,8 @@ fn logarithmic_work(eps: f64) -> f64 {
 /// Maximum number of terms of the logarithm series, sufficient for stretches from 1/100 to 100.
 const MOST_TERMS: u32 = 2000;
 
-/// `ln F = 2 artanh(Z)`, `Z = (F - I)(F + I)^-1` (Higham 2008, eq. 11.5). NaN if the series does
-/// not converge: for stretches below 1/100 or above 100, and for rotations by 90 degrees.
+/// Returns `ln F = 2 artanh(Z)`, `Z = (F - I)(F + I)^-1` (Higham 2008, eq. 11.5). NaN if the series
+/// does not converge: for stretches below 1/100 or above 100, and for rotations by 90 degrees.
 pub(super) fn logarithm<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
     let nothing = Matrix::from_element(f64::NAN);
     let Some(inverse) = (f + Matrix::identity()).try_inverse() else { return nothing };
@@ -123,9 +123,10 @@ impl<const D: usize> Material<D> for LinearElastic {
         Some(Box::new(RatePlaneStress::new(self.lambda, self.mu, plate)))
     }
 
-    /// In 1-D the rate integrates to `sigma = M eps` with `eps = ln J`. Its work per reference
-    /// volume, the integral of `J sigma d eps`, is `M (eps e^eps - e^eps + 1)`, evaluated with the
-    /// eps of the stress. In 2-D and 3-D the work depends on the path, so there is no energy.
+    /// Returns the work of the stress in 1-D. The rate integrates to `sigma = M eps` with
+    /// `eps = ln J`. The work per reference volume, the integral of `J sigma d eps`, is
+    /// `M (eps e^eps - e^eps + 1)`. It is evaluated with the eps of the stress. In 2-D and 3-D the
+    /// work depends on the path, so there is no energy.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let modulus = self.lambda + 2.0 * self.mu;
         let stored = |(sigma, vol0): (&Matrix<D>, &f64)| {

@@ -1,5 +1,5 @@
-//! The family of materials. A member is one file and one line of `members`. A parameter that no
-//! other material has is one line at the end of this file.
+//! The family of materials. A new material requires one file and one line of `members`. A parameter
+//! that no other material has also requires one line at the end of this file.
 
 mod axisymmetric;
 #[cfg(test)]
@@ -47,7 +47,7 @@ impl MaterialPlan {
         }
     }
 
-    /// Young's modulus (Pa) and Poisson's ratio of a solid.
+    /// Returns Young's modulus (Pa) and Poisson's ratio of a solid.
     pub fn elasticity(&self) -> Option<(f64, f64)> {
         Some((self.parameter("young")?, self.parameter("poisson")?))
     }
@@ -56,17 +56,17 @@ impl MaterialPlan {
 /// A material parameter in a suite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MaterialParameter {
-    /// Name in messages: `Young's modulus`.
+    /// Name of the parameter in messages, such as `Young's modulus`.
     pub what: &'static str,
-    /// Symbol in reports: `E`.
+    /// Symbol of the parameter in reports, such as `E`.
     pub symbol: &'static str,
-    /// Unit; empty for a ratio.
+    /// Unit of the parameter; empty for a ratio.
     pub unit: &'static str,
-    /// Valid values.
+    /// Range of valid values.
     pub range: Range,
 }
 
-/// Valid values of a parameter.
+/// Range of the valid values of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Range {
     /// Above zero.

@@ -1,7 +1,7 @@
-//! Neo-Hookean elasticity, a law of the total deformation.
+//! Neo-Hookean elasticity: the stress is a function of the deformation gradient F.
 //!
 //! `sigma = (lambda ln(J)/J) I + (mu/J) (F F^T - I)` (Wallstedt & Guilkey 2008; Kamojjala et al.
-//! 2015). Only F is integrated in time. In 2-D the strain is plane, and in 1-D uniaxial.
+//! 2015). In 2-D the strain is plane, and in 1-D uniaxial.
 
 use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{set_stress_by_batch, stored_energy};
@@ -27,7 +27,7 @@ impl NeoHookean {
         Self { lambda, mu }
     }
 
-    /// The factors of [`isotropic`] (Pa).
+    /// Returns the two factors of [`isotropic`] (Pa).
     #[inline(always)]
     fn factors(&self, j: f64, log_j: f64) -> [f64; 2] {
         [(self.lambda * log_j - self.mu) / j, self.mu / j]
@@ -37,8 +37,9 @@ impl NeoHookean {
         isotropic(f, self.factors(j, libm::log(j)))
     }
 
-    /// Energy density `W = lambda/2 ln(J)^2 + mu/2 (F : F - D - 2 ln J)` (J/m^D), computed from
-    /// `H = F - I`. For small strains, F : F - D and 2 ln J are nearly equal.
+    /// Returns the energy density `W = lambda/2 ln(J)^2 + mu/2 (F : F - D - 2 ln J)` (J/m^D). The
+    /// computation uses `H = F - I` to avoid cancellation: for small strains, F : F - D and 2 ln J
+    /// are nearly equal.
     fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
         let h = f - Matrix::identity();
         let log = log_det(&h);
@@ -46,7 +47,7 @@ impl NeoHookean {
     }
 }
 
-/// `pressure I + shear F F^T`.
+/// Returns `pressure I + shear F F^T`.
 #[inline(always)]
 fn isotropic<const D: usize>(f: &Matrix<D>, [pressure, shear]: [f64; 2]) -> Matrix<D> {
     let mut sigma = Matrix::zeros();
@@ -60,7 +61,7 @@ fn isotropic<const D: usize>(f: &Matrix<D>, [pressure, shear]: [f64; 2]) -> Matr
     sigma
 }
 
-/// `ln det(I + H)`.
+/// Returns `ln det(I + H)`.
 fn log_det<const D: usize>(h: &Matrix<D>) -> f64 {
     let trace = h.trace();
     let minors = 0.5 * (trace * trace - (h * h).trace());
@@ -71,13 +72,14 @@ fn log_det<const D: usize>(h: &Matrix<D>) -> f64 {
 const MOST_STEPS: usize = 100;
 
 impl FreeAcross for NeoHookean {
-    /// Root of `lambda ln(area s) + mu (s^2 - 1)` by Newton's method in ln s, which converges from
-    /// above. NaN if the method does not converge, as for nu < 0 under extreme compression.
+    /// Finds the root of `lambda ln(area s) + mu (s^2 - 1)` by Newton's method in ln s. The method
+    /// converges from above; NaN if it does not converge, for example for nu < 0 under extreme
+    /// compression.
     fn stretch(&self, area: f64) -> f64 {
         let (Self { lambda, mu }, log) = (*self, libm::log(area));
         let mut above = -thinning(lambda, mu) * log;
         for _ in 0..MOST_STEPS {
-            // s^2 - 1, without cancellation for small strains.
+            // Computes s^2 - 1 without cancellation for small strains.
             let excess = libm::expm1(2.0 * above);
             let slope = lambda + 2.0 * mu * (1.0 + excess);
             let next = above - (lambda * (log + above) + mu * excess) / slope;
@@ -132,7 +134,7 @@ impl<const D: usize> Material<D> for NeoHookean {
         Some(stored_energy(particles, |f| self.density(f)))
     }
 
-    /// `tau_A = lambda ln J + mu (b_A - 1)`.
+    /// Uses `tau_A = lambda ln J + mu (b_A - 1)`.
     fn response(&self, _: usize, f: &Matrix<D>) -> Option<StressResponse<D>> {
         let Self { lambda, mu } = *self;
         let principal = |strain: &Vector<3>| {
@@ -186,8 +188,8 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// For strains whose squares are far below rounding, all elastic laws have the same quadratic
-    /// form.
+    /// The squares of such strains are far below rounding. All elastic laws then have the same
+    /// quadratic form.
     #[test]
     fn tiny_strains_store_an_energy_too() {
         let NeoHookean { lambda, mu } = NeoHookean::new(100.0, 0.3);

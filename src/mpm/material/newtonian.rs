@@ -1,10 +1,10 @@
 //! A weakly compressible Newtonian fluid.
 //!
 //! `sigma = -p I + 2 eta dev(D)`, `D = sym(grad v)`, with Tait's equation of state in Cole's form,
-//! `p = K/7 (J^-7 - 1)` (Cole 1948; Monaghan 1994). K is the bulk modulus at rest. The resistance
-//! to compression has no upper limit, so no particle collapses. The deviator is three-dimensional
-//! in any dimension of the scene: a flow in 2-D or 1-D also has the volumetric part `tr(D)/3` along
-//! each axis.
+//! `p = K/7 (J^-7 - 1)` (Cole 1948; Monaghan 1994). K is the bulk modulus at rest. The pressure has
+//! no upper limit, so particles do not collapse under compression. The deviator is
+//! three-dimensional in any dimension of the scene: a flow in 2-D or 1-D also has the volumetric
+//! part `tr(D)/3` along each axis.
 //!
 //! The pressure depends only on J, which is integrated as `J *= det(I + grad v dt)`. F is not
 //! stored, because it grows without limit in a flow.
@@ -71,7 +71,7 @@ impl<const D: usize> Material<D> for Newtonian {
         true
     }
 
-    /// Energy of the pressure, with density `K/7 (J^-6/6 + J - 7/6)`.
+    /// Returns the energy of the pressure, with density `K/7 (J^-6/6 + J - 7/6)`.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let density = |j: f64| {
             let cube = 1.0 / (j * j * j);

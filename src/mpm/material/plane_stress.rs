@@ -9,19 +9,19 @@ use crate::mpm::foundation::algebra::{Matrix, det};
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::Failure;
 
-/// A law of the total deformation with an implementation in plane stress.
+/// A law whose stress depends only on F, with an implementation in plane stress.
 pub(super) trait FreeAcross: Send + Sync {
-    /// F_33 of a plate whose in-plane F has the determinant `area`.
+    /// Returns F_33 of a plate whose in-plane F has the determinant `area`.
     fn stretch(&self, area: f64) -> f64;
 
-    /// In-plane sigma (Pa), with `j` over all three axes.
+    /// Returns the in-plane sigma (Pa). `j` is the volume ratio over all three axes.
     fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D>;
 
-    /// Stored energy (J/m3) for the out-of-plane stretch `across`.
+    /// Returns the stored energy (J/m3) for the out-of-plane stretch `across`.
     fn density<const D: usize>(&self, f: &Matrix<D>, across: f64) -> f64;
 }
 
-/// A plate with a law of the total deformation.
+/// A plate with a law whose stress depends only on F.
 pub(super) struct PlaneStress<L>(pub(super) L);
 
 impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
@@ -44,7 +44,8 @@ impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
             let results = volumes.zip(sigma.iter_mut());
             for (f, (((vol, vol0), across), sigma)) in def_grad.iter().zip(results) {
                 let area = det(f);
-                // The solver detects an inverted particle by its volume.
+                // The solver detects an inverted particle by its volume, so any stretch is valid
+                // here.
                 *across = if area > 0.0 { self.0.stretch(area) } else { 1.0 };
                 let j = area * *across;
                 *vol = j * vol0;
@@ -54,28 +55,28 @@ impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
     }
 }
 
-/// `nu/(1 - nu)`: minus the out-of-plane logarithmic strain divided by the logarithmic area strain.
+/// Returns `nu/(1 - nu)`: minus the out-of-plane logarithmic strain divided by the logarithmic area
+/// strain.
 pub(super) fn thinning(lambda: f64, mu: f64) -> f64 {
     lambda / (lambda + 2.0 * mu)
 }
 
-/// First Lame parameter (Pa) of a plate, `2 lambda mu/(lambda + 2 mu)`, which multiplies the
-/// in-plane strains alone (Timoshenko & Goodier 1970, section 16).
+/// Returns the first Lame parameter (Pa) of a plate, `2 lambda mu/(lambda + 2 mu)`. It multiplies
+/// the in-plane strains only (Timoshenko & Goodier 1970, section 16).
 pub(super) fn lambda_of_plate(lambda: f64, mu: f64) -> f64 {
     2.0 * mu * thinning(lambda, mu)
 }
 
 /// A plate with a law in rate form, `D_33 = -nu/(1 - nu) (D_11 + D_22)`.
 pub(super) struct RatePlaneStress<L> {
-    /// The law for the in-plane strains alone.
+    /// Law for the in-plane strains, with the first Lame parameter of a plate.
     plane: L,
-    /// `nu/(1 - nu)`.
+    /// Ratio `nu/(1 - nu)` of out-of-plane contraction to in-plane area strain.
     thinning: f64,
 }
 
 impl<L> RatePlaneStress<L> {
-    /// Creates a plate from the law that `with_lambda` returns for another first Lame parameter
-    /// (Pa).
+    /// Creates a plate. `with_lambda` returns the law for a given first Lame parameter (Pa).
     pub(super) fn new(lambda: f64, mu: f64, with_lambda: impl Fn(f64) -> L) -> Self {
         Self { plane: with_lambda(lambda_of_plate(lambda, mu)), thinning: thinning(lambda, mu) }
     }
@@ -119,7 +120,7 @@ mod tests {
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-    /// The plates of the family, each with its law in space.
+    /// Returns all laws with plane stress, each as a plate and in 3-D.
     fn plates() -> Vec<(Specimen<2>, Specimen<3>)> {
         let plate =
             |plan| Some((Specimen::in_plane(plan, PlaneState::Stress)?, Specimen::new(plan)));
@@ -128,8 +129,8 @@ mod tests {
         plates
     }
 
-    /// With the out-of-plane stretch of the plate, the law in 3-D gives the stress of the plate and
-    /// zero out-of-plane stress.
+    /// If the 3-D law has the out-of-plane stretch of the plate, its in-plane stress equals that of
+    /// the plate and its out-of-plane stress is zero.
     #[test]
     fn a_plate_is_a_body_that_is_free_across() {
         for (mut plate, mut space) in plates() {

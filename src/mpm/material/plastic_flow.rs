@@ -38,17 +38,18 @@ impl LogElasticity {
         Self { lambda, bulk: lambda + 2.0 / 3.0 * mu, mu }
     }
 
-    /// Principal Kirchhoff stresses (Pa).
+    /// Returns the principal Kirchhoff stresses (Pa).
     pub(super) fn stress(&self, strain: &PrincipalStrain) -> Vector<3> {
         strain.deviator.map(|eps| 3.0 * self.bulk * strain.mean + 2.0 * self.mu * eps)
     }
 
-    /// Derivatives of the principal Kirchhoff stresses with respect to the principal strains (Pa).
+    /// Returns the derivatives of the principal Kirchhoff stresses with respect to the principal
+    /// strains (Pa).
     pub(super) fn modulus(&self) -> Matrix<3> {
         isotropic_modulus(self.lambda, self.mu)
     }
 
-    /// Energy per reference volume (J/m3), `K/2 tr(eps)^2 + mu |dev eps|^2`.
+    /// Returns the energy per reference volume (J/m3), `K/2 tr(eps)^2 + mu |dev eps|^2`.
     fn energy(&self, strain: &Vector<3>) -> f64 {
         let deviator = strain.add_scalar(-strain.sum() / 3.0);
         0.5 * self.bulk * strain.sum() * strain.sum() + self.mu * deviator.norm_squared()
@@ -68,7 +69,7 @@ impl PrincipalStrain {
         Self { mean, deviator: values.add_scalar(-mean) }
     }
 
-    /// Equivalent strain `sqrt(2/3) |a - b|` of the difference of two strains.
+    /// Returns the equivalent strain `sqrt(2/3) |a - b|` of the difference of two strains.
     pub(super) fn distance(&self, other: &Self) -> f64 {
         let mean = self.mean - other.mean;
         let deviator = self.deviator - other.deviator;
@@ -76,9 +77,9 @@ impl PrincipalStrain {
     }
 }
 
-/// Derivatives of `mean 1 + length n` with respect to the strains, where `n` is the direction of
-/// the strain deviator. The derivatives of the mean and of the length are given as rows. The
-/// direction rotates by `(I - 1 (x) 1/3 - n (x) n) deps / |dev eps|`.
+/// Returns the derivatives of `mean 1 + length n` with respect to the strains, where `n` is the
+/// direction of the strain deviator. The derivatives of the mean and of the length are given as
+/// rows. The direction rotates by `(I - 1 (x) 1/3 - n (x) n) deps / |dev eps|`.
 pub(super) fn modulus_of_invariants(
     strain: &PrincipalStrain,
     mean_slope: &Vector<3>,
@@ -94,26 +95,26 @@ pub(super) fn modulus_of_invariants(
 
 /// A yield surface with its flow rule.
 pub trait YieldSurface: Send + Sync {
-    /// Elasticity inside the surface.
+    /// Returns the elasticity inside the surface.
     fn elasticity(&self) -> &LogElasticity;
 
-    /// A parameter that contradicts another one, if any.
+    /// Returns a parameter that contradicts another one, if any.
     fn contradiction(&self) -> Option<Contradiction> {
         None
     }
 
-    /// Elastic strain after the return to the surface from a trial strain, and the plastic strain
-    /// that the return adds to the accumulated plastic strain `flowed`. `None` if the trial state
-    /// is inside the surface.
+    /// Computes the return of a trial strain to the surface: the elastic strain after the return,
+    /// and the plastic strain that the return adds to the accumulated plastic strain `flowed`.
+    /// `None` if the trial state is inside the surface.
     fn return_from(&self, trial: &PrincipalStrain, flowed: f64) -> Option<(PrincipalStrain, f64)>;
 
-    /// Derivatives of the principal Kirchhoff stresses after the return (rows) with respect to the
-    /// principal trial strains (Pa): the consistent tangent of [`return_from`](Self::return_from).
-    /// `None` if the trial state is inside the surface.
+    /// Returns the derivatives of the principal Kirchhoff stresses after the return (rows) with
+    /// respect to the principal trial strains (Pa): the consistent tangent of
+    /// [`return_from`](Self::return_from). `None` if the trial state is inside the surface.
     fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>>;
 
-    /// Closed form of the principal Kirchhoff stresses (Pa) in the plane at the strain
-    /// `(e, -e, 0)`, beyond yield.
+    /// Returns the closed form of the principal Kirchhoff stresses (Pa) in the plane at the strain
+    /// `(e, -e, 0)` after yield.
     #[cfg(test)]
     fn isochoric(&self, e: f64) -> [f64; 2];
 }
@@ -135,7 +136,7 @@ struct Flowed {
     strain: f64,
 }
 
-/// Only the accumulated plastic strain is written.
+/// Writes only the accumulated plastic strain.
 impl Entry for Flowed {
     fn write(&self, numbers: &mut Vec<f64>) {
         numbers.push(self.strain);
@@ -169,8 +170,8 @@ impl<S: YieldSurface> ElastoPlastic<S> {
         Self { surface, flowed: Vec::new() }
     }
 
-    /// Kirchhoff stress at F and plastic state after the return, from the trial strain along its
-    /// axes.
+    /// Returns the Kirchhoff stress at F and the plastic state after the return. The trial strain
+    /// is given along its axes.
     fn kirchhoff(
         &self,
         f: &Matrix<3>,
@@ -184,7 +185,7 @@ impl<S: YieldSurface> ElastoPlastic<S> {
             return (stress(&trial), before);
         };
         let squares = elastic.deviator.map(|eps| libm::exp(2.0 * (elastic.mean + eps)));
-        // If F has no inverse, the invalid volume ends the run.
+        // If F has no inverse, the solver detects the invalid volume and the run fails.
         let back = f.try_inverse().unwrap_or(*f);
         let inverse_metric = back * assembled(&squares, axes) * back.transpose();
         (stress(&elastic), Flowed { inverse_metric, strain: before.strain + flow })
@@ -209,8 +210,8 @@ impl<S: YieldSurface> MaterialProperties for ElastoPlastic<S> {
         Ok(())
     }
 
-    /// F-bar of elastoplasticity: trial strains are computed from Fbar (de Souza Neto et al. 1996,
-    /// IJSS 33).
+    /// Accepts the averaged volume: trial strains are computed from Fbar (de Souza Neto et al.
+    /// 1996, IJSS 33).
     fn takes_averaged_volume(&self) -> Result<(), &'static str> {
         Ok(())
     }
@@ -233,7 +234,7 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
         checkpoint.visit(&mut self.flowed);
     }
 
-    /// Energy of the elastic strain.
+    /// Returns the energy of the elastic strain.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let density = |p: usize, f: &Matrix<D>| {
             let before = self.flowed.get(p).unwrap_or(&Flowed::NOT);
@@ -283,7 +284,8 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
     }
 }
 
-/// Trial strains of a batch of particles along their axes, `ln(be)/2` with `be = F Cp^-1 F^T`.
+/// Computes the trial strains of a batch of particles along their axes, `ln(be)/2` with
+/// `be = F Cp^-1 F^T`.
 fn trial<const D: usize>(
     def_grad: &[Matrix<D>],
     flowed: &[Flowed],
@@ -306,7 +308,7 @@ fn trial<const D: usize>(
 
 #[cfg(test)]
 impl<S: YieldSurface> super::contract::ClosedForms for ElastoPlastic<S> {
-    /// The principal stretches of simple shear are exp(e) and exp(-e).
+    /// Uses that the principal stretches of simple shear are exp(e) and exp(-e).
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let e = libm::asinh(0.5 * gamma);
         let [first, second] = self.surface.isochoric(e);
@@ -334,14 +336,14 @@ pub(super) mod path {
     use crate::mpm::foundation::algebra::{Matrix, Vector, det};
     use approx::assert_relative_eq;
 
-    /// Young's modulus (Pa) and Poisson's ratio from the bulk and shear moduli (Pa).
+    /// Returns Young's modulus (Pa) and Poisson's ratio from the bulk and shear moduli (Pa).
     pub(in super::super) fn isotropic(bulk: f64, mu: f64) -> (f64, f64) {
         let young = 9.0 * bulk * mu / (3.0 * bulk + mu);
         (young, (3.0 * bulk - 2.0 * mu) / (2.0 * (3.0 * bulk + mu)))
     }
 
     /// Asserts the principal Kirchhoff stresses (Pa) at the end of a path through these principal
-    /// logarithmic strains. Tests all dimensions that contain the path, and permutations of the
+    /// logarithmic strains. Tests all dimensions that contain the path, and all permutations of the
     /// axes.
     pub(in super::super) fn principal(plan: MaterialPlan, path: &[[f64; 3]], expected: [f64; 3]) {
         for axes in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2]] {

@@ -28,7 +28,7 @@ impl Polytropic {
         Self { stiffness, exponent }
     }
 
-    /// Pressure (Pa) at the current density `density` (kg/m3).
+    /// Returns the pressure (Pa) at the current density `density` (kg/m3).
     fn pressure(&self, density: f64) -> f64 {
         self.stiffness * libm::pow(density, self.exponent)
     }
@@ -39,7 +39,8 @@ impl MaterialProperties for Polytropic {
         self.exponent * self.pressure(density)
     }
 
-    /// Also finite at zero density, where the modulus divided by the density is NaN.
+    /// Returns the wave speed, also at zero density, where the modulus divided by the density is
+    /// NaN.
     fn wave_speed(&self, density: f64) -> f64 {
         (self.exponent * self.stiffness * libm::pow(density, self.exponent - 1.0)).sqrt()
     }
@@ -121,7 +122,7 @@ mod tests {
     use crate::mpm::foundation::particles::Block;
     use approx::assert_relative_eq;
 
-    /// Particles of one material and different masses, at rest.
+    /// Creates particles of one material with different masses, at rest.
     fn row() -> Particles<1> {
         let (from, to) = (Vector::<1>::new(0.0), Vector::<1>::new(3.0));
         let mut row = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
@@ -129,7 +130,8 @@ mod tests {
         row
     }
 
-    /// p = 3 rho^2 with rho = 0.5, 2 and 0 kg/m3; a quarter of this after a stretch of 2.
+    /// Expects p = 3 rho^2 with rho = 0.5, 2 and 0 kg/m3, and a quarter of this after a stretch of
+    /// 2.
     #[test]
     fn each_particle_has_the_pressure_of_its_own_density() {
         let (mut gas, mut row) = (Polytropic::new(3.0, 2.0), row());
@@ -144,7 +146,7 @@ mod tests {
         assert_relative_eq!(Material::energy(&gas, &row).unwrap(), 6.375, max_relative = 1e-15);
     }
 
-    /// c = sqrt(g K rho^(g - 1)).
+    /// Expects c = sqrt(g K rho^(g - 1)).
     #[test]
     fn wave_speed_vanishes_with_the_density() {
         let gas = Polytropic::new(2.0, 3.0);

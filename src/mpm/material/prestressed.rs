@@ -14,13 +14,13 @@ use crate::subject::{Checkpoint, Column, Failure};
 /// A law with an initial stress.
 pub struct Prestressed<const D: usize> {
     law: Box<dyn Material<D>>,
-    /// S0 of each particle (Pa); empty for a law in rate form.
+    /// Initial stress S0 of each particle (Pa); empty for a law in rate form.
     stress: Vec<Matrix<D>>,
 }
 
 impl<const D: usize> Prestressed<D> {
-    /// Adds the initial `stress` (Pa), one entry per particle, to `law`, and sets it in
-    /// `particles`, which must not have moved.
+    /// Adds the initial `stress` (Pa), one entry per particle, to `law` and to `particles`, which
+    /// must be in their reference configuration.
     pub fn new(
         law: Box<dyn Material<D>>,
         stress: Vec<Matrix<D>>,
@@ -31,7 +31,7 @@ impl<const D: usize> Prestressed<D> {
         Self { law, stress: if keeps { stress } else { Vec::new() } }
     }
 
-    /// Adds the part of S0 to the stresses computed by the law.
+    /// Adds the stress due to S0 to the stresses computed by the law.
     fn add(&self, particles: &mut Particles<D>) {
         let Particles { sigma, def_grad, vol, vol0, .. } = particles;
         let states = def_grad.iter().zip(vol.iter().zip(vol0.iter()));
@@ -62,13 +62,14 @@ impl<const D: usize> Material<D> for Prestressed<D> {
         self.law.checkpoint(checkpoint);
     }
 
-    /// Energy `W_law + S0 : E`. A law in rate form has no energy, because its stress includes S0.
+    /// Returns the energy `W_law + S0 : E`. A law in rate form has no energy, because its stress
+    /// includes S0.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         if !self.law.reads_deformation() {
             return None;
         }
         let stored = |((f, s0), vol0): ((&Matrix<D>, &Matrix<D>), &f64)| {
-            // E is computed from H = F - I, without cancellation for small strains.
+            // E is computed from H = F - I to avoid cancellation for small strains.
             let h = f - Matrix::identity();
             vol0 * 0.5 * s0.dot(&(h + h.transpose() + h.transpose() * h))
         };
@@ -98,13 +99,14 @@ mod tests {
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-    /// A symmetric stress (Pa) with shear, of the magnitude of the moduli.
+    /// Returns a symmetric stress (Pa) with shear. Its magnitude is that of the moduli.
     fn initial<const D: usize>() -> Matrix<D> {
         let all = scattered::<D>(20.0, 0.8);
         all + all.transpose()
     }
 
-    /// One particle of each material that may start with a stress, and of the corresponding plates.
+    /// Returns one particle of each material that may start with a stress, and of the corresponding
+    /// plates.
     fn bodies<const D: usize>() -> Vec<(MaterialPlan, Prestressed<D>, Particles<D>)> {
         let admitted =
             every().into_iter().filter(|plan| plan.properties().starts_stressed().is_ok());
@@ -125,8 +127,8 @@ mod tests {
         admitted.flat_map(both).collect()
     }
 
-    /// First Piola-Kirchhoff stress P (Pa), `J sigma F^-T`, and stored energy of a body that starts
-    /// at F.
+    /// Returns the first Piola-Kirchhoff stress P (Pa), `J sigma F^-T`, and the stored energy of
+    /// each body that starts at F.
     fn at<const D: usize>(f: &Matrix<D>) -> Vec<(MaterialPlan, Matrix<D>, Option<f64>)> {
         let started = |(plan, mut law, mut body): (MaterialPlan, Prestressed<D>, Particles<D>)| {
             body.deform(|_| (Vector::zeros(), *f));
@@ -183,7 +185,7 @@ mod tests {
         }
     }
 
-    /// Along S0, `dP/dF` is `M + S0` for a law of the total deformation, and M for the rate form.
+    /// Along S0, `dP/dF` is `M + S0` for a law that depends only on F, and M for the rate form.
     #[test]
     fn small_waves_along_the_stress_have_their_modulus() {
         let [low, high] = [-1e-6, 1e-6].map(|eps| at(&Matrix::<1>::new(1.0 + eps)));
@@ -198,7 +200,7 @@ mod tests {
         }
     }
 
-    /// The energy of such a law would require the stress without S0.
+    /// The energy of a law in rate form would require the stress without S0.
     #[test]
     fn a_law_in_rate_form_has_no_energy() {
         let rate = at(&Matrix::<1>::new(1.1));

@@ -1,5 +1,5 @@
-//! Objective rates of linear elasticity along paths with rotation: the limit of small steps,
-//! against closed forms and the values of an independent program.
+//! Compares objective rates of linear elasticity along paths with rotation, in the limit of small
+//! steps, with closed forms and with values of an independent program.
 
 use super::MaterialPlan;
 use super::specimen::{SLOW, Specimen};
@@ -7,18 +7,19 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
-/// A law with lambda = mu = 1 Pa.
+/// The Jaumann rate with lambda = mu = 1 Pa.
 const JAUMANN: MaterialPlan = MaterialPlan::Jaumann { young: 2.5, poisson: 0.25 };
 const GREEN_NAGHDI: MaterialPlan = MaterialPlan::GreenNaghdi { young: 2.5, poisson: 0.25 };
 const LOGARITHMIC: MaterialPlan = MaterialPlan::Hencky { young: 2.5, poisson: 0.25 };
 
-/// Plane F with a shear `a` and a stretch `b` of the second axis.
+/// Returns a plane F with a shear `a` and a stretch `b` of the second axis.
 fn sheared([a, b]: [f64; 2]) -> Matrix<2> {
     Matrix::<2>::new(1.0, a, 0.0, b)
 }
 
-/// Components 11 and 12 of the Kirchhoff stress (Pa) at the end of a polygonal path of shears and
-/// stretches, and the work per reference volume (J/m3), with `steps` steps per side.
+/// Follows a polygonal path of shears and stretches with `steps` steps per side. Returns components
+/// 11 and 12 of the Kirchhoff stress (Pa) at the end of the path, and the work per reference volume
+/// (J/m3).
 fn follow(plan: MaterialPlan, corners: &[[f64; 2]], steps: u32) -> Vector<3> {
     let mut body = Specimen::<2>::new(plan);
     let (mut before, mut tau, mut work) = (sheared(corners[0]), Matrix::<2>::zeros(), 0.0);
@@ -29,7 +30,7 @@ fn follow(plan: MaterialPlan, corners: &[[f64; 2]], steps: u32) -> Vector<3> {
             let now = sheared([mix(0), mix(1)]);
             let sigma = body.deform(&(now * before.try_inverse().unwrap()), SLOW);
             let after = sigma * now.determinant();
-            // The velocity gradient of the step about its middle.
+            // Velocity gradient with respect to the configuration in the middle of the step.
             let rate = (now - before) * (0.5 * (now + before)).try_inverse().unwrap();
             work += (0.5 * (tau + after)).dot(&(0.5 * (rate + rate.transpose())));
             (before, tau) = (now, after);
@@ -39,8 +40,8 @@ fn follow(plan: MaterialPlan, corners: &[[f64; 2]], steps: u32) -> Vector<3> {
     Vector::<3>::new(tau[(0, 0)], tau[(0, 1)], work)
 }
 
-/// The limit of small steps by Richardson's extrapolation in squares of the step, and the observed
-/// order of the first component.
+/// Extrapolates to small steps by Richardson's method in squares of the step. Also returns the
+/// observed order of the first component.
 fn limit(plan: MaterialPlan, corners: &[[f64; 2]]) -> (Vector<3>, f64) {
     let mut rows: Vec<Vector<3>> = (4..=9).map(|k| follow(plan, corners, 1 << k)).collect();
     let change = |k: usize| rows[k + 1][0] - rows[k][0];
@@ -52,7 +53,7 @@ fn limit(plan: MaterialPlan, corners: &[[f64; 2]]) -> (Vector<3>, f64) {
     (rows[0], order)
 }
 
-/// Simple shear: components 11 and 12, which the rates give in order 2.
+/// Tests components 11 and 12 in simple shear, which the rates compute with order 2.
 #[rstest]
 #[case::jaumann(JAUMANN, 1.0, [0.459_697_694_1, 0.841_470_984_8])]
 #[case::jaumann_far(JAUMANN, 3.0, [1.989_992_496_6, 0.141_120_008_1])]
@@ -72,8 +73,8 @@ fn simple_shear_has_the_stress_of_its_rate(
     assert!(plan == LOGARITHMIC || (1.98..2.02).contains(&order), "order {order}");
 }
 
-/// A closed cycle of shear and stretch: stress and work remain, except with the logarithmic rate.
-/// The reversed cycle leaves another stress, but the same work.
+/// After a closed cycle of shear and stretch, stress and work remain, except with the logarithmic
+/// rate. The reversed cycle leaves another stress, but the same work.
 #[rstest]
 #[case::jaumann(JAUMANN, [-0.002_977_508_1, -0.003_181_719_0], [0.003_081_891_7, 0.003_080_719_7], 9.494_445e-6)]
 #[case::green_naghdi(GREEN_NAGHDI, [0.001_516_992_8, 0.001_567_942_8], [f64::NAN; 2], 2.379_856e-6)]

@@ -51,7 +51,7 @@ macro_rules! materials {
         }
 
         impl<N> MaterialSpec<N> {
-            /// Name in suites and reports.
+            /// Returns the name in suites and reports.
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$member { .. } => $name,)+
@@ -83,21 +83,21 @@ macro_rules! materials {
         }
 
         impl MaterialPlan {
-            /// Name in suites and reports.
+            /// Returns the name in suites and reports.
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$member { .. } => $name,)+
                 }
             }
 
-            /// Properties of the law.
+            /// Returns the properties of the law.
             pub fn properties(&self) -> Box<dyn MaterialProperties> {
                 match *self {
                     $(Self::$member { $($field),* } => Box::new($member::new($($field),*)),)+
                 }
             }
 
-            /// Closed forms of the law.
+            /// Returns the closed forms of the law.
             #[cfg(test)]
             fn closed_forms(&self) -> Box<dyn ClosedForms> {
                 match *self {
@@ -105,7 +105,7 @@ macro_rules! materials {
                 }
             }
 
-            /// Every parameter with its key in suites.
+            /// Returns every parameter with its key in suites.
             pub fn keyed_parameters(&self) -> Vec<(&'static str, f64)> {
                 match *self {
                     $(Self::$member { $($field),* } => {
@@ -114,13 +114,14 @@ macro_rules! materials {
                 }
             }
 
-            /// Value of the parameter with this key, if the material has such a parameter.
+            /// Returns the value of the parameter with this key, if the material has such a
+            /// parameter.
             pub fn parameter(&self, wanted: &str) -> Option<f64> {
                 let mut all = self.keyed_parameters().into_iter();
                 all.find(|(key, _)| *key == wanted).map(|(_, value)| value)
             }
 
-            /// Every parameter with its value, in registration order.
+            /// Returns every parameter with its value, in registration order.
             pub fn parameters(&self) -> Vec<(MaterialParameter, f64)> {
                 match self {
                     $(Self::$member { $($field),* } => vec![$(($parameter, *$field)),*],)+
@@ -134,7 +135,7 @@ macro_rules! materials {
                 }
             }
 
-            /// One instance of every registered material, for the law tests.
+            /// Returns one instance of every registered material, for the law tests.
             pub fn every(value: impl Fn(&MaterialParameter) -> f64) -> Vec<Self> {
                 vec![$(Self::$member { $($field: value(&$parameter)),* }),+]
             }

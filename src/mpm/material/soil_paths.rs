@@ -1,5 +1,5 @@
-//! Plasticity of soils along paths of deformation: the stress of one particle after every step,
-//! against closed forms.
+//! Compares the plasticity of soils with closed forms along paths of deformation: the stress of one
+//! particle after every step.
 
 use super::MaterialPlan;
 use super::plastic_flow::path::isotropic;
@@ -7,21 +7,22 @@ use super::specimen::{SLOW, Specimen};
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use rstest::rstest;
 
-/// Steps of a path.
+/// Number of steps of a path.
 const STEPS: u32 = 40;
 
-/// Largest error of a component, over the largest stress of the path.
+/// Largest error of a component, as a fraction of the largest stress of the path.
 const TOLERANCE: f64 = 1e-10;
 
-/// A path of principal logarithmic strains, with the principal Kirchhoff stresses (Pa) that a
-/// closed form has at each point.
+/// A path of principal logarithmic strains, with the closed form of the principal Kirchhoff
+/// stresses (Pa) at each point.
 struct SoilPath {
     strains: Vec<[f64; 3]>,
     stresses: Vec<[f64; 3]>,
 }
 
 impl SoilPath {
-    /// The path over these parameters, from the strain and the stress of each.
+    /// Creates the path over these parameters. The closures return the strain and the stress of
+    /// each.
     fn through(
         parameters: impl Iterator<Item = f64>,
         strain: impl Fn(f64) -> [f64; 3],
@@ -55,7 +56,7 @@ fn about_third(angle: f64) -> Matrix<3> {
     Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
 }
 
-/// Equal steps up to `end`.
+/// Returns equal steps up to `end`.
 fn up_to(end: f64) -> impl Iterator<Item = f64> {
     (1..=STEPS).map(move |step| end * f64::from(step) / f64::from(STEPS))
 }
@@ -68,7 +69,7 @@ fn isochoric(e: f64) -> [f64; 3] {
     [e, -e, 0.0]
 }
 
-/// Drucker-Prager soil, K and mu (Pa): friction, dilation and strength k (Pa).
+/// Drucker-Prager soil: K and mu (Pa); friction, dilation and strength k (Pa).
 #[derive(Clone, Copy)]
 struct ConePaths([f64; 2], [f64; 3]);
 
@@ -81,7 +82,7 @@ impl ConePaths {
         MaterialPlan::DruckerPrager { young, poisson, friction, dilation, strength }
     }
 
-    /// Uniaxial strain without reversal.
+    /// Returns the stress in uniaxial strain without reversal.
     fn uniaxial(self, e: f64) -> [f64; 3] {
         let Self([bulk, mu], [eta, etab, k]) = self;
         let (sign, a) = (e.signum(), 2.0 * mu / 3.0_f64.sqrt());
@@ -97,7 +98,7 @@ impl ConePaths {
         [mean + sign * 2.0 / 3.0_f64.sqrt() * shear, lateral, lateral]
     }
 
-    /// The strain (e, -e, 0).
+    /// Returns the stress at the strain (e, -e, 0).
     fn isochoric(self, e: f64) -> [f64; 3] {
         let Self([bulk, mu], [eta, etab, k]) = self;
         let beyond = (e - k / (2.0 * mu)).max(0.0);
@@ -107,7 +108,7 @@ impl ConePaths {
     }
 }
 
-/// Mohr-Coulomb soil, lambda and mu (Pa): angles (degrees) and cohesion (Pa).
+/// Mohr-Coulomb soil: lambda and mu (Pa); two angles (degrees) and cohesion (Pa).
 #[derive(Clone, Copy)]
 struct PyramidPaths([f64; 2], [f64; 3]);
 
@@ -122,18 +123,20 @@ impl PyramidPaths {
         MaterialPlan::MohrCoulomb { young, poisson, friction_angle, dilation_angle, cohesion }
     }
 
-    /// `sin(phi)`, `sin(psi)` and `2 c cos(phi)`.
+    /// Returns `sin(phi)`, `sin(psi)` and `2 c cos(phi)`.
     fn surface(self) -> [f64; 3] {
         let [phi, psi, cohesion] = self.1;
         let sine = |angle: f64| libm::sin(angle.to_radians());
         [sine(phi), sine(psi), 2.0 * cohesion * libm::cos(phi.to_radians())]
     }
 
-    /// Uniaxial strain without reversal: on an edge beyond yield.
+    /// Returns the stress in uniaxial strain without reversal. After yield the stress is on an
+    /// edge.
     fn uniaxial(self, e: f64) -> [f64; 3] {
         let (Self([l, mu], _), [s, sp, strength]) = (self, self.surface());
         let m = l + 2.0 * mu;
-        // The multiplier, and the changes of the axial and of the other stresses by it.
+        // Overstress, and changes of the axial and lateral stress per unit of the plastic
+        // multiplier.
         let (towards, axial, lateral) = if e < 0.0 {
             let axial = -4.0 * l * sp + 4.0 * mu * (1.0 - sp);
             let lateral = -4.0 * l * sp - 2.0 * mu * (1.0 + sp);
@@ -156,7 +159,8 @@ impl PyramidPaths {
         [axial, lateral, lateral]
     }
 
-    /// The strain (e, -e, 0), as long as the third stress is between the others.
+    /// Returns the stress at the strain (e, -e, 0), as long as the third stress is between the
+    /// others.
     fn isochoric(self, e: f64) -> [f64; 3] {
         let (Self([l, mu], _), [s, sp, strength]) = (self, self.surface());
         let high = 2.0 * mu * (1.0 + sp) + 2.0 * l * sp;
@@ -167,7 +171,8 @@ impl PyramidPaths {
     }
 }
 
-/// Compression, and extension to the apex, on fixed axes and on axes that rotate by two radians.
+/// Tests compression, and extension to the apex, on fixed axes and on axes that rotate by two
+/// radians.
 #[rstest]
 fn drucker_prager_has_its_closed_forms_along_a_path(
     #[values(-0.05, -0.02, 0.0012, 0.005)] end: f64,
@@ -190,13 +195,14 @@ fn mohr_coulomb_has_its_closed_forms_along_a_path(
     let soil = PyramidPaths::soil(angles);
     let path = SoilPath::through(up_to(end), along_first, |e| soil.uniaxial(e));
     path.assert(soil.plan(), angle);
-    // Beyond this strain the stress is on an edge.
+    // At larger strains the stress is on an edge.
     let path = SoilPath::through(up_to(end.abs().min(0.01)), isochoric, |e| soil.isochoric(e));
     path.assert(soil.plan(), angle);
 }
 
-/// Compression, unloading inside the yield surface and back, twice: a closed cycle of strain leaves
-/// no stress, and further compression has the stress of a path without unloading.
+/// Tests compression, unloading inside the yield surface and reloading, twice. A closed cycle of
+/// strain does not change the stress, and further compression has the stress of a path without
+/// unloading.
 #[rstest]
 fn unloading_is_elastic_and_leaves_no_trace(#[values(0.0, 2.0)] angle: f64) {
     let cone = ConePaths::SOIL;
@@ -212,7 +218,8 @@ fn unloading_is_elastic_and_leaves_no_trace(#[values(0.0, 2.0)] angle: f64) {
     unload(pyramid.plan(), |e| pyramid.uniaxial(e), [lambda + 2.0 * mu, lambda], angle);
 }
 
-/// With the moduli (Pa) of the driven axis and of the other axes.
+/// Tests such a cycle. `axial` and `lateral` are the elastic moduli (Pa) for strain along the first
+/// axis.
 fn unload(
     plan: MaterialPlan,
     loading: impl Fn(f64) -> [f64; 3],
@@ -237,7 +244,7 @@ fn unload(
     path.assert(plan, angle);
 }
 
-/// One step has the stress of many: the strain paths are straight.
+/// The strain paths are straight, so one step gives the stress of many.
 #[test]
 fn one_step_has_the_stress_of_many() {
     let (cone, pyramid) = (ConePaths::SOIL, PyramidPaths::soil([30.0, 10.0]));
@@ -248,8 +255,9 @@ fn one_step_has_the_stress_of_many() {
     }
 }
 
-/// Clay that stays at a constant stress ratio or inside the yield surface: isotropic compression
-/// through the preconsolidation pressure, uniaxial and isochoric strain of overconsolidated clay.
+/// The clay stays at a constant stress ratio or inside the yield surface. Tests isotropic
+/// compression through the preconsolidation pressure, and uniaxial and isochoric strain of
+/// overconsolidated clay.
 #[rstest]
 fn clay_has_its_closed_forms_along_a_path(#[values(0.0, 2.0)] angle: f64) {
     let clay = |preconsolidation| MaterialPlan::CamClay {

@@ -1,4 +1,4 @@
-//! One particle of each registered material, for tests of the family.
+//! One particle of each registered material, for tests of all materials.
 
 use super::stress_update::StressUpdate;
 use super::tangent::StressResponse;
@@ -11,15 +11,16 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::{Block, Particles};
 use crate::subject::{Checkpoint, PlaneState};
 
-/// Duration (s) of a step with negligible viscous stresses, and of a step in which all other
-/// stresses are negligible. Both are powers of two, so velocity gradients times the step are exact.
+/// Duration (s) of a step with negligible viscous stresses. `FAST` is the duration of a step in
+/// which all other stresses are negligible. Both are powers of two, so velocity gradients times the
+/// step are exact.
 pub(super) const SLOW: f64 = 1_099_511_627_776.0;
 pub(super) const FAST: f64 = 1.0 / SLOW;
 
 /// Reference density of a specimen (kg/m3).
 pub(super) const DENSITY: f64 = 1.25;
 
-/// One instance of every registered material.
+/// Returns one instance of every registered material.
 pub(super) fn every() -> Vec<MaterialPlan> {
     MaterialPlan::every(|parameter| match *parameter {
         YOUNG => 100.0,
@@ -53,7 +54,8 @@ impl<const D: usize> Specimen<D> {
         Self(material, particles)
     }
 
-    /// A particle of a body with this out-of-plane state, if the law supports it.
+    /// Creates a particle of a body with this out-of-plane state; `None` if the law does not
+    /// support this state.
     pub(super) fn in_plane(plan: MaterialPlan, plane: PlaneState) -> Option<Self> {
         let Self(_, mut particles) = Self::new(plan);
         particles.across = vec![1.0];
@@ -63,7 +65,7 @@ impl<const D: usize> Specimen<D> {
         Some(Self(plan.in_plane(plane)?, particles))
     }
 
-    /// Stress after a step with this velocity gradient.
+    /// Returns the stress after a step with this velocity gradient.
     pub(super) fn flow(&mut self, grad_v: &Matrix<D>, dt: f64) -> Matrix<D> {
         let Self(material, particles) = self;
         particles.grad_v[0] = *grad_v;
@@ -72,19 +74,19 @@ impl<const D: usize> Specimen<D> {
         particles.sigma[0]
     }
 
-    /// Stress after a step with this velocity gradient and this hoop strain rate (1/s).
+    /// Returns the stress after a step with this velocity gradient and this hoop strain rate (1/s).
     pub(super) fn flow_in_hoops(&mut self, grad_v: &Matrix<D>, rate: f64, dt: f64) -> Matrix<D> {
         self.1.rate_across[0] = rate;
         self.1.across[0] *= 1.0 + rate * dt;
         self.flow(grad_v, dt)
     }
 
-    /// Stress after a step in which F becomes `step * F`.
+    /// Returns the stress after a step in which F becomes `step * F`.
     pub(super) fn deform(&mut self, step: &Matrix<D>, dt: f64) -> Matrix<D> {
         self.flow(&((step - Matrix::identity()) / dt), dt)
     }
 
-    /// Stress of a body that starts at this F.
+    /// Returns the stress of a body that starts at this F.
     pub(super) fn start(&mut self, f: &Matrix<D>) -> Matrix<D> {
         let Self(material, particles) = self;
         particles.deform(|_| (Vector::zeros(), *f));
@@ -92,7 +94,7 @@ impl<const D: usize> Specimen<D> {
         particles.sigma[0]
     }
 
-    /// Another specimen of `plan`, resumed from the state of this specimen.
+    /// Creates another specimen of `plan`, resumed from the state of this specimen.
     pub(super) fn interrupted(&mut self, plan: MaterialPlan) -> Self {
         let mut checkpoint = Checkpoint::empty();
         self.0.checkpoint(&mut checkpoint);
@@ -105,22 +107,22 @@ impl<const D: usize> Specimen<D> {
         other
     }
 
-    /// Response at this F from the current state.
+    /// Returns stress and tangent at this F, for a step from the current state.
     pub(super) fn response(&self, f: &Matrix<D>) -> Option<StressResponse<D>> {
         self.0.response(0, f)
     }
 
-    /// Stored energy (J) of a unit volume.
+    /// Returns the stored energy (J) of a unit volume.
     pub(super) fn energy(&self) -> Option<f64> {
         self.0.energy(&self.1)
     }
 
-    /// Out-of-plane stretch.
+    /// Returns the out-of-plane stretch.
     pub(super) fn across(&self) -> f64 {
         self.1.across[0]
     }
 
-    /// Out-of-plane stress (Pa).
+    /// Returns the out-of-plane stress (Pa).
     pub(super) fn stress_across(&self) -> f64 {
         self.1.stress_across[0]
     }
@@ -130,24 +132,24 @@ impl<const D: usize> Specimen<D> {
     }
 }
 
-/// Stress after one slow step from rest.
+/// Returns the stress after one slow step from rest.
 pub(super) fn stress<const D: usize>(plan: MaterialPlan, f: &Matrix<D>) -> Matrix<D> {
     Specimen::new(plan).deform(f, SLOW)
 }
 
-/// A matrix of irregular numbers with magnitudes up to `size`.
+/// Returns a matrix of irregular numbers with magnitudes up to `size`.
 pub(super) fn scattered<const D: usize>(size: f64, seed: f64) -> Matrix<D> {
     Matrix::from_fn(|i, j| size * libm::sin(seed + 7.0 * i as f64 + 11.3 * j as f64))
 }
 
-/// F of a stretch along the first axis.
+/// Returns F of a stretch along the first axis.
 pub(super) fn diagonal<const D: usize>(first: f64) -> Matrix<D> {
     let mut m = Matrix::identity();
     m[(0, 0)] = first;
     m
 }
 
-/// A tensor of the plane with the out-of-plane component `across`.
+/// Returns a plane tensor with the out-of-plane component `across`.
 pub(super) fn in_space(m: &Matrix<2>, across: f64) -> Matrix<3> {
     let mut space = Matrix::<3>::from_diagonal_element(across);
     space.fixed_view_mut::<2, 2>(0, 0).copy_from(m);

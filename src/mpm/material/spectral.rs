@@ -2,21 +2,22 @@
 //!
 //! Golub & Van Loan, *Matrix Computations* (4th ed., 2013), section 8.5. The algorithm uses only
 //! products, quotients and square roots in a fixed order, so results are bit-identical everywhere.
-//! Equal eigenvalues are no special case. The eigenvalues of a positive definite matrix have a
-//! small relative error (Demmel & Veselic 1992), as the logarithm of a small eigenvalue requires.
+//! Equal eigenvalues need no special treatment. The eigenvalues of a positive definite matrix have
+//! a small relative error (Demmel & Veselic 1992), which the logarithm of a small eigenvalue
+//! requires.
 //!
-//! The batch version applies the operations of [`spectral`] to all particles of a batch at once.
-//! This version has no branches, so the compiler vectorises the loops. A test checks that the bits
-//! are equal.
+//! The batch version applies the operations of [`spectral`] to all particles of a batch at once,
+//! without branches, so the compiler vectorises the loops. A test checks that the bits are equal.
 
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
 
 /// Maximum number of sweeps. Each sweep squares the off-diagonal entries, so a few sweeps suffice.
-/// The limit ends the loop for NaN.
+/// For NaN, the loop ends only at this limit.
 const MOST_SWEEPS: usize = 12;
 
-/// Eigenvalues of the symmetric matrix `m`, and its axes as columns: `m = A diag(values) A^T`.
+/// Computes the eigenvalues of the symmetric matrix `m` and its axes as columns:
+/// `m = A diag(values) A^T`.
 pub(super) fn spectral<const D: usize>(m: &Matrix<D>) -> (Vector<D>, Matrix<D>) {
     let (mut m, mut axes) = (*m, Matrix::identity());
     for _ in 0..MOST_SWEEPS {
@@ -33,18 +34,19 @@ pub(super) fn spectral<const D: usize>(m: &Matrix<D>) -> (Vector<D>, Matrix<D>) 
     (m.diagonal(), axes)
 }
 
-/// The symmetric matrix with these eigenvalues and axes.
+/// Returns the symmetric matrix with these eigenvalues and axes.
 pub(super) fn assembled<const D: usize>(values: &Vector<D>, axes: &Matrix<D>) -> Matrix<D> {
     axes * Matrix::from_diagonal(values) * axes.transpose()
 }
 
-/// Half the logarithm of each eigenvalue: the logarithmic strain for eigenvalues of F F^T.
+/// Returns half the logarithm of each eigenvalue. For eigenvalues of F F^T this is the logarithmic
+/// strain.
 pub(super) fn half_log<const D: usize>(values: &Vector<D>) -> Vector<D> {
     values.map(|value| 0.5 * libm::log(value))
 }
 
-/// Rotates the axes p and q such that the entry (p, q) vanishes. Returns false if it is already
-/// negligible.
+/// Rotates the axes p and q such that the entry (p, q) vanishes. Returns false if the entry is
+/// already negligible.
 fn rotate<const D: usize>(m: &mut Matrix<D>, axes: &mut Matrix<D>, p: usize, q: usize) -> bool {
     let (low, high, coupling) = (m[(p, p)], m[(q, q)], m[(p, q)]);
     if coupling * coupling <= f64::EPSILON * f64::EPSILON * (low * high).abs() {
@@ -61,7 +63,7 @@ fn rotate<const D: usize>(m: &mut Matrix<D>, axes: &mut Matrix<D>, p: usize, q: 
     turn[(q, p)] = -tangent * cosine;
     *m = turn.transpose() * *m * turn;
     *axes *= turn;
-    // These are the entries of the product above, computed without cancellation.
+    // The diagonal entries are computed again, because the product above suffers from cancellation.
     m[(p, p)] = low - tangent * coupling;
     m[(q, q)] = high + tangent * coupling;
     m[(p, q)] = 0.0;
@@ -74,7 +76,7 @@ fn rotate<const D: usize>(m: &mut Matrix<D>, axes: &mut Matrix<D>, p: usize, q: 
 pub(in crate::mpm::material) struct MatrixBatch<const D: usize>([[F64Batch; D]; D]);
 
 impl<const D: usize> MatrixBatch<D> {
-    /// Identity matrices for all particles.
+    /// Returns identity matrices for all particles.
     #[inline(always)]
     pub(in crate::mpm::material) fn identity() -> Self {
         let mut all = Self([[F64Batch::ZERO; D]; D]);
@@ -94,7 +96,7 @@ impl<const D: usize> MatrixBatch<D> {
         }
     }
 
-    /// The matrix of particle `lane` of the batch.
+    /// Returns the matrix of particle `lane` of the batch.
     #[inline(always)]
     pub(in crate::mpm::material) fn get(&self, lane: usize) -> Matrix<D> {
         let mut m = Matrix::zeros();
@@ -114,7 +116,7 @@ pub(in crate::mpm::material) struct VectorBatch<const D: usize>(
 );
 
 impl<const D: usize> VectorBatch<D> {
-    /// The vector of particle `lane` of the batch.
+    /// Returns the vector of particle `lane` of the batch.
     #[inline(always)]
     pub(in crate::mpm::material) fn get(&self, lane: usize) -> Vector<D> {
         let mut vector = Vector::zeros();
@@ -142,7 +144,7 @@ impl<const D: usize> VectorBatch<D> {
     }
 }
 
-/// Eigenvalues of the symmetric matrices `m`, and their axes as columns.
+/// Computes the eigenvalues of the symmetric matrices `m` and their axes as columns.
 #[inline(always)]
 pub(in crate::mpm::material) fn spectral_batch<const D: usize>(
     mut m: MatrixBatch<D>,
@@ -166,7 +168,8 @@ pub(in crate::mpm::material) fn spectral_batch<const D: usize>(
     (VectorBatch(values), axes)
 }
 
-/// Half the logarithm of each number: the logarithmic strain for an eigenvalue of F F^T.
+/// Returns half the logarithm of each number. For eigenvalues of F F^T this is the logarithmic
+/// strain.
 #[inline(always)]
 pub(in crate::mpm::material) fn half_log_batch(values: &F64Batch) -> F64Batch {
     let mut strains = ln(values);
@@ -176,7 +179,7 @@ pub(in crate::mpm::material) fn half_log_batch(values: &F64Batch) -> F64Batch {
     strains
 }
 
-/// Symmetric matrices with these eigenvalues and axes.
+/// Returns the symmetric matrices with these eigenvalues and axes.
 #[inline(always)]
 pub(in crate::mpm::material) fn assembled_batch<const D: usize>(
     values: &VectorBatch<D>,
@@ -249,7 +252,7 @@ fn rotate_batch<const D: usize>(
     turned != 0
 }
 
-/// Two columns of a row, with p < q.
+/// Returns columns p and q of a row, with p < q.
 #[inline(always)]
 fn pair<const D: usize>(row: &mut [F64Batch; D], p: usize, q: usize) -> [&mut F64Batch; 2] {
     let (head, tail) = row.split_at_mut(q);
@@ -285,7 +288,7 @@ mod tests {
         }
     }
 
-    /// Two and three equal eigenvalues, up to rounding or exactly, with oblique axes.
+    /// Tests two and three equal eigenvalues, up to rounding or exactly, with oblique axes.
     #[test]
     fn eigenvalues_may_coincide() {
         let (_, axes) = spectral(&symmetric::<3>(&[0.3, 0.5, -0.2, 0.1, 0.4, 0.7, 0.9, 0.2, -0.6]));
@@ -316,7 +319,7 @@ mod tests {
         assert!(spectral(&Matrix::<3>::from_element(f64::NAN)).0.iter().all(|v| v.is_nan()));
     }
 
-    /// The results of a batch are bit-identical to the results of single particles.
+    /// Asserts that the results of a batch are bit-identical to the results of single particles.
     fn hold_batch<const D: usize>(given: &[Matrix<D>; BATCH]) {
         let mut m = MatrixBatch::identity();
         for (lane, given) in given.iter().enumerate() {
@@ -354,7 +357,8 @@ mod tests {
         }
     }
 
-    /// Some matrices need no rotation, some have equal eigenvalues, and one is not finite.
+    /// Tests matrices that need no rotation, matrices with equal eigenvalues, and one that is not
+    /// finite.
     #[test]
     fn extremes_have_the_bits_of_single_particles() {
         let shear = |s: f64| Matrix::<3>::new(1.0, s, 0.0, s, 1.0 + s * s, 0.0, 0.0, 0.0, 1.0);

@@ -19,14 +19,14 @@ const BLOCK: usize = 128;
 pub struct StressUpdate<'a, const D: usize> {
     dt: f64,
     particles: &'a mut Particles<D>,
-    /// Whether F still belongs to the start of the step.
+    /// Whether F is still that of the start of the step.
     awaits_strain: bool,
-    /// The smallest J of the last visit, if all J were positive and all stresses finite.
+    /// Smallest J of the last visit, if all J were positive and all stresses finite.
     least_j: Option<f64>,
 }
 
-/// Columns of some particles that a law reads and writes. Columns that the body does not have are
-/// empty.
+/// Columns of a block of particles, which a law reads and writes. Columns that the body does not
+/// have are empty.
 #[derive(Debug)]
 pub struct StressBlock<'a, const D: usize> {
     /// F at the end of the step.
@@ -47,7 +47,7 @@ pub struct StressBlock<'a, const D: usize> {
     pub stress_across: &'a mut [f64],
 }
 
-/// Function of a law for one block of particles, with the state of the law for each particle.
+/// A law for one block of particles. The second argument is the state of the law for each particle.
 type BlockLaw<'a, const D: usize, S> = dyn Fn(&mut StressBlock<'_, D>, &mut [S]) + Sync + 'a;
 
 impl<'a, const D: usize> StressUpdate<'a, D> {
@@ -56,23 +56,23 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
         Self { dt, particles, awaits_strain: false, least_j: None }
     }
 
-    /// Creates an update over `dt` (s) for particles with F of the start of the step. The velocity
-    /// gradients advance F in the same visit as the law.
+    /// Creates an update over `dt` (s) for particles whose F is that of the start of the step. The
+    /// velocity gradients advance F in the same visit as the law.
     pub(in crate::mpm) fn straining(dt: f64, particles: &'a mut Particles<D>) -> Self {
         Self { awaits_strain: true, ..Self::new(dt, particles) }
     }
 
-    /// Time step (s).
+    /// Returns the time step (s).
     pub fn dt(&self) -> f64 {
         self.dt
     }
 
-    /// Number of particles.
+    /// Returns the number of particles.
     pub fn count(&self) -> usize {
         self.particles.len()
     }
 
-    /// All particles, with F at the end of the step.
+    /// Returns all particles, with F at the end of the step.
     pub fn particles(&mut self) -> &mut Particles<D> {
         if std::mem::take(&mut self.awaits_strain) {
             strain_by(self.dt, &self.particles.grad_v, &mut self.particles.def_grad);
@@ -86,8 +86,8 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
         self.by_block_with(&mut Vec::<()>::new(), &|block, _| law(block));
     }
 
-    /// Calls `law` for all particles, block by block, on all threads. `law` also receives its
-    /// `state` of each particle, which the first call creates.
+    /// Calls `law` for all particles, block by block, on all threads. `law` also receives the
+    /// entries of `state` for these particles. The first call creates them.
     pub fn by_block_with<S: Clone + Default + Send>(
         &mut self,
         state: &mut Vec<S>,
@@ -98,8 +98,8 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
         self.least_j = visit(StressBlock::from_particles(self.particles), state, strain, law);
     }
 
-    /// Smallest J (infinity without particles). `None` unless every J is positive and finite and
-    /// all stresses are finite.
+    /// Returns the smallest J (infinity without particles). `None` unless every J is positive and
+    /// finite and all stresses are finite.
     pub(in crate::mpm) fn least_j(mut self) -> Option<f64> {
         if self.least_j.is_none() {
             self.by_block(|_| {});
@@ -129,7 +129,7 @@ impl<'a, const D: usize> StressBlock<'a, D> {
         }
     }
 
-    /// Smallest J, if every J and all stresses are valid.
+    /// Returns the smallest J, if every J and all stresses are valid.
     fn least_j(&self) -> Option<f64> {
         let least = least_ratio(self.vol, self.vol0)?;
         let is_sound = all_finite(self.sigma) && self.stress_across.iter().all(|s| s.is_finite());
@@ -143,8 +143,8 @@ fn first_mut<'a, T>(column: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     column.split_off_mut(..count.min(column.len())).unwrap_or_default()
 }
 
-/// Advances F over the time `strain` (s), if given, and calls `law`, block by block. Returns the
-/// smallest J, see [`StressUpdate::least_j`].
+/// Calls `law` block by block. If a time `strain` (s) is given, first advances F over this time.
+/// Returns the smallest J, see [`StressUpdate::least_j`].
 fn visit<S: Send, const D: usize>(
     mut body: StressBlock<'_, D>,
     mut state: &mut [S],
@@ -197,8 +197,8 @@ fn strain_by<const D: usize>(dt: f64, grad_v: &[Matrix<D>], def_grad: &mut [Matr
 /// Number of ratios that are computed together.
 const TOGETHER: usize = 4;
 
-/// Smallest `a / b`, if all ratios are positive and finite; infinity for empty slices. The loop has
-/// no early exit, because failures are rare, and divides several numbers at a time.
+/// Returns the smallest `a / b` if all ratios are positive and finite; infinity for empty slices.
+/// The loop has no early exit, because failures are rare, and divides several numbers at a time.
 fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
     let (many_a, rest_a) = a.as_chunks::<TOGETHER>();
     let (many_b, rest_b) = b.as_chunks::<TOGETHER>();
@@ -209,7 +209,7 @@ fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
             for (a, b) in many_a.iter().zip(many_b) {
                 for k in 0..TOGETHER {
                     let ratio = a[k] / b[k];
-                    // Adds zero if the ratio is finite. Otherwise the sum becomes NaN and stays
+                    // Adds zero if the ratio is finite. Otherwise the sum becomes NaN and remains
                     // NaN.
                     sound[k] += ratio * 0.0;
                     least[k] = if ratio < least[k] { ratio } else { least[k] };
@@ -232,7 +232,7 @@ mod tests {
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 
-    /// Squares at rest, each with its own velocity gradient (1/s).
+    /// Creates squares at rest, each with its own velocity gradient (1/s).
     fn squares(total: usize) -> Particles<2> {
         let (from, to) = (Vector::zeros(), Vector::<2>::new(total as f64, 1.0));
         let mut squares = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
@@ -243,7 +243,7 @@ mod tests {
         squares
     }
 
-    /// Compares each particle with an update of this particle alone.
+    /// Compares each particle of an update with an update of this particle alone.
     #[rstest]
     fn blocks_on_threads_have_the_bits_of_single_particles(#[values(1, 3)] threads: usize) {
         let (total, dt) = (2 * FEW + 37, 0.5);
@@ -282,7 +282,7 @@ mod tests {
         }
     }
 
-    /// The test simulates a hook that changes the volume of a particle.
+    /// The test changes the volume of a particle outside the law.
     #[test]
     fn who_asks_for_the_particles_has_them_strained_and_checked_again() {
         let mut body = squares(3);

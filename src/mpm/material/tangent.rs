@@ -18,7 +18,8 @@ use super::spectral::{assembled, half_log, spectral};
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 
 /// Relative difference of two principal values below which the limit replaces the quotient. The
-/// error of the limit is the square of this difference, and the quotient loses as many digits.
+/// error of the limit is the square of this difference. The relative rounding error of the quotient
+/// is inversely proportional to the difference.
 const EQUAL: f64 = 1e-5;
 
 /// Kirchhoff stress of a particle, with its derivative with respect to the deformation. The state
@@ -27,9 +28,9 @@ const EQUAL: f64 = 1e-5;
 pub struct StressResponse<const D: usize> {
     /// Kirchhoff stress `tau = J sigma` (Pa).
     pub kirchhoff: Matrix<D>,
-    /// Principal values of `b`.
+    /// Principal values of the tensor `b`.
     squares: Vector<3>,
-    /// Axes of `b`, as columns.
+    /// Axes of the tensor `b`, as columns.
     axes: Matrix<3>,
     /// Principal Kirchhoff stresses (Pa).
     stresses: Vector<3>,
@@ -39,8 +40,8 @@ pub struct StressResponse<const D: usize> {
 }
 
 impl<const D: usize> StressResponse<D> {
-    /// Response of a law at `F` for the metric `G`. `principal` computes the principal stresses
-    /// (Pa) and their derivatives from the principal logarithmic strains.
+    /// Computes stress and tangent of a law at `F` for the tensor `G`. `principal` returns the
+    /// principal stresses (Pa) and their derivatives for given principal logarithmic strains.
     pub(super) fn new(
         f: &Matrix<D>,
         metric: &Matrix<3>,
@@ -53,7 +54,8 @@ impl<const D: usize> StressResponse<D> {
         Self { kirchhoff, squares, axes, stresses, modulus }
     }
 
-    /// Change of the Kirchhoff stress (Pa) due to a change `dF = dh F` of the deformation gradient.
+    /// Returns the change of the Kirchhoff stress (Pa) due to a change `dF = dh F` of the
+    /// deformation gradient.
     pub fn tangent(&self, dh: &Matrix<D>) -> Matrix<D> {
         let mut space = Matrix::<3>::zeros();
         space.fixed_view_mut::<D, D>(0, 0).copy_from(dh);
@@ -68,7 +70,7 @@ impl<const D: usize> StressResponse<D> {
         in_body(&(self.axes * change * self.axes.transpose()))
     }
 
-    /// `(tau_a - tau_b)/(b_a - b_b)` (Pa).
+    /// Returns `(tau_a - tau_b)/(b_a - b_b)` (Pa), or its limit for nearly equal values.
     fn slope(&self, a: usize, b: usize) -> f64 {
         let difference = self.squares[a] - self.squares[b];
         if difference.abs() > EQUAL * self.squares[a].max(self.squares[b]) {
@@ -80,18 +82,18 @@ impl<const D: usize> StressResponse<D> {
     }
 }
 
-/// F in three dimensions, with unit stretch along the missing axes.
+/// Extends F to three dimensions, with unit stretch along the missing axes.
 pub(super) fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
     Matrix::from_fn(|i, k| if i < D && k < D { f[(i, k)] } else { f64::from(u8::from(i == k)) })
 }
 
-/// Components in the dimensions of the body.
+/// Returns the components in the dimensions of the body.
 fn in_body<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
     Matrix::from_fn(|i, k| m[(i, k)])
 }
 
-/// The matrix `spherical 1 (x) 1 + 2 mu I` of moduli (Pa). In linear elasticity, `spherical` is the
-/// first Lamé parameter.
+/// Returns the matrix `spherical 1 (x) 1 + 2 mu I` of moduli (Pa). In linear elasticity,
+/// `spherical` is the first Lamé parameter.
 pub(super) fn isotropic_modulus(spherical: f64, mu: f64) -> Matrix<3> {
     Matrix::from_fn(|a, b| if a == b { spherical + 2.0 * mu } else { spherical })
 }
@@ -109,21 +111,22 @@ mod tests {
         plan.properties().has_tangent().is_ok()
     }
 
-    /// Largest difference between the tangent and central differences, relative to the tangent, at
-    /// `f` after the deformation `before`.
+    /// Returns the largest difference between the tangent and central differences, relative to the
+    /// tangent, at `f` after the deformation `before`.
     fn difference<const D: usize>(plan: MaterialPlan, before: &Matrix<D>, f: &Matrix<D>) -> f64 {
         let mut specimen = Specimen::<D>::new(plan);
         specimen.deform(before, SLOW);
         let response = |f: &Matrix<D>| specimen.response(f).expect("a law with a tangent");
         let (at, step) = (response(f), 1e-5);
-        // At the apex of a cone the tangent is zero.
+        // The minimum size avoids a division by zero at the apex of a cone, where the tangent is
+        // zero.
         let (mut largest, mut size) = (0.0_f64, 1e-3 * plan.properties().wave_modulus(1.0));
         for k in 0..D * D {
             let mut dh = Matrix::<D>::zeros();
             dh[(k / D, k % D)] = 1.0;
             let stress = |step: f64| response(&((Matrix::identity() + dh * step) * f)).kirchhoff;
-            // Fourth order, because the error of a second-order difference would be 1e-10 of the
-            // modulus.
+            // The difference is of fourth order. The error of a second-order difference would be
+            // 1e-10 of the modulus.
             let wide = (stress(2.0 * step) - stress(-2.0 * step)) / (4.0 * step);
             let narrow = (stress(step) - stress(-step)) / (2.0 * step);
             let expected = (narrow * 4.0 - wide) / 3.0;
@@ -137,7 +140,8 @@ mod tests {
     fn tangent_is_the_derivative<const D: usize>(plan: MaterialPlan) {
         let identity = Matrix::<D>::identity();
         for (size, seed) in [(0.0, 0.1), (1e-3, 0.4), (0.02, 1.3), (0.15, 2.9), (0.15, 4.2)] {
-            // The first size gives equal principal values, for a pure compression.
+            // With the first size, which is zero, the deformation is a pure compression with equal
+            // principal values.
             let f = identity * 0.97 + scattered::<D>(size, seed);
             let before = identity + scattered::<D>(0.5 * size, seed + 0.7);
             let error = difference(plan, &before, &f);

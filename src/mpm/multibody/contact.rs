@@ -1,21 +1,21 @@
 //! Frictional contact at the interface nodes of bodies (Bardenhagen, Brackbill & Sulsky 2000, CMAME
 //! 187, section 3).
 //!
-//! Each body has its own velocity at such a node. Two bodies that approach, `(v_a - v_b) . n > 0`,
-//! receive equal and opposite impulses. These make the normal velocities equal. They also make the
-//! tangential velocities equal, unless this requires more than mu times the normal impulse, the
-//! friction limit. Bodies that separate are not changed.
+//! Each body has its own velocity at an interface node. Two bodies that approach,
+//! `(v_a - v_b) . n > 0`, receive equal and opposite impulses, which make the normal velocities
+//! equal. The impulses also make the tangential velocities equal, unless this requires more than
+//! the friction limit, mu times the normal impulse. Bodies that separate are not changed.
 //!
 //! The normal is the direction of `grad ln m_a - grad ln m_b`. Bardenhagen et al. use a separate
 //! normal from the mass of each body. Two such normals are not opposite, so the impulses would not
 //! be opposite either. With one normal for both bodies, momentum is conserved to rounding, for any
-//! number of bodies, with one pair processed after another. The logarithm is used because the mass
-//! field of a smooth basis oscillates inside a body. At a node near the last particles of one body
-//! and inside the other body, `grad m_a - grad m_b` may have the wrong sign.
+//! number of bodies. Pairs of bodies are processed one after another. The logarithm is used because
+//! the mass field of a smooth basis oscillates inside a body. At a node near the last particles of
+//! one body and inside the other body, `grad m_a - grad m_b` may have the wrong sign.
 //!
 //! Impulses are added to accelerations, `a_i = (v*_i - v_i)/dt`, so that particles receive the
-//! complete impulses. Velocities that strain the bodies before or after are corrected in the same
-//! way, only for the strain.
+//! complete impulses. Velocities that strain the bodies before or after the impulses are corrected
+//! in the same way, but only for the strain update.
 
 use super::coupling::{Coupling, InterfaceNodes};
 use crate::mpm::boundary::ContactState;
@@ -33,7 +33,7 @@ pub(in crate::mpm) struct Contact<const D: usize> {
     interface: InterfaceNodes,
     /// Mass gradient of each body, `sum_p m_p grad N_i` (kg/m), up to date at interface nodes.
     outwards: Vec<Vec<Vector<D>>>,
-    /// All pairs of bodies.
+    /// All pairs of bodies, by index.
     pairs: Vec<[usize; 2]>,
     /// Contact state after the last impulse, for each node and pair of bodies.
     states: Vec<ContactState>,
@@ -42,7 +42,7 @@ pub(in crate::mpm) struct Contact<const D: usize> {
 }
 
 impl<const D: usize> Contact<D> {
-    /// Contact among `bodies` with a coefficient of friction.
+    /// Creates the contact among `bodies`. `friction` is the coefficient of friction.
     pub(in crate::mpm) fn new(bodies: &[Solver<D>], friction: f64) -> Self {
         let column = |body: &Solver<D>| vec![Vector::zeros(); body.grid().nodes()];
         let strained_first = |body: &&Solver<D>| body.setup.scheme == SchemeName::Usf;
@@ -88,8 +88,8 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// Contact law: returns the contact state, and the change of the velocity relative to the other
-    /// body.
+    /// Contact law: returns the contact state, and the change of the relative velocity of two
+    /// bodies.
     fn law(&self, relative: &Vector<D>, normal: &Vector<D>) -> (ContactState, Vector<D>) {
         let approach = relative.dot(normal);
         if !(approach > 0.0) {
@@ -104,8 +104,8 @@ impl<const D: usize> Contact<D> {
     }
 
     /// Applies the contact states of the last impulses to velocities that strain the bodies. Normal
-    /// velocities of bodies in contact become equal, and tangential velocities too if the bodies
-    /// stick.
+    /// velocities of bodies in contact become equal. Tangential velocities also become equal if the
+    /// bodies stick.
     fn hold(&self, bodies: &mut [Solver<D>]) {
         for &i in self.interface.nodes() {
             for (pair, [a, b]) in self.pairs.iter().copied().enumerate() {
@@ -126,7 +126,8 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// Normal and reduced mass of a pair of bodies at node i, if both bodies have mass there.
+    /// Returns normal and reduced mass of a pair of bodies at node i; `None` unless both have mass
+    /// there.
     fn meet_at(&self, bodies: &[Solver<D>], i: usize, pair: usize) -> Option<ContactPair<D>> {
         let [(m, out_of_one), (k, out_of_other)] =
             self.pairs[pair].map(|k| (bodies[k].setup.grid.mass[i], &self.outwards[k][i]));
@@ -168,8 +169,8 @@ impl<const D: usize> Coupling<D> for Contact<D> {
         ]
     }
 
-    /// Visits the contact states of the last impulses, which are applied to velocities that strain
-    /// the bodies.
+    /// Visits the contact states of the last impulses. The next step applies them to velocities
+    /// that strain the bodies.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.states[..]);
     }

@@ -9,19 +9,19 @@ use crate::subject::{Checkpoint, Column};
 
 /// Coupling of two or more bodies at their interface nodes.
 pub(in crate::mpm) trait Coupling<const D: usize>: Send {
-    /// Name in suites, if the coupling is an effect.
+    /// Returns the name in suites, if the coupling is an effect.
     fn name(&self) -> Option<&'static str>;
 
-    /// Columns with entries for nodes.
+    /// Returns the columns with entries for nodes.
     fn columns(&self) -> Vec<Column<'_>>;
 
-    /// Visits the state that persists between steps.
+    /// Visits the state that persists between steps, to store or restore it.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
     /// Whether the coupling reads velocities before they advance.
     fn reads_velocity(&self) -> bool;
 
-    /// Interface nodes, to which more than one body contributes mass.
+    /// Returns the interface nodes, to which more than one body contributes mass.
     fn nodes(&self) -> &[usize];
 
     /// Couples the bodies at one point of a step of `dt` (s).
@@ -33,7 +33,7 @@ pub(in crate::mpm) trait Coupling<const D: usize>: Send {
 pub(in crate::mpm) struct InterfaceNodes(Vec<usize>);
 
 impl InterfaceNodes {
-    /// Empty list, with capacity for all nodes of the grid that `bodies` share.
+    /// Creates an empty list, with capacity for all nodes of the grid that `bodies` share.
     pub(in crate::mpm) fn new<const D: usize>(bodies: &[Solver<D>]) -> Self {
         Self(Vec::with_capacity(bodies.first().map_or(0, |body| body.grid().nodes())))
     }
@@ -47,13 +47,13 @@ impl InterfaceNodes {
         self.0.extend((0..first.grid().nodes()).filter(|node| present(*node) > 1));
     }
 
-    /// The interface nodes.
+    /// Returns the interface nodes.
     pub(in crate::mpm) fn nodes(&self) -> &[usize] {
         &self.0
     }
 }
 
-/// One velocity field for all bodies.
+/// Coupling by one velocity field for all bodies.
 pub(in crate::mpm) struct SharedVelocity(InterfaceNodes);
 
 impl SharedVelocity {

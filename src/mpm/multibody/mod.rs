@@ -28,7 +28,7 @@ use coupling::{Coupling, SharedVelocity};
 /// Bodies on a common grid. Particles are numbered over all bodies, one body after another.
 pub struct Bodies<const D: usize> {
     solvers: Vec<Solver<D>>,
-    /// `None` for a single body.
+    /// Coupling at interface nodes; `None` for a single body.
     coupling: Option<Box<dyn Coupling<D>>>,
     schedule: StepSchedule,
 }
@@ -59,23 +59,23 @@ impl<const D: usize> Bodies<D> {
         Ok(bodies)
     }
 
-    /// The solver of each body.
+    /// Returns the solver of each body.
     pub fn solvers(&self) -> &[Solver<D>] {
         &self.solvers
     }
 
-    /// Number of interface nodes in the current step.
+    /// Returns the number of interface nodes in the current step.
     pub fn interface_nodes(&self) -> usize {
         self.coupling.as_ref().map_or(0, |coupling| coupling.nodes().len())
     }
 
-    /// Profile of a step of all bodies and their coupling.
+    /// Returns the profile of a step of all bodies and their coupling.
     pub fn profile(&self) -> Profile {
         let coupling = self.coupling.as_deref();
         joint_profile(self.solvers.iter().map(Solver::profile), coupling)
     }
 
-    /// Number of visits by all bodies, see [`Solver::take_visits`].
+    /// Returns the number of visits by all bodies, see [`Solver::take_visits`].
     pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
         let tallies = self.solvers.iter().map(|solver| solver.setup.kernel.tally());
         Tally::take(&tallies.collect::<Vec<_>>())
@@ -128,7 +128,7 @@ impl<const D: usize> Subject for Bodies<D> {
         for solver in &self.solvers {
             solver.particles().sample(samples);
         }
-        // A column is empty if a body does not have it.
+        // The column must be empty if some body does not have it.
         if samples.deformation_gradient.len() != samples.len() * D * D {
             samples.deformation_gradient.clear();
         }
@@ -153,7 +153,7 @@ impl<const D: usize> Subject for Bodies<D> {
         }
     }
 
-    /// Passes of the first body, whose schedule all bodies share, and of the coupling.
+    /// Returns the passes of the first body, whose schedule all bodies share, and of the coupling.
     fn passes(&self) -> Vec<String> {
         let state = self.solvers.first().map(|one| one.setup.state_passes());
         self.schedule.texts(&state.unwrap_or_default())
@@ -169,7 +169,7 @@ impl<const D: usize> Subject for Bodies<D> {
     }
 }
 
-/// Renumbers the particle in a failure, for a body whose first particle has the number `first`.
+/// Renumbers the particle in a failure. `first` is the number of the body's first particle.
 pub(in crate::mpm) fn among(failure: Failure, first: usize) -> Failure {
     let shifted = |site: Site| match site {
         Site::Particle(p) => Site::Particle(first + p),
@@ -187,8 +187,8 @@ pub(in crate::mpm) fn among(failure: Failure, first: usize) -> Failure {
     }
 }
 
-/// One profile for all bodies and their coupling. Every body has its own grid, so nodes are summed
-/// over all grids.
+/// Combines the profiles of all bodies and their coupling into one. Every body has its own grid, so
+/// nodes are summed over all grids.
 pub(in crate::mpm) fn joint_profile<const D: usize>(
     bodies: impl Iterator<Item = Profile>,
     coupling: Option<&dyn Coupling<D>>,
@@ -212,8 +212,8 @@ pub(in crate::mpm) fn joint_profile<const D: usize>(
     all
 }
 
-/// Adds the columns of one body to `all`. A column is added to the column of the same kind. Several
-/// columns of one kind (two walls) are matched in order.
+/// Adds the columns of one body to `all`. Columns of the same kind are added to each other. If a
+/// body has several columns of one kind, for example for two walls, they are matched in order.
 fn add_columns(all: &mut Vec<ColumnSize>, body: Vec<ColumnSize>) {
     let kind = |column: &ColumnSize| (column.name, column.holder, column.bytes);
     let known = all.len();

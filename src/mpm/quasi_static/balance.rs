@@ -27,7 +27,7 @@ use std::array;
 /// unknown, because its row of the tangent would be singular.
 const LEAST_WEIGHT: f64 = 1e-12;
 
-/// Maximum number of stored entries of the tangent, 4 GB.
+/// Maximum number of stored entries of the tangent (4 GB).
 const MOST_ENTRIES: usize = 1 << 29;
 
 /// Basis function of one node at a particle.
@@ -35,15 +35,15 @@ const MOST_ENTRIES: usize = 1 << 29;
 pub(super) struct NodeFunction<const D: usize> {
     pub(super) node: usize,
     pub(super) weight: f64,
-    /// Gradient (1/m).
+    /// Gradient of the function (1/m).
     pub(super) gradient: Vector<D>,
 }
 
 /// Basis functions of all particles at the start of a step, and the unknowns of the step.
 pub(super) struct StepEquations<const D: usize> {
-    /// Functions of all particles, one particle after another.
+    /// Basis functions of all particles, one particle after another.
     functions: Vec<NodeFunction<D>>,
-    /// End of each particle's functions.
+    /// Index at which each particle's functions end.
     ends: Vec<usize>,
     /// Index of the unknown of each component of each node; `None` if the component is fixed, or if
     /// no particle has a function at this node.
@@ -62,7 +62,7 @@ pub(super) struct Iterate<const D: usize> {
     /// Norm of the residual over the unknowns (N).
     pub(super) norm: f64,
     responses: Vec<StressResponse<D>>,
-    /// `(I + grad u)^-T` of each particle.
+    /// Factor `(I + grad u)^-T` of the gradients at each particle.
     push: Vec<Matrix<D>>,
 }
 
@@ -119,18 +119,18 @@ impl<const D: usize> StepEquations<D> {
         Ok(balance)
     }
 
-    /// Functions of particle `p`.
+    /// Returns the functions of particle `p`.
     pub(super) fn functions_of(&self, p: usize) -> &[NodeFunction<D>] {
         let start = if p == 0 { 0 } else { self.ends[p - 1] };
         &self.functions[start..self.ends[p]]
     }
 
-    /// Number of particle-node pairs.
+    /// Returns the number of particle-node pairs.
     pub(super) fn pairs(&self) -> u64 {
         self.functions.len() as u64
     }
 
-    /// `I + grad u` at particle `p`.
+    /// Returns `I + grad u` at particle `p`.
     pub(super) fn stretch(&self, p: usize, increment: &[Vector<D>]) -> Matrix<D> {
         let gradient = |sum: Matrix<D>, function: &NodeFunction<D>| {
             sum + dyad(&increment[function.node], &function.gradient)
@@ -138,12 +138,12 @@ impl<const D: usize> StepEquations<D> {
         self.functions_of(p).iter().fold(Matrix::identity(), gradient)
     }
 
-    /// Norm of a nodal field over the unknowns.
+    /// Returns the norm of a nodal field over the unknowns.
     pub(super) fn norm(&self, field: &[Vector<D>]) -> f64 {
         self.of_unknowns(field).iter().fold(0.0, |sum, value| libm::hypot(sum, *value))
     }
 
-    /// Node of the unknown with the largest magnitude of a field, and this magnitude.
+    /// Returns the node of the unknown with the largest magnitude of a field, and this magnitude.
     pub(super) fn largest(&self, field: &[Vector<D>]) -> (usize, f64) {
         let values = self.of_unknowns(field).into_iter().map(f64::abs);
         let of_nodes = self.nodes.iter().copied().zip(values);
@@ -200,7 +200,7 @@ impl<const D: usize> StepEquations<D> {
         Ok(Iterate { increment, residual, norm, responses, push })
     }
 
-    /// Newton correction of an iterate (m).
+    /// Computes the Newton correction of an iterate (m).
     ///
     /// # Errors
     /// The node of the first tangent row without a pivot.
@@ -221,7 +221,7 @@ impl<const D: usize> StepEquations<D> {
         Ok(self.unknowns.iter().map(of_node).collect())
     }
 
-    /// Adds the stiffness of particle `p`.
+    /// Adds the stiffness of particle `p` to `tangent`.
     fn add_stiffness(&self, p: usize, vol0: f64, iterate: &Iterate<D>, tangent: &mut BandedSystem) {
         let (response, push) = (&iterate.responses[p], &iterate.push[p]);
         let functions = self.functions_of(p);
@@ -253,7 +253,7 @@ impl<const D: usize> StepEquations<D> {
         }
     }
 
-    /// Largest difference between the indices of unknowns that share a particle.
+    /// Returns the largest difference between the indices of unknowns that share a particle.
     fn widest(&self) -> usize {
         let width = |p: usize| {
             let rows = self.functions_of(p).iter().flat_map(|f| self.unknowns[f.node]).flatten();
@@ -268,8 +268,8 @@ impl<const D: usize> StepEquations<D> {
 /// Reason why a law without a tangent cannot be used.
 pub(super) const NO_TANGENT: &str = "the law has no consistent tangent";
 
-/// Numbers the free components with the longest grid axis slowest, for a narrow band. Returns the
-/// indices, and the node of each index.
+/// Numbers the free components. Indices vary slowest along the longest grid axis, which gives a
+/// narrow band. Returns the indices, and the node of each index.
 fn number<const D: usize>(
     grid: &Grid<D>,
     free: &[Vector<D>],
@@ -298,7 +298,7 @@ mod tests {
     use crate::mpm::material::{DruckerPrager, Hencky, StressUpdate};
     use rstest::rstest;
 
-    /// Bilinear functions of the nodes around a particle in a grid of four cells.
+    /// Returns the bilinear functions of the nodes around a particle in a grid of four cells.
     fn bilinear(grid: &Grid<2>, x: &Vector<2>) -> Vec<NodeFunction<2>> {
         let hat = |axis: usize, i: usize| {
             let s = (x[axis] - grid.origin[axis]) / grid.h - i as f64;
@@ -314,7 +314,8 @@ mod tests {
         (0..grid.nodes()).map(function).filter(|function| function.weight > 0.0).collect()
     }
 
-    /// The increment has no symmetry. With plasticity, some particles yield and others do not.
+    /// The test uses an increment without symmetry. With plasticity, some particles yield and
+    /// others do not.
     #[rstest]
     #[case::elastic(Box::new(Hencky::new(100.0, 0.3)))]
     #[case::plastic(Box::new(DruckerPrager::new(100.0, 0.3, 0.3, 0.1, 4.0)))]

@@ -3,7 +3,7 @@
 //!
 //! The tangent of a quasi-static step is symmetric only for elastic and associated laws, and may be
 //! indefinite, so Cholesky factorisation does not apply. The operations have a fixed order and no
-//! fused products. Results are therefore bit-identical on any machine. A library that chooses its
+//! fused products, so results are bit-identical on any machine. A library that chooses its
 //! instructions at run time does not guarantee this.
 
 /// A square matrix with `band` diagonals on either side of the main diagonal.
@@ -16,13 +16,13 @@ pub(super) struct BandedSystem {
 }
 
 impl BandedSystem {
-    /// A zero matrix.
+    /// Creates a zero matrix.
     pub(super) fn zeros(rows: usize, band: usize) -> Self {
         let band = band.min(rows.saturating_sub(1));
         Self { rows, band, entries: vec![0.0; rows * (3 * band + 1)] }
     }
 
-    /// Number of stored entries of a matrix of this size.
+    /// Returns the number of stored entries of a matrix of this size.
     pub(super) fn size(rows: usize, band: usize) -> usize {
         rows.saturating_mul(3 * band + 1)
     }
@@ -37,7 +37,7 @@ impl BandedSystem {
         self.entries[place] += value;
     }
 
-    /// Solution for this right-hand side.
+    /// Solves the system for the right-hand side `side`.
     ///
     /// # Errors
     /// The first row without a pivot in elimination order, if the matrix is singular or an entry is

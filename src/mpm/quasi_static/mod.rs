@@ -11,7 +11,8 @@
 //!    reset the grid.
 //!
 //! The particles store only F, the state of the law and positions: there is no velocity and no
-//! transfer. A load step is never divided: if Newton's method does not converge, the level fails.
+//! transfer. If Newton's method does not converge, the load step is not divided and the level
+//! fails.
 
 mod balance;
 mod banded;
@@ -41,7 +42,7 @@ pub struct QuasiStaticSetup<const D: usize> {
     pub grid: Grid<D>,
     /// The stress-free body.
     pub particles: Particles<D>,
-    /// Basis.
+    /// Basis functions, compiled for the loops over particles and nodes.
     pub kernel: Box<dyn Kernel<D>>,
     /// The constitutive law.
     pub material: Box<dyn Material<D>>,
@@ -49,14 +50,14 @@ pub struct QuasiStaticSetup<const D: usize> {
     pub effects: Vec<Box<dyn Effect<D>>>,
     /// Fixed walls.
     pub boundary: Vec<Box<dyn Boundary<D>>>,
-    /// Number of load steps of length 1 until the full load.
+    /// Number of load steps of length 1 that add up to the full load.
     pub load_steps: u64,
 }
 
 /// A body whose load grows in steps, in equilibrium after each step.
 pub struct QuasiStatic<const D: usize> {
     setup: QuasiStaticSetup<D>,
-    /// Sum of the lengths of the load steps so far. The current share of the load is this sum
+    /// Sum of the lengths of the load steps so far. The current fraction of the load is this sum
     /// divided by [`QuasiStaticSetup::load_steps`].
     advanced: f64,
     transfers: u64,
@@ -84,24 +85,25 @@ impl<const D: usize> QuasiStatic<D> {
         Ok(Self { setup, advanced, transfers, min_j, cell_tracker, residuals })
     }
 
-    /// Residuals of the iterates in the last load step: norms over all nodes with unknowns, divided
-    /// by the norm of the load. The first residual belongs to zero increments.
+    /// Returns the residuals of the iterates in the last load step: norms over all nodes with
+    /// unknowns, divided by the norm of the load. The first residual belongs to zero increments.
     pub fn residuals(&self) -> &[f64] {
         &self.residuals
     }
 
-    /// The particles in their current state.
+    /// Returns the particles in their current state.
     pub fn particles(&self) -> &Particles<D> {
         &self.setup.particles
     }
 
-    /// Active effects, and all columns of particles and nodes.
+    /// Returns the active effects, and all columns of particles and nodes.
     pub fn profile(&self) -> Profile {
         let QuasiStaticSetup { grid, particles, effects, .. } = &self.setup;
         profile(grid, particles, effects, &self.columns())
     }
 
-    /// Number of visited particles, see [`Solver::take_visits`](super::Solver::take_visits).
+    /// Returns the number of visited particles, see
+    /// [`Solver::take_visits`](super::Solver::take_visits).
     pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
         Tally::take(&[self.setup.kernel.tally()])
     }
@@ -117,7 +119,7 @@ impl<const D: usize> QuasiStatic<D> {
         columns
     }
 
-    /// Computes the external forces of the full load into the forces of the grid (N).
+    /// Computes the external nodal forces of the full load (N) and stores them in the grid.
     fn load(&mut self) {
         let QuasiStaticSetup { grid, particles, kernel, effects, .. } = &mut self.setup;
         grid.force.fill(Vector::zeros());
@@ -141,7 +143,7 @@ impl<const D: usize> QuasiStatic<D> {
                 particles.x[p] += increment[function.node] * function.weight;
             }
         }
-        // F already belongs to the end of the step.
+        // F is already that of the end of the step.
         material.update(&mut StressUpdate::new(0.0, particles));
         if kernel.domain() == Domain::Follows {
             particles.track_domains();
@@ -159,8 +161,8 @@ impl<const D: usize> QuasiStatic<D> {
 }
 
 impl<const D: usize> Subject for QuasiStatic<D> {
-    /// Performs one load step of length `dt`. In a study of shorter steps, two steps of length 1/2
-    /// replace one step.
+    /// Performs one load step of length `dt`. A reference run with shorter steps replaces one step
+    /// by two of length 1/2.
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         self.advanced += dt;
         self.load();
@@ -205,7 +207,7 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         Some(Totals { strain_energy, ..particles.totals(|_| None) })
     }
 
-    /// The time of a reaction is the sum of the lengths of the load steps.
+    /// Returns a reaction whose time is the sum of the lengths of the load steps.
     fn reaction(&self, face: Option<(usize, bool)>) -> Option<Reaction> {
         let QuasiStaticSetup { grid, boundary, .. } = &self.setup;
         let side = |high| if high { Side::High } else { Side::Low };

@@ -2,10 +2,11 @@
 //!
 //! The method first takes full steps, even if the residual rises for a few iterates. When particles
 //! begin to yield, a full step increases the residual, and the next full step reduces it by orders
-//! of magnitude. If several successive iterates do not improve on the best one, as in a cycle
-//! between the branches of a law, the method returns to the best iterate. From then on it accepts
-//! only steps that reduce the residual (the watchdog technique of Chamberlain, Powell, Lemarechal &
-//! Pedersen 1982, Math. Program. Study 16). A step that inverts a particle is always halved.
+//! of magnitude. Sometimes several successive iterates do not improve on the best one, for example
+//! in a cycle between the branches of a law. The method then returns to the best iterate and
+//! accepts only steps that reduce the residual (the watchdog technique of Chamberlain, Powell,
+//! Lemarechal & Pedersen 1982, Math. Program. Study 16). A step that inverts a particle is always
+//! halved.
 
 use super::balance::{Iterate, StepEquations};
 use crate::mpm::foundation::algebra::Vector;
@@ -20,13 +21,14 @@ pub(super) const CONVERGED: f64 = 1e-10;
 /// Maximum number of corrections.
 const MOST_CORRECTIONS: usize = 25;
 
-/// Number of successive iterates without improvement on the best one that are allowed.
+/// Maximum number of successive iterates that do not improve on the best one.
 const PATIENCE: usize = 4;
 
 /// Maximum number of halvings of a correction.
 const MOST_HALVINGS: u32 = 12;
 
-/// Share of the reduction predicted by a linear model that the line search requires (Armijo 1966).
+/// Fraction of the reduction predicted by a linear model that the line search requires (Armijo
+/// 1966).
 const SUFFICIENT: f64 = 1e-4;
 
 /// Result of a load step.
@@ -88,7 +90,7 @@ impl<const D: usize> LoadStep<'_, D> {
         if now.norm / scale < CONVERGED { Ok(now) } else { Err(self.not_converged(&now, scale)) }
     }
 
-    /// The iterate after a Newton correction, which is shortened if required.
+    /// Returns the iterate after a Newton correction, which is shortened if required.
     fn corrected(
         &self,
         now: &Iterate<D>,
@@ -103,7 +105,7 @@ impl<const D: usize> LoadStep<'_, D> {
         for _ in 0..=MOST_HALVINGS {
             let moved = now.increment.iter().zip(&correction);
             let next = self.iterate(moved.map(|(u, change)| u + change * share).collect());
-            // An increment that inverts a particle has no stress.
+            // An increment that inverts a particle gives no stress, and its iterate is an error.
             let next = next
                 .ok()
                 .filter(|next| !searches || next.norm <= (1.0 - SUFFICIENT * share) * now.norm);

@@ -18,8 +18,8 @@ pub struct Fragment<const D: usize> {
 }
 
 impl<const D: usize> Particles<D> {
-    /// Adds `fragments` with density `density` (kg/m3) to a lattice, at rest and free of stress.
-    /// The lattice particles keep their boxes as domains.
+    /// Adds `fragments` with density `density` (kg/m3) to a lattice of particles, at rest and free
+    /// of stress. The particles of the lattice retain their boxes as domains.
     pub fn add_fragments(&mut self, fragments: &[Fragment<D>], density: f64) {
         if fragments.is_empty() {
             return;
@@ -84,7 +84,7 @@ impl<const D: usize> Particles<D> {
         (self.rate_across, self.stress_across) = (vec![0.0; self.len()], vec![0.0; self.len()]);
     }
 
-    /// Whether the initial radius of any hoop differs from its reference radius, or is NaN.
+    /// Whether the initial radius of any hoop is NaN or differs from its reference radius.
     pub(in crate::mpm) fn is_widened(&self) -> bool {
         let is_own = |(x, x0): (&Vector<D>, &Vector<D>)| x[0] == x0[0];
         !self.stress_across.is_empty() && !self.x.iter().zip(&self.x0).all(is_own)
@@ -111,7 +111,8 @@ mod tests {
         assert_eq!(particles.domain, [Matrix::identity() * 0.5, Matrix::identity() * 0.5, domain]);
     }
 
-    /// `int r dr dz` over a box is exact if the radius is taken at the middle of each part.
+    /// The integral `int r dr dz` over a box is exact if the radius is taken at the middle of each
+    /// part.
     #[test]
     fn a_hollow_cylinder_has_its_mass_per_radian() {
         let (from, to) = (Vector::<2>::new(0.5, 0.0), Vector::<2>::new(2.0, 3.0));

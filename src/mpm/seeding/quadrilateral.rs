@@ -27,20 +27,21 @@ impl Quadrilateral {
         }
     }
 
-    /// Renumbers the corners so that the first axis of the map is as close to X as possible. GIMP
-    /// replaces domains by boxes whose half-lengths are the diagonal entries of the domain matrix.
+    /// Renumbers the corners so that the first axis of the map is as close to X as possible. This
+    /// is required by GIMP, which replaces domains by boxes whose half-lengths are the diagonal
+    /// entries of the domain matrix.
     fn upright(self) -> Self {
         let along = |i: &usize| self.side(*i)[0] - self.side((i + 2) % 4)[0];
         let first = (1..4).fold(0, |best, i| if along(&i) > along(&best) { i } else { best });
         Self { corners: std::array::from_fn(|i| self.corners[(first + i) % 4]) }
     }
 
-    /// Corners (m).
+    /// Returns the corners (m).
     pub fn corners(&self) -> &[Vector<2>; 4] {
         &self.corners
     }
 
-    /// Lowest and highest corners of the bounding box of the panel (m).
+    /// Returns the lowest and highest corners of the bounding box of the panel (m).
     pub fn ends(&self) -> (Vec<f64>, Vec<f64>) {
         let [a, b, c, d] = &self.corners;
         let end = |of: fn(f64, f64) -> f64| {
@@ -57,13 +58,13 @@ impl Quadrilateral {
         (0..4).any(|i| at_end(i) && at_end(i + 1))
     }
 
-    /// Vector from corner i to the next corner (m).
+    /// Returns the vector from corner i to the next corner (m).
     fn side(&self, i: usize) -> Vector<2> {
         self.corners[(i + 1) % 4] - self.corners[i]
     }
 
-    /// Number of particles along each axis of the map, at least two. The number per cell of size
-    /// `h` (m) is as close to `per_axis` as the mean length of opposite sides allows.
+    /// Returns the number of particles along each axis of the map, at least two. The number per
+    /// cell of size `h` (m) is as close to `per_axis` as the mean length of opposite sides allows.
     pub fn counts(&self, h: f64, per_axis: usize) -> [usize; 2] {
         [0, 1].map(|i| {
             let length = f64::midpoint(self.side(i).norm(), self.side(i + 2).norm());
@@ -71,7 +72,8 @@ impl Quadrilateral {
         })
     }
 
-    /// Position (m) of a point of the unit square, and the derivative of the map there (m).
+    /// Returns the position (m) of a point of the unit square, and the derivative of the map there
+    /// (m).
     fn at(&self, s: f64, t: f64) -> (Vector<2>, Matrix<2>) {
         let [a, b, c, d] = &self.corners;
         let place = (a * (1.0 - s) + b * s) * (1.0 - t) + (d * (1.0 - s) + c * s) * t;
@@ -83,7 +85,7 @@ impl Quadrilateral {
     /// Fills the panel with particles of density `density` (kg/m^2).
     pub fn fill<const D: usize>(&self, density: f64, h: f64, per_axis: usize) -> Particles<D> {
         let counts = self.counts(h, per_axis);
-        // A panel is two-dimensional; a further axis would be its unit thickness.
+        // A panel is two-dimensional. In 3-D, the third axis is its unit thickness.
         let counts = std::array::from_fn(|axis| counts.get(axis).copied().unwrap_or(1));
         Particles::fill_mapped(counts, density, |s| {
             let (place, slope) = self.at(s[0], s.get(1).copied().unwrap_or(0.5));
@@ -112,7 +114,7 @@ mod tests {
         Quadrilateral::new(corners.map(Vector::from)).unwrap()
     }
 
-    /// A square with each corner moved by less than a quarter, which stays convex.
+    /// Creates a square with each corner moved by less than a quarter, so that it remains convex.
     fn any() -> impl Strategy<Value = Quadrilateral> {
         prop::array::uniform4(prop::array::uniform2(-0.24..0.24_f64)).prop_map(|moved| {
             let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
@@ -143,7 +145,7 @@ mod tests {
             for (x, domain) in particles.x0.iter().zip(&particles.domain0) {
                 prop_assert!(is_inside(&panel, x), "{:?}", x);
                 for axis in 0..2 {
-                    // The middles of domain sides are inside the panel, up to rounding on the
+                    // The middles of domain sides are inside the panel, up to rounding at the
                     // boundary.
                     let towards = domain.column(axis) * (1.0 - 1e-9);
                     prop_assert!(is_inside(&panel, &(x + towards)));
@@ -182,8 +184,8 @@ mod tests {
         assert_eq!(sides.map(|(a, high)| cook().has_side_at(a, high)), [true, true, false, false]);
     }
 
-    /// Largest nodal force of a uniform unit stress well inside a panel, relative to the force on a
-    /// cell face of size `h`: `|sum_p V_p grad N_i|/h`.
+    /// Computes the largest nodal force of a uniform unit stress well inside a panel, relative to
+    /// the force on a cell face of size `h`: `|sum_p V_p grad N_i|/h`.
     fn push<B: Basis>(panel: &Quadrilateral, h: f64) -> f64 {
         let mut particles: Particles<2> = panel.fill(1.0, h, 2);
         particles.track_domains();
@@ -202,8 +204,9 @@ mod tests {
         (0..grid.nodes()).filter(is_far_inside).map(|i| total[i].norm()).fold(0.0, f64::max)
     }
 
-    /// Parallelograms tile any panel. Boxes with their diagonals tile a panel with two upright
-    /// sides. Boxes of equal size do not. No boxes tile a rotated panel, at any refinement.
+    /// The parallelograms of CPDI tile any panel without gaps or overlaps. The boxes of contiguous
+    /// GIMP tile only a panel with two upright sides. Boxes of equal size (uniform GIMP) do not
+    /// tile this panel, and no boxes tile a rotated panel, at any refinement.
     #[test]
     fn boxes_of_gimp_tile_a_panel_with_two_upright_sides() {
         let (sin, cos) = libm::sincos(std::f64::consts::PI / 6.0);

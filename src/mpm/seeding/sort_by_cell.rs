@@ -1,8 +1,8 @@
 //! Sorts particles by cell, so that neighbours in space are neighbours in memory.
 //!
-//! Seeded bodies are nearly sorted. In a large scene unsorted particles cost several times as much,
-//! because each particle visits other nodes than the previous one. Particles are therefore sorted
-//! once, before the solver is set up.
+//! Seeded bodies are nearly sorted. In a large scene, unsorted particles cost several times as much
+//! as sorted ones, because each particle visits other nodes than the previous one. Particles are
+//! therefore sorted once, before the solver is set up.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
@@ -13,7 +13,7 @@ impl<const D: usize> Particles<D> {
     /// Particles in the same cell keep their order, and particles outside the grid come last. Must
     /// be called before effects or transfers create their own columns.
     pub fn sort_by_cell(&mut self, grid: &Grid<D>) -> Vec<usize> {
-        // Particles outside all cells come last.
+        // Pseudo-cell of the particles outside the grid, after all cells.
         let nowhere = grid.cells.iter().product();
         let place = |x: &Vector<D>| {
             grid.cell(x).map_or(nowhere, |cell| {
@@ -21,7 +21,7 @@ impl<const D: usize> Particles<D> {
             })
         };
         let cells: Vec<usize> = self.x.iter().map(place).collect();
-        // Counting sort: the first place of a cell is the number of particles in previous cells.
+        // Counting sort: the first position of a cell is the number of particles in previous cells.
         let mut next = vec![0; nowhere + 2];
         for cell in &cells {
             next[cell + 1] += 1;
@@ -62,8 +62,8 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Moves entry `order[k]` to place k, in all existing columns. Each column reuses the memory of the
-/// previous one, because allocation costs more than the moves.
+/// Moves entry `order[k]` to position k, in all existing columns. Each column reuses the memory of
+/// the previous one, because allocation costs more than the moves.
 fn permute<T: Copy, const N: usize>(columns: [&mut Vec<T>; N], order: &[usize]) {
     let mut spare = Vec::new();
     for column in columns.into_iter().filter(|column| !column.is_empty()) {

@@ -1,4 +1,4 @@
-//! The cell of each particle, and counters of cell crossings and departures.
+//! The cell of each particle, and counters of crossings and of particles that leave the grid.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::finite_check::is_finite;
@@ -9,7 +9,7 @@ use crate::mpm::foundation::threads::{FEW, join};
 use crate::subject::{Checkpoint, Column, Failure, Memory, RunCounters, Site};
 use std::array;
 
-/// Cells of all particles, with counters.
+/// Cells of all particles, with counters of crossings and departures.
 #[derive(Debug)]
 pub(in crate::mpm) struct CellTracker<const D: usize> {
     /// Index of the cell along each axis, as a floating-point number for comparison with positions.
@@ -43,13 +43,13 @@ impl<const D: usize> CellTracker<D> {
         }
     }
 
-    /// Column with entries for particles.
+    /// Returns the column with the cells of the particles.
     pub(in crate::mpm) fn columns(&self) -> Column<'_> {
         Column::of_particles("cell", &self.cells)
     }
 
-    /// Counts cell changes and departures. In the total-Lagrangian frame a particle keeps the cell
-    /// of its reference position, and its position must not be NaN.
+    /// Counts cell changes and departures. In the total-Lagrangian frame a particle remains in the
+    /// cell of its reference position, and its position must not be NaN.
     ///
     /// # Errors
     /// The failure of the first particle outside all cells.
@@ -71,16 +71,17 @@ impl<const D: usize> CellTracker<D> {
     }
 }
 
-/// Counts for some particles that have moved.
+/// Numbers of crossings and departures of some particles that have moved.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 struct CellChanges {
     crossings: u64,
     left_domain: u64,
-    /// First particle outside all cells.
+    /// Index of the first particle outside all cells.
     lost: Option<usize>,
 }
 
-/// Updates the `cells` of the particles `first..` from their positions, on all threads.
+/// Updates the cells of particles from their positions, on all threads. `first` is the index of the
+/// first particle.
 fn enter_all<const D: usize>(
     grid: &Grid<D>,
     cells: &mut [[f64; D]],
@@ -125,7 +126,7 @@ impl<const D: usize> Memory for CellTracker<D> {
     }
 }
 
-/// Whether every particle of a batch is still in its previous cell, which is the usual case.
+/// Whether every particle of a batch is still in its previous cell, which is usual.
 #[inline(always)]
 #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch")]
 fn stay<const D: usize>(grid: &Grid<D>, cells: &[[f64; D]], x: &[Vector<D>]) -> bool {
@@ -159,7 +160,7 @@ fn enter_each<const D: usize>(
     }
 }
 
-/// Cell that contains `x`, if any; not wrapped on periodic axes.
+/// Returns the cell that contains `x`, if any. The cell is not wrapped on periodic axes.
 fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> Option<[f64; D]> {
     let inside = grid.cell(x)?;
     Some(array::from_fn(|axis| {
@@ -168,7 +169,7 @@ fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> Option<[f64; D]> {
     }))
 }
 
-/// Whether two cells differ, other than by whole periods.
+/// Whether two cells differ by more than whole periods.
 fn crosses<const D: usize>(grid: &Grid<D>, from: &[f64; D], to: &[f64; D]) -> bool {
     (0..D).any(|axis| {
         let moved = to[axis] - from[axis];
@@ -193,8 +194,8 @@ mod tests {
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 
-    /// A row with one particle per cell: some particles move to the next cell, some leave the grid,
-    /// and one has an invalid position.
+    /// The test uses a row with one particle per cell. Some particles move to the next cell, some
+    /// leave the grid, and one has an invalid position.
     #[rstest]
     fn particles_are_counted_alike_on_any_number_of_threads(#[values(1, 3)] threads: usize) {
         let total = 2 * FEW + 37;
@@ -218,7 +219,8 @@ mod tests {
         assert_eq!((tracker.crossings, tracker.left_domain), (5, 3));
     }
 
-    /// Successive moves of one particle in cells of size 1, and the crossings of each move.
+    /// Tests successive moves of one particle in cells of size 1, with the number of crossings of
+    /// each move.
     #[rstest]
     #[case::within_its_cell(false, &[(0.25, 0), (1.0, 1), (1.75, 0)])]
     #[case::back_and_forth(false, &[(1.0, 1), (0.5, 1)])]

@@ -1,4 +1,4 @@
-//! Rules for combining the parts of a method.
+//! Rules for which parts of a method can be combined.
 
 use super::volume_average::VolumeName;
 use crate::mpm::basis::{BasisName, Domain, with_basis};
@@ -9,19 +9,19 @@ use crate::mpm::transfer::{TransferChoice, TransferKind};
 use crate::subject::{PlaneState, Precision, Start};
 use thiserror::Error;
 
-/// An invalid combination of parts: one line with the parts and the reason.
+/// Error for an invalid combination of parts: one line with the parts and the reason.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct CombinationError(String);
 
-/// Creates a [`CombinationError`] with a formatted text.
+/// Creates a [`CombinationError`] from a format string.
 macro_rules! refusal {
     ($($text:tt)+) => {
         CombinationError(format!($($text)+))
     };
 }
 
-/// Rejects an invalid combination.
+/// Rejects an invalid combination of basis, transfer, mass matrix and frame.
 ///
 /// # Errors
 /// One line with both parts and the reason.
@@ -79,8 +79,8 @@ pub fn combine(
     Ok(())
 }
 
-/// Rejects an invalid combination for several bodies on one grid, with `contact` or one velocity
-/// field.
+/// Rejects an invalid combination for several bodies on one grid, which either have `contact` or
+/// share one velocity field.
 ///
 /// # Errors
 /// One line with the part and the reason.

@@ -11,7 +11,8 @@ use crate::subject::{
     BodyFields, Checkpoint, Column, Failure, Profile, RunCounters, Samples, Subject,
 };
 
-/// A body at rest. Nodal masses are mapped once, and a step integrates the state of the effects.
+/// Solver for a body at rest. Nodal masses are mapped once, and a step integrates the state of the
+/// effects.
 pub struct HeatSolver<const D: usize> {
     grid: Grid<D>,
     particles: Particles<D>,
@@ -45,7 +46,7 @@ impl<const D: usize> HeatSolver<D> {
         Ok(Self { grid, particles, kernel, effects, time: 0.0, transfers })
     }
 
-    /// Active effects, and all columns of particles and nodes.
+    /// Returns the active effects, and all columns of particles and nodes.
     pub fn profile(&self) -> Profile {
         profile(&self.grid, &self.particles, &self.effects, &self.columns())
     }
@@ -57,7 +58,7 @@ impl<const D: usize> HeatSolver<D> {
         columns
     }
 
-    /// Number of visited particles, see
+    /// Returns the number of visited particles, see
     /// [`Solver::take_visits`](super::solver::Solver::take_visits).
     pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
         Tally::take(&[self.kernel.tally()])
@@ -99,7 +100,7 @@ impl<const D: usize> Subject for HeatSolver<D> {
         passes.map(|pass| (*pass).to_owned()).collect()
     }
 
-    /// The masses of the grid do not change after the start.
+    /// Excludes the masses of the grid, which do not change after the start.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
         let Self { grid: _, particles, kernel: _, effects, time, transfers } = self;
         checkpoint.visit(particles);

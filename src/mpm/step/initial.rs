@@ -2,15 +2,16 @@
 //!
 //! A body may start deformed ([`Particles::deform`]). The material then computes the stress from F
 //! ([`Material::start_deformed`]), and the basis computes the domains from F, as if the body had
-//! been deformed to this state. A viscous fluid that starts in motion also has viscous stress.
+//! been deformed to this state before. A viscous fluid that starts in motion also has viscous
+//! stress.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::Material;
 use crate::subject::{Failure, Site};
 
-/// Adds the columns that `material` and a basis with this `domain` read, and completes the state.
-/// Returns the smallest J.
+/// Adds the columns that are read by `material` or by a basis with this `domain`, and completes the
+/// initial state. Returns the smallest J.
 ///
 /// # Errors
 /// [`Failure::NotOfDeformation`] if F does not determine the stress of a deformed body.
@@ -37,7 +38,8 @@ pub(in crate::mpm) fn complete<const D: usize>(
     let mut min_j = f64::INFINITY;
     for (p, (vol, vol0)) in particles.vol.iter().zip(&particles.vol0).enumerate() {
         let j = vol / vol0;
-        // This check must precede the check of the stress, which is NaN for inverted particles.
+        // The stress of an inverted particle is NaN, so this check must precede the check of the
+        // stress.
         if deformed && j <= 0.0 {
             return Err(Failure::Inverted { site: Site::Particle(p), j });
         }
@@ -68,7 +70,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A square of four particles with u = (0.1 X + 0.2 Y, -0.25 Y) and uniform F.
+    /// Creates a square of four particles with u = (0.1 X + 0.2 Y, -0.25 Y) and uniform F.
     fn deformed(f: Matrix<2>) -> Particles<2> {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
         let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
@@ -97,7 +99,7 @@ mod tests {
         }
     }
 
-    /// A shear flow has sigma = 2 eta D before the first step.
+    /// The initial stress of a shear flow is sigma = 2 eta D.
     #[test]
     fn a_fluid_in_motion_starts_under_viscous_stress() {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));

@@ -1,5 +1,4 @@
-//! The step: creates a solver from members of the families, compiles its schedule, and runs its
-//! passes.
+//! Time steps: creates a solver from its parts, compiles its schedule, and runs the passes.
 
 pub(in crate::mpm) mod cell_tracker;
 pub(in crate::mpm) mod combination;

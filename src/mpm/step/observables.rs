@@ -2,11 +2,10 @@
 //! walls.
 //!
 //! The reaction follows from the weak form with the functions of fixed nodes. Without the wall, the
-//! nodal forces would accelerate these nodes (`m_i a_i = f_i` with a lumped mass), so the wall
-//! balances these forces. The reaction is therefore `-sum f_i` over the fixed components of
-//! internal and external forces. Only the functions of these nodes are non-zero on the wall, and
-//! their sum there is one. For small cells the reaction therefore converges to the integral of the
-//! traction.
+//! nodal forces would accelerate these nodes (`m_i a_i = f_i` with a lumped mass), so the wall must
+//! balance the forces. The reaction is therefore `-sum f_i` over the fixed components of internal
+//! and external forces. Only the functions of these nodes are non-zero on the wall, and their sum
+//! there is one. For small cells the reaction therefore converges to the integral of the traction.
 
 use super::solver::Solver;
 use crate::mpm::boundary::{Boundary, Side};
@@ -15,9 +14,9 @@ use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Reaction, Samples, Totals};
 
 impl<const D: usize> Particles<D> {
-    /// Current mass, momenta and kinetic energy, without the strain energy of the material. `own`
-    /// is the first moment of the velocity field within a particle, if the transfer has such a
-    /// field (Jiang et al. 2015).
+    /// Returns current mass, momenta and kinetic energy, without the strain energy of the material.
+    /// `own` is the first moment of the velocity field within a particle, if the transfer has such
+    /// a field (Jiang et al. 2015).
     pub fn totals(&self, own: impl Fn(usize) -> Option<Matrix<D>>) -> Totals {
         let mut totals = Totals::default();
         for (p, (m, v)) in self.mass.iter().zip(&self.v).enumerate() {
@@ -29,21 +28,22 @@ impl<const D: usize> Particles<D> {
         totals
     }
 
-    /// Matrix whose axial vector is the angular momentum of particle p per unit mass: `v x^T` for
-    /// the motion of its centre, plus the moment `own` about the centre.
+    /// Returns a matrix whose axial vector is the angular momentum of particle p per unit mass:
+    /// `v x^T` for the motion of its centre, plus the moment `own` about the centre.
     fn moment(&self, p: usize, own: Option<Matrix<D>>) -> Matrix<D> {
         dyad(&self.v[p], self.position(p)) + own.unwrap_or_else(Matrix::zeros)
     }
 }
 
-/// `(M_zy - M_yz, M_xz - M_zx, M_yx - M_xy)`, which is x cross v for `M = v x^T`, in any dimension.
+/// Returns `(M_zy - M_yz, M_xz - M_zx, M_yx - M_xy)`, which is x cross v for `M = v x^T`, in any
+/// dimension.
 fn axial<const D: usize>(m: &Matrix<D>) -> [f64; 3] {
     let part = |i: usize, j: usize| if i.max(j) < D { m[(i, j)] - m[(j, i)] } else { 0.0 };
     [part(2, 1), part(0, 2), part(1, 0)]
 }
 
 impl<const D: usize> Particles<D> {
-    /// Appends the state at the reference positions; F is included only if its column exists.
+    /// Appends the state of the particles to `samples`. F is included only if its column exists.
     pub(in crate::mpm) fn sample(&self, samples: &mut Samples) {
         samples.dimension = D;
         for (p, x0) in self.x0.iter().enumerate() {
@@ -68,16 +68,16 @@ impl<const D: usize> Particles<D> {
 }
 
 impl<const D: usize> Solver<D> {
-    /// Reaction of all fixed walls, or of one face of the grid (axis of the normal, and end of the
-    /// axis), at the beginning of the last step.
+    /// Returns the reaction of all fixed walls, or of one face of the grid, at the beginning of the
+    /// last step. A face is given by the axis of its normal and the end of this axis.
     pub fn reaction(&self, of: Option<(usize, Side)>) -> Reaction {
         let force = wall_reaction(&self.setup.grid.force, &self.setup.boundary, of);
         Reaction { time: self.advance.to - 0.5 * self.advance.dt, force }
     }
 }
 
-/// Reaction (N) of all fixed walls, or of one face of the grid, to the nodal forces `force` (N),
-/// the sum of internal and external forces.
+/// Returns the reaction (N) of all fixed walls, or of one face of the grid, to the nodal forces
+/// `force` (N), which are the sum of internal and external forces.
 pub(in crate::mpm) fn wall_reaction<const D: usize>(
     force: &[Vector<D>],
     boundary: &[Box<dyn Boundary<D>>],

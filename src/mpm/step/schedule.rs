@@ -1,5 +1,5 @@
-//! Schedule of a step. Scheme, transfer, conditions and coupling are compiled once to a list of
-//! passes.
+//! Schedule of a step: a list of passes, compiled once from scheme, transfer, conditions and
+//! coupling.
 //!
 //! Each P2G or G2P pass recomputes the weights of all particles. Neighbouring stages therefore
 //! share a pass if no stage between them changes particles (P2G) or nodal velocities (G2P):
@@ -22,31 +22,31 @@ pub(in crate::mpm) enum Pass {
     P2g(&'static [Stage]),
     /// One G2P pass for these stages.
     G2p(&'static [Stage]),
-    /// Remaining work of a stage on nodes or particles.
+    /// Work of a stage on nodes or particles after its P2G or G2P pass.
     Update(Stage),
-    /// Integration of the effects' own state over the step.
+    /// Integration over the step of the state that effects store.
     IntegrateState,
     /// Coupling of several bodies.
     Couple(CouplingPoint),
 }
 
-/// Points of a step at which bodies are coupled. All bodies must have reached the point.
+/// Points of a step at which bodies are coupled, after all bodies have reached this point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::mpm) enum CouplingPoint {
-    /// After particles have moved; nodal masses are up to date.
+    /// After particles have moved, when nodal masses are up to date.
     Mass,
-    /// After P2G of velocities that are then advanced.
+    /// After P2G of velocities that will be advanced.
     Velocity,
-    /// After P2G of velocities that then strain the bodies.
+    /// After P2G of velocities that will strain the bodies without being advanced.
     StrainVelocity,
-    /// After strains from velocities that are advanced later.
+    /// After velocities have strained the bodies and before these velocities are advanced.
     Strained,
-    /// After the accelerations.
+    /// After accelerations have been computed.
     Acceleration,
 }
 
 impl Pass {
-    /// Name of the pass, `P2G(mass, momentum)`. The remaining work of a stage has the name of the
+    /// Returns the name of the pass, such as `P2G(mass, momentum)`. An update has the name of its
     /// stage.
     pub(in crate::mpm) fn name(self) -> String {
         let of = |kind: &str, stages: &[Stage]| {
@@ -62,8 +62,8 @@ impl Pass {
         }
     }
 
-    /// Names of the pass for reports. A stage with a P2G or G2P pass is listed only with this pass.
-    /// `state` lists the passes for the effects' own state.
+    /// Returns the names of the pass for reports. A stage with a P2G or G2P pass is listed only
+    /// with this pass. `state` lists the passes for the effects' own state.
     fn texts(self, state: &[&str]) -> Vec<String> {
         match self {
             Self::IntegrateState => state.iter().map(|pass| (*pass).to_owned()).collect(),
@@ -76,7 +76,7 @@ impl Pass {
 }
 
 impl CouplingPoint {
-    /// Name in reports of the quantity that is coupled.
+    /// Returns the quantity that is coupled, as named in reports.
     fn name(self) -> &'static str {
         match self {
             Self::Mass => "mass",
@@ -88,7 +88,7 @@ impl CouplingPoint {
     }
 }
 
-/// Passes of a run.
+/// All passes of a run.
 #[derive(Debug, Clone, Default)]
 pub(in crate::mpm) struct StepSchedule {
     /// Passes before the first step. They compute the accelerations at t = 0 if velocities start
@@ -98,7 +98,7 @@ pub(in crate::mpm) struct StepSchedule {
     pub(in crate::mpm) passes: Arc<[Pass]>,
 }
 
-/// Coupling of a body with other bodies.
+/// Properties of the coupling of a body with other bodies.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::mpm) struct Coupled {
     /// Whether several bodies are coupled.
@@ -108,7 +108,7 @@ pub(in crate::mpm) struct Coupled {
 }
 
 impl StepSchedule {
-    /// The schedule of `setup`. With `fixed_configuration`, positions do not change.
+    /// Compiles the schedule of `setup`. With `fixed_configuration`, positions do not change.
     pub(in crate::mpm) fn new<const D: usize>(
         setup: &mut Setup<D>,
         coupled: Coupled,
@@ -132,14 +132,14 @@ impl StepSchedule {
         }
     }
 
-    /// Names of the passes of each step for reports. `state` lists the passes for the effects' own
-    /// state.
+    /// Returns the names of the passes of each step for reports. `state` lists the passes for the
+    /// effects' own state.
     pub(in crate::mpm) fn texts(&self, state: &[&str]) -> Vec<String> {
         self.passes.iter().flat_map(|pass| pass.texts(state)).collect()
     }
 }
 
-/// Passes of `stages`, without the effects' own state and without coupling.
+/// Returns the passes of `stages`, without the effects' own state and without coupling.
 pub(in crate::mpm) fn passes_of(stages: &'static [Stage]) -> Vec<Pass> {
     compile(stages, false, false)
 }
@@ -173,7 +173,7 @@ fn fuses(stage: Stage, next: Stage) -> bool {
         || matches!((stage, next), (ParticleVelocity | Stress, Stress | Position))
 }
 
-/// Point of coupling after the first of `stages`.
+/// Returns the coupling point after the first of `stages`, if there is one.
 fn coupling_after(stages: &[Stage]) -> Option<CouplingPoint> {
     match stages {
         [Stage::Mass, ..] => Some(CouplingPoint::Mass),

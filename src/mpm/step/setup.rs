@@ -1,4 +1,4 @@
-//! Parts of a solver, and their columns as a memory profile and as fields.
+//! The parts of a solver. Lists their columns for a memory profile and as fields.
 
 use super::volume_average::VolumeName;
 use crate::mpm::boundary::Boundary;
@@ -18,7 +18,7 @@ pub struct Setup<const D: usize> {
     pub grid: Grid<D>,
     /// The body in its initial state.
     pub particles: Particles<D>,
-    /// Basis.
+    /// Basis functions, compiled for the loops over particles and nodes.
     pub kernel: Box<dyn Kernel<D>>,
     /// Transfer of velocities between particles and grid.
     pub transfer: Box<dyn Transfer<D>>,
@@ -26,7 +26,7 @@ pub struct Setup<const D: usize> {
     pub mass: Box<dyn MassMatrix<D>>,
     /// Configuration in which the basis is evaluated.
     pub frame: FrameName,
-    /// Volume ratio for which the law computes the stress.
+    /// Kind of volume ratio for which the law computes the stress.
     pub volume: VolumeName,
     /// The constitutive law.
     pub material: Box<dyn Material<D>>,
@@ -34,7 +34,7 @@ pub struct Setup<const D: usize> {
     pub effects: Vec<Box<dyn Effect<D>>>,
     /// Boundary conditions on faces of the grid. Where faces meet, the last condition applies.
     pub boundary: Vec<Box<dyn Boundary<D>>>,
-    /// Order of the stages.
+    /// Time scheme, which defines the order of the stages.
     pub scheme: SchemeName,
     /// Time of the initial velocity.
     pub start: Start,
@@ -47,21 +47,21 @@ impl<const D: usize> Setup<D> {
             || self.boundary.iter().any(|condition| condition.reads_velocity())
     }
 
-    /// Stages of a step. `is_read` states whether another part reads nodal velocities before they
-    /// advance.
+    /// Returns the stages of a step. `is_read` states whether another part reads nodal velocities
+    /// before they advance.
     pub(in crate::mpm) fn stages(&mut self, is_read: bool) -> &'static [Stage] {
         let G2pRequest { mix, moment, gradient, .. } = self.transfer.g2p_request(0.0);
         let is_taken = mix.is_some() || moment.is_some() || gradient.is_some();
         self.scheme.stages(is_taken || is_read || self.reads_velocity())
     }
 
-    /// Names of the passes for the effects' own state.
+    /// Returns the names of the passes for the effects' own state.
     pub(in crate::mpm) fn state_passes(&self) -> Vec<&'static str> {
         self.effects.iter().flat_map(|effect| effect.state_passes()).copied().collect()
     }
 
-    /// All columns for particles and nodes, including the columns `of_solver`. The factors of a
-    /// consistent mass matrix, which are recomputed in each step, are excluded.
+    /// Returns all columns for particles and nodes, including the columns `of_solver`. The factors
+    /// of a consistent mass matrix, which are recomputed in each step, are excluded.
     pub(in crate::mpm) fn columns<'a>(
         &'a self,
         of_solver: impl IntoIterator<Item = Column<'a>>,
@@ -78,7 +78,7 @@ impl<const D: usize> Setup<D> {
     }
 }
 
-/// Step profile of a body with these effects and columns, without passes and visits.
+/// Creates the step profile of a body with these effects and columns, without passes and visits.
 pub(in crate::mpm) fn profile<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,
@@ -95,8 +95,8 @@ pub(in crate::mpm) fn profile<const D: usize>(
     }
 }
 
-/// Columns that have numbers for every particle or every node. If two columns have the same name,
-/// only the first is included.
+/// Returns the columns that have numbers for every particle or every node. If two columns have the
+/// same name, only the first is included.
 pub(in crate::mpm) fn fields<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,

@@ -1,11 +1,11 @@
 //! A solver whose state is rounded to single precision after each pass.
 //!
 //! Arithmetic within a pass is in double precision, so a pass rounds each result once. This models
-//! a solver that stores its arrays in single precision and accumulates sums in registers. For
-//! particles, positions, velocities, volumes, stresses, deformation gradients, temperatures and
-//! affine moments are rounded; for nodes, mass, velocity, force and acceleration. Internal
-//! variables of a law and the state of effects and conditions remain in double precision. So do
-//! reference positions, which are labels. The step of [`Solver`] contains no code for rounding.
+//! a solver that stores its arrays in single precision and accumulates sums in registers. Rounded
+//! particle quantities are positions, velocities, volumes, stresses, deformation gradients,
+//! temperatures and affine moments. Rounded node quantities are mass, velocity, force and
+//! acceleration. Internal variables of a law, the state of effects and conditions, and reference
+//! positions remain in double precision. The step of [`Solver`] contains no code for rounding.
 
 use super::setup::Setup;
 use super::solver::Solver;
@@ -33,7 +33,7 @@ impl<const D: usize> SinglePrecision<D> {
         Ok(Self(solver))
     }
 
-    /// The particles in their current state.
+    /// Returns the particles in their current state.
     pub fn particles(&self) -> &Particles<D> {
         self.0.particles()
     }
@@ -110,7 +110,7 @@ fn round_state<const D: usize>(solver: &mut Solver<D>) {
 
 fn round_particles<const D: usize>(particles: &mut Particles<D>) {
     let Particles {
-        // Reference positions are labels.
+        // Reference positions only identify particles and are not rounded.
         x0: _,
         x,
         current_position,

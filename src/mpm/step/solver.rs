@@ -1,4 +1,4 @@
-//! The solver: the passes of a step. [`schedule`](super::schedule) defines their order.
+//! The solver: implements the passes of a step. [`schedule`](super::schedule) defines their order.
 
 use super::cell_tracker::CellTracker;
 use super::initial;
@@ -19,22 +19,23 @@ use crate::mpm::scheme::Stage;
 use crate::mpm::transfer::{Transfer, g2p};
 use crate::subject::{Column, Failure, Profile, Site};
 
-/// The original MPM at one refinement level.
+/// The original MPM on one level: one body, with the state that changes from step to step.
 pub struct Solver<const D: usize> {
     pub(in crate::mpm) setup: Setup<D>,
     pub(in crate::mpm) schedule: StepSchedule,
     pub(in crate::mpm) time: f64,
-    /// Time of the velocities (s). After the first step, it is half a step behind.
+    /// Time to which the velocities belong (s). After the first step, they are half a step behind.
     pub(in crate::mpm) velocity_time: f64,
-    /// The last advance of velocities.
+    /// Times and length of the last advance of velocities.
     pub(in crate::mpm) advance: Advance,
     pub(in crate::mpm) started: bool,
     pub(in crate::mpm) transfers: u64,
     pub(in crate::mpm) min_j: f64,
     pub(in crate::mpm) cell_tracker: CellTracker<D>,
-    /// Position of each particle after the step (m), from G2P until positions change.
+    /// Position of each particle after the step (m), stored between G2P and the update of
+    /// positions.
     pub(in crate::mpm) advected: Vec<Vector<D>>,
-    /// Memory of averaged volume ratios, if the method averages them.
+    /// Arrays for averaged volume ratios, if the method averages them.
     pub(in crate::mpm) volume_average: Option<VolumeAverage<D>>,
 }
 
@@ -90,28 +91,28 @@ impl<const D: usize> Solver<D> {
         })
     }
 
-    /// The particles in their current state.
+    /// Returns the particles in their current state.
     pub fn particles(&self) -> &Particles<D> {
         &self.setup.particles
     }
 
-    /// The transfer, with its particle state.
+    /// Returns the transfer, with its particle state.
     pub fn transfer(&self) -> &dyn Transfer<D> {
         self.setup.transfer.as_ref()
     }
 
-    /// The grid after the last pass.
+    /// Returns the grid after the last pass.
     pub fn grid(&self) -> &Grid<D> {
         &self.setup.grid
     }
 
-    /// Active effects, and all columns of particles and nodes.
+    /// Returns the active effects, and all columns of particles and nodes.
     pub fn profile(&self) -> Profile {
         let Setup { grid, particles, effects, .. } = &self.setup;
         profile(grid, particles, effects, &self.columns())
     }
 
-    /// All columns of particles and nodes.
+    /// Returns all columns of particles and nodes.
     pub(in crate::mpm) fn columns(&self) -> Vec<Column<'_>> {
         let advected = Column::of_particles("advected x", &self.advected);
         let of_average = self.volume_average.iter().flat_map(VolumeAverage::columns);
@@ -119,8 +120,8 @@ impl<const D: usize> Solver<D> {
         self.setup.columns(own.into_iter().chain(of_average))
     }
 
-    /// Parts of passes since the last call, with the number of visited particles. Counting starts
-    /// at the first call.
+    /// Returns the parts of passes since the last call, each with the number of visited particles.
+    /// Counting starts with the first call.
     pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
         Tally::take(&[self.setup.kernel.tally()])
     }
@@ -148,7 +149,7 @@ impl<const D: usize> Solver<D> {
         Ok(())
     }
 
-    /// Performs the remaining work of a stage after its P2G or G2P pass.
+    /// Performs the work of a stage that follows its P2G or G2P pass.
     fn update(&mut self, stage: Stage, dt: f64) -> Result<(), Failure> {
         match stage {
             Stage::Mass => self.mass()?,
@@ -250,7 +251,7 @@ impl<const D: usize> Solver<D> {
     }
 }
 
-/// Computes `v <- v + a dt`.
+/// Advances velocities: `v <- v + a dt`.
 fn advance<const D: usize>(v: &mut [Vector<D>], a: &[Vector<D>], dt: f64) {
     PIECES.each(v, &|k, piece| {
         let a = &a[k * PIECES.length..];
@@ -292,15 +293,15 @@ impl<const D: usize> Solver<D> {
             self.jacobians()?;
         }
         let Setup { particles, material, .. } = &self.setup;
-        // A law of F computes J from F. Each number of F is a factor in J, which has already been
-        // checked.
+        // A law that reads F computes J from F. The check of J then covers every number of F.
         if !material.reads_deformation() {
             particles.deformed_finite()?;
         }
         if least_j.is_none() { particles.stressed_finite() } else { Ok(()) }
     }
 
-    /// Checks `J = V / V0` of every particle and updates the smallest J of the run.
+    /// Checks `J = V / V0` of every particle and updates the smallest J of the run. The first
+    /// invalid particle is an error.
     fn jacobians(&mut self) -> Result<(), Failure> {
         let Particles { vol, vol0, .. } = &self.setup.particles;
         for (p, (vol, vol0)) in vol.iter().zip(vol0).enumerate() {

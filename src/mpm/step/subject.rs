@@ -2,8 +2,8 @@
 //! numbers.
 //!
 //! A step runs the passes of the schedule in order. Checkpoints name every field, so that the
-//! compiler reports a new field that is missing. The grid and the advected positions are recomputed
-//! in each step.
+//! compiler reports a missing new field. The grid and the advected positions are recomputed in each
+//! step.
 //!
 //! The vector contains the state that a step reads and changes: velocities, stresses, volumes, F if
 //! its column exists, and the affine state of the transfer. The grid has no state between steps.
@@ -35,7 +35,7 @@ impl<const D: usize> Solver<D> {
         self.finish(dt, &mut |_, pass| after(pass.name()))
     }
 
-    /// Runs the passes before the first step of length `dt` (s). Later steps have no such passes.
+    /// Runs the passes before the first step of length `dt` (s). These passes do not run again.
     pub(in crate::mpm) fn begin(
         &mut self,
         dt: f64,
@@ -98,12 +98,12 @@ impl<const D: usize> Solver<D> {
     pub(in crate::mpm) fn open(&mut self, dt: f64) {
         self.drive(0.0);
         if self.setup.start == Start::HalfStepBack {
-            // a(0) acts over the whole step around t = 0.
+            // The initial acceleration a(0) acts over the whole step around t = 0.
             self.velocity_time = -0.5 * dt;
         }
     }
 
-    /// Completes the passes before the first step: `v(-dt/2) = v(0) - dt/2 a(0)`.
+    /// Completes the passes before the first step: computes `v(-dt/2) = v(0) - dt/2 a(0)`.
     pub(in crate::mpm) fn opened(&mut self, dt: f64) {
         self.started = true;
         if self.setup.start == Start::AtZero {
@@ -134,7 +134,7 @@ impl<const D: usize> Subject for Solver<D> {
 
     fn totals(&self) -> Option<Totals> {
         let Setup { particles, transfer, material, .. } = &self.setup;
-        // The force of averaged volume ratios does not derive from the energy of F.
+        // With averaged volume ratios, the force is not the derivative of the energy of F.
         let is_averaged = self.volume_average.is_some();
         let strain_energy = if is_averaged { None } else { material.energy(particles) };
         Some(Totals { strain_energy, ..particles.totals(|p| transfer.moment(p)) })
@@ -221,7 +221,7 @@ impl<const D: usize> Memory for Setup<D> {
             particles,
             kernel: _,
             transfer,
-            // Assembled in each step.
+            // The mass matrix is assembled in each step.
             mass: _,
             frame: _,
             volume: _,
@@ -256,7 +256,7 @@ impl<const D: usize> Memory for Solver<D> {
             min_j,
             cell_tracker,
             advected: _,
-            // Written in each update before it is read.
+            // Every update writes the averages before it reads them.
             volume_average: _,
         } = self;
         checkpoint.visit(setup);
@@ -270,17 +270,17 @@ impl<const D: usize> Memory for Solver<D> {
     }
 }
 
-/// Matrix columns of the particles, in the order of the state vector.
+/// Returns the matrix columns of the particles, in the order of the state vector.
 fn matrices<const D: usize>(particles: &Particles<D>) -> impl Iterator<Item = &Matrix<D>> {
     [&particles.sigma, &particles.def_grad].into_iter().flatten()
 }
 
-/// Affine velocity field of the particles, if the transfer has such a field.
+/// Returns the affine velocity field of the particles, if the transfer has such a field.
 fn affine<const D: usize>(solver: &Solver<D>) -> Option<Affine<'_, D>> {
     solver.setup.transfer.p2g_request(&solver.setup.particles).momentum?.affine
 }
 
-/// State of the affine velocity field; empty if the transfer has none.
+/// Returns the state of the affine velocity field; empty if the transfer has none.
 pub(super) fn affine_state_mut<const D: usize>(transfer: &mut dyn Transfer<D>) -> &mut [Matrix<D>] {
     let G2pRequest { moment, gradient, .. } = transfer.g2p_request(0.0);
     moment.or(gradient).unwrap_or_default()

@@ -10,11 +10,11 @@
 //! Fbar_p = (Jbar_p/J_p)^(1/D) F_p
 //! ```
 //!
-//! J belongs to the end of the step. The weights belong to the start of the step, like the weights
-//! for forces and velocity gradients, because stresses are computed before positions change. F, J
-//! and volumes of a particle are not changed; the internal force uses the volume `V0 J` and the
-//! gradients without averaging. Both averages have the same weights, which sum to one. So Jbar is
-//! between the smallest and largest J, and a uniform J is reproduced.
+//! J is that of the end of the step. The weights are those of the start of the step, like the
+//! weights for forces and velocity gradients, because stresses are computed before positions
+//! change. F, J and volumes of a particle are not changed; the internal force uses the volume
+//! `V0 J` and the gradients without averaging. Both averages have the same weights, which sum to
+//! one. So Jbar is between the smallest and largest J, and a uniform J is reproduced.
 //!
 //! A law that stores only J receives Jbar as its volume. The force does not derive from a stored
 //! energy.
@@ -38,16 +38,16 @@ named! {
     }
 }
 
-/// Memory of the average. Each update writes every entry before reading it.
+/// Arrays for averaged volume ratios. Each update writes every entry before reading it.
 #[derive(Debug)]
 pub(in crate::mpm) struct VolumeAverage<const D: usize> {
-    /// J and 1 for each particle. After averaging, weighted means of J and of 1.
+    /// J and 1 for each particle; after averaging, the weighted means of J and of 1.
     ratio: Vec<Vector<D>>,
-    /// Sums of `V0 J N_i` and `V0 N_i` for each node (m^D), later Jbar_i and 1.
+    /// Sums of `V0 J N_i` and `V0 N_i` for each node (m^D); later Jbar_i and 1.
     nodal_ratio: Vec<Vector<D>>,
-    /// Volume of each particle (m^D) while the law reads the averaged volume.
+    /// Own volume of each particle (m^D), stored while the law reads the averaged volume.
     own_volume: Vec<f64>,
-    /// F of each particle while the law reads Fbar; empty if the law does not read F.
+    /// Own F of each particle, stored while the law reads Fbar; empty if the law does not read F.
     own_def_grad: Vec<Matrix<D>>,
 }
 
@@ -55,7 +55,8 @@ pub(in crate::mpm) struct VolumeAverage<const D: usize> {
 pub(in crate::mpm) const PASSES: u64 = 2;
 
 impl<const D: usize> VolumeAverage<D> {
-    /// Creates the memory for `particles` on `grid`. The law `reads_deformation` or stores only J.
+    /// Creates the arrays for `particles` on `grid`. The law must either read F
+    /// (`reads_deformation`) or store only J.
     ///
     /// # Errors
     /// [`Failure::Solve`] in one dimension.
@@ -86,7 +87,7 @@ impl<const D: usize> VolumeAverage<D> {
         AveragedLaw { average: self, material, kernel, grid }
     }
 
-    /// Columns with entries for particles and nodes.
+    /// Returns the columns with entries for particles and nodes.
     pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 4] {
         [
             Column::of_particles("average of J", &self.ratio),
@@ -96,8 +97,8 @@ impl<const D: usize> VolumeAverage<D> {
         ]
     }
 
-    /// Jbar of particle `p` with the volume ratio `j`. If the weights do not sum to one, as outside
-    /// the grid, the rest of the weight is given to `j`.
+    /// Returns Jbar of particle `p` with the volume ratio `j`. If the weights do not sum to one,
+    /// for example outside the grid, `j` receives the remaining weight.
     fn mean(&self, p: usize, j: f64) -> f64 {
         let ratio = &self.ratio[p];
         ratio[0] + (1.0 - ratio[1]) * j
@@ -109,7 +110,8 @@ impl<const D: usize> VolumeAverage<D> {
         for (ratio, (volume, vol0)) in self.ratio.iter_mut().zip(volumes) {
             *ratio = Vector::from_fn(|axis, _| if axis == 0 { volume / vol0 } else { 1.0 });
         }
-        // P2G of momentum weights by mass, so the reference volume temporarily replaces the mass.
+        // P2G of momentum is weighted by mass, so the reference volume temporarily replaces the
+        // mass.
         std::mem::swap(&mut particles.mass, &mut particles.vol0);
         let field = ParticleField { v: &self.ratio, affine: None };
         kernel.p2g_momentum(particles, field, grid, &mut self.nodal_ratio);
@@ -146,7 +148,7 @@ impl<const D: usize> VolumeAverage<D> {
     }
 }
 
-/// `ratio^(1/D)`.
+/// Returns `ratio^(1/D)`.
 fn root<const D: usize>(ratio: f64) -> f64 {
     match D {
         1 => ratio,
@@ -205,7 +207,7 @@ impl<const D: usize> Material<D> for AveragedLaw<'_, D> {
         self.material.checkpoint(checkpoint);
     }
 
-    /// Volumes have already been computed from F.
+    /// Reads the volumes of the particles, which have already been computed from F.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         self.average.own_volume.copy_from_slice(&particles.vol);
         self.with_average(particles, |material, particles| material.start_deformed(particles))
@@ -224,7 +226,8 @@ impl<const D: usize> Material<D> for AveragedLaw<'_, D> {
                 *own = vol * det(&(Matrix::identity() + grad_v * dt));
             }
         }
-        // The volume has already advanced, so a law that stores only J computes only its stress.
+        // The volume has already advanced. A law that stores only J must therefore not advance it
+        // again.
         let rest = if reads_deformation { dt } else { 0.0 };
         self.with_average(particles, |material, particles| {
             material.update(&mut StressUpdate::new(rest, particles));

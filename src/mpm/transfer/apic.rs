@@ -19,7 +19,7 @@ use crate::subject::Column;
 /// Affine particle in cell.
 #[derive(Debug, Clone, Default)]
 pub struct Apic<const D: usize> {
-    /// B_p (m^2/s).
+    /// First moments B_p of the velocity fields (m^2/s).
     b: Vec<Matrix<D>>,
 }
 

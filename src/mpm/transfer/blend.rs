@@ -6,14 +6,14 @@
 use super::contract::Transfer;
 use crate::mpm::kernel::contract::G2pRequest;
 
-/// FLIP with a share of PIC.
+/// A weighted mean of FLIP and PIC.
 #[derive(Debug, Clone, Copy)]
 pub struct Blend {
     flip: f64,
 }
 
 impl Blend {
-    /// Creates a blend with the share `flip` of FLIP, from 0 to 1.
+    /// Creates a blend with the fraction `flip` of FLIP, from 0 to 1.
     pub fn new(flip: f64) -> Self {
         Self { flip }
     }

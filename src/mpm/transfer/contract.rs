@@ -11,30 +11,30 @@ use crate::subject::Column;
 /// Kind of a transfer, which determines the methods with which it can be combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TransferKind {
-    /// Particles have a velocity.
+    /// Particles have only a velocity.
     Velocity,
     /// Particles have an affine velocity field.
     Field,
-    /// Like [`Field`](Self::Field), but gradients come from the fit of the field instead of the
-    /// basis.
+    /// Particles have an affine velocity field, and gradients come from the fit of this field
+    /// instead of the basis.
     Fit,
-    /// A series in the lumped mass matrix.
+    /// Grid velocities result from a series in the lumped mass matrix.
     Series,
-    /// Fields reconstructed in cells.
+    /// Fields are reconstructed in cells.
     Cells,
 }
 
 /// Integer parameter of a transfer, with its range and its text in messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TransferParameter {
-    /// Minimum and maximum value.
+    /// Range of the parameter: minimum and maximum value.
     pub range: (u32, u32),
-    /// Text before and after the value, as in `a series of 8 terms`.
+    /// Text before and after the value in messages, as in `a series of 8 terms`.
     pub words: (&'static str, &'static str),
 }
 
 impl TransferParameter {
-    /// Number of terms of a series. Each term needs two passes over the particles.
+    /// Parameter of a series: its number of terms. Each term needs two passes over the particles.
     pub(super) const TERMS: Self = Self { range: (1, 64), words: ("a series of", "terms") };
 }
 
@@ -44,7 +44,7 @@ impl TransferParameter {
 ///
 /// A transfer stores its own columns.
 pub trait Transfer<const D: usize>: Send + Sync {
-    /// Kind of the transfer.
+    /// Returns the kind of the transfer.
     fn kind(&self) -> TransferKind {
         TransferKind::Velocity
     }
@@ -53,19 +53,19 @@ pub trait Transfer<const D: usize>: Send + Sync {
     /// initial velocity.
     fn start(&mut self, _: &dyn Kernel<D>, _: &Grid<D>, _: &Particles<D>) {}
 
-    /// Columns with entries for particles or nodes.
+    /// Returns the columns with entries for particles or nodes.
     fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
     }
 
-    /// All P2G parts. A divergence by fit is combined with velocity gradients by fit.
+    /// Requests all parts of P2G. A divergence by fit is combined with velocity gradients by fit.
     fn p2g_request<'a>(&'a self, particles: &'a Particles<D>) -> P2gRequest<'a, D> {
         let momentum = Some(ParticleField { v: &particles.v, affine: None });
         P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) }
     }
 
-    /// Performs P2G for `stages`, in one pass if the transfer can do so. In the first pass after
-    /// particles have moved, `stages` includes mass.
+    /// Performs P2G for `stages`, in one pass if the transfer supports this. In the first pass
+    /// after particles have moved, `stages` includes mass.
     fn p2g(
         &mut self,
         kernel: &dyn Kernel<D>,
@@ -93,19 +93,20 @@ pub trait Transfer<const D: usize>: Send + Sync {
         0
     }
 
-    /// G2P parts that compute the new particle velocities after `dt` (s). The moment or gradient of
-    /// the request is the affine state that the transfer stores between steps.
+    /// Requests the parts of G2P that compute the new particle velocities after `dt` (s). The
+    /// moment or gradient of the request is the affine state that the transfer stores between
+    /// steps.
     fn g2p_request(&mut self, dt: f64) -> G2pRequest<'_, D>;
 
-    /// First moment of the velocity field around particle `p`, `C_p D_p` (m^2/s). Its antisymmetric
-    /// part is the internal angular momentum of the particle per unit mass. `None` if the particle
-    /// has only a velocity.
+    /// Returns the first moment of the velocity field around particle `p`, `C_p D_p` (m^2/s). Its
+    /// antisymmetric part is the internal angular momentum of the particle per unit mass. `None` if
+    /// the particle has only a velocity.
     fn moment(&self, _p: usize) -> Option<Matrix<D>> {
         None
     }
 }
 
-/// One P2G pass with the parts of `request` that `stages` need.
+/// Runs one P2G pass with the parts of `request` that `stages` need.
 pub(super) fn p2g<const D: usize>(
     request: P2gRequest<'_, D>,
     kernel: &dyn Kernel<D>,
@@ -122,10 +123,11 @@ pub(super) fn p2g<const D: usize>(
     request.parts().count() as u64
 }
 
-/// Performs G2P over `dt` (s) for `stages` in one pass. It computes new velocities, velocity
-/// gradients in `particles.grad_v`, and positions after the step in `advected` (m). Returns the
-/// number of passes for these parts, except the pass for positions, which is counted when the
-/// particles move.
+/// Performs G2P over `dt` (s) for `stages` in one pass. The pass computes new velocities, velocity
+/// gradients in `particles.grad_v`, and positions after the step in `advected` (m).
+///
+/// Returns the number of passes for these parts, except the pass for positions, which is counted
+/// when the particles move.
 pub fn g2p<const D: usize>(
     transfer: &mut dyn Transfer<D>,
     kernel: &dyn Kernel<D>,
@@ -145,7 +147,7 @@ pub fn g2p<const D: usize>(
         (std::mem::take(&mut particles.v), std::mem::take(&mut particles.grad_v));
     request.value = stages.contains(&Stage::ParticleVelocity).then_some(&mut v);
     let wants_gradient = stages.contains(&Stage::Stress);
-    // The gradient of the transfer is computed from the same velocities.
+    // The gradient of the transfer is computed from the same velocities, so it is copied.
     let is_copied = wants_gradient && !is_fit && request.gradient.is_some();
     if wants_gradient && is_fit {
         request.fit = Some(&mut grad_v);
@@ -179,7 +181,7 @@ pub(in crate::mpm) fn kick<const D: usize>(
     let mut v = std::mem::take(&mut particles.v);
     kernel.g2p(grid, &grid.acceleration, particles, (1.0, dt), &mut v);
     particles.v = v;
-    // This column is not used until the stress stage.
+    // The column of velocity gradients is free until the stress stage.
     let mut change = std::mem::take(&mut particles.grad_v);
     let G2pRequest { moment, gradient, .. } = transfer.g2p_request(dt);
     if moment.is_some() {

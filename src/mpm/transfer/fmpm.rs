@@ -1,9 +1,10 @@
 //! FMPM(k): PIC with grid velocities that approximate the result of the consistent mass matrix.
 //!
-//! The consistent matrix is the lumped matrix times S+ S. Its inverse is approximated by k terms of
-//! the Neumann series, `v(k) = sum_(j<k) (I - S+ S)^j v(1)` with v(1) from the lumped matrix (Nairn
-//! & Hammerquist 2021, CMAME 374, eqs 20-24). Momentum and force are both solved in this way; then
-//! the particles receive the grid velocity. FMPM(1) is PIC.
+//! With S the map from grid to particles and S+ the map back, the consistent matrix is the lumped
+//! matrix times S+ S. Its inverse is approximated by k terms of the Neumann series,
+//! `v(k) = sum_(j<k) (I - S+ S)^j v(1)` with v(1) from the lumped matrix (Nairn & Hammerquist 2021,
+//! CMAME 374, eqs 20-24). Momentum and force are both solved in this way. Then the particles
+//! receive the grid velocity. FMPM(1) is PIC.
 
 use super::contract::{Transfer, TransferKind, TransferParameter};
 use crate::mpm::boundary::Boundary;
@@ -23,7 +24,7 @@ pub struct Fmpm<const D: usize> {
 }
 
 impl<const D: usize> Fmpm<D> {
-    /// Parameter: the order k.
+    /// Parameter in suites: the order k.
     pub const PARAMETER: TransferParameter = TransferParameter::TERMS;
 
     /// Creates FMPM(k) with k = `order`.

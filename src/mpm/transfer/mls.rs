@@ -11,7 +11,7 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{Divergence, G2pRequest, Kernel, P2gRequest};
 use crate::subject::Column;
 
-/// Moving least squares MPM.
+/// Moving least squares MPM (MLS-MPM).
 #[derive(Debug, Clone, Default)]
 pub struct Mls<const D: usize> {
     apic: Apic<D>,

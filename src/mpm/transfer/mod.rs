@@ -1,5 +1,5 @@
-//! The family of transfers of velocity between particles and grid. A member is one file and one
-//! line below. A member whose parameter is set in suites has a second line.
+//! The family of transfers of velocity between particles and grid. A new transfer requires one file
+//! and one line below, and a second line if its parameter is set in suites.
 
 /// The transfer added by `docs/exercises/transfer.md`.
 #[cfg(test)]
@@ -58,9 +58,9 @@ objects_with_parameter! {
 }
 
 impl TransferName {
-    /// Kind of the transfer.
+    /// Returns the kind of the transfer.
     pub fn kind(self) -> TransferKind {
-        // The kind does not depend on the dimension.
+        // The kind is the same in any dimension.
         transfer::<1>(self).kind()
     }
 }
@@ -81,7 +81,7 @@ impl From<TransferName> for TransferChoice {
 }
 
 impl TransferChoice {
-    /// Name in reports: `apic`, `fmpm_8`.
+    /// Returns the name in reports, such as `apic` or `fmpm_8`.
     pub fn name(self) -> String {
         match self {
             Self::Named(name) => name.name().to_owned(),
@@ -89,7 +89,7 @@ impl TransferChoice {
         }
     }
 
-    /// Kind of the transfer, which is the same in every dimension.
+    /// Returns the kind of the transfer, which is the same in every dimension.
     pub fn kind(self) -> TransferKind {
         self.build::<1>().kind()
     }

@@ -1,12 +1,12 @@
 //! PIC: a particle takes the grid velocity and discards its own velocity.
 //!
-//! `v_p = sum_i v_i N_i(x_p)` (Harlow 1964). Every step filters the velocity once through the grid,
-//! which damps variations within a cell.
+//! `v_p = sum_i v_i N_i(x_p)` (Harlow 1964). Every step filters the velocity once through the grid.
+//! This damps variations within a cell.
 
 use super::contract::Transfer;
 use crate::mpm::kernel::contract::G2pRequest;
 
-/// Particle in cell.
+/// Particle in cell (PIC).
 #[derive(Debug, Clone, Copy)]
 pub struct Pic;
 

@@ -15,10 +15,10 @@ use crate::mpm::kernel::contract::{
 use crate::mpm::scheme::Stage;
 use crate::subject::Column;
 
-/// Taylor particle in cell.
+/// Taylor particle in cell (TPIC).
 #[derive(Debug, Clone, Default)]
 pub struct Tpic<const D: usize> {
-    /// C_p (1/s).
+    /// Velocity gradients C_p (1/s).
     c: Vec<Matrix<D>>,
     moments: Moments<D>,
 }

@@ -6,7 +6,7 @@ use crate::verify::{Agreement, End, Exponent, Model, Ranked, Ranking, Reach};
 
 type MethodColumn<'a> = TableColumn<'a, Ranked>;
 
-/// Table of the work for each target error.
+/// Returns the columns of the work for each target error.
 pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     let mut columns = vec![name("cheapest for")];
     for (k, target) in ranking.targets.iter().enumerate() {
@@ -49,7 +49,7 @@ fn name<'a>(heading: &'static str) -> MethodColumn<'a> {
         .flush_left()
 }
 
-/// Table of the exponents, for methods with a known exponent.
+/// Returns the columns of the exponents, for methods with a known exponent.
 pub(crate) fn exponents<'a>() -> Vec<MethodColumn<'a>> {
     let columns = exponent().map(|column| column.within(|row: &Ranked| row.exponent.as_ref()));
     std::iter::once(name("work ~ error^k")).chain(columns).collect()
@@ -80,7 +80,7 @@ fn exponent<'a>() -> [TableColumn<'a, Exponent>; 5] {
     ]
 }
 
-/// All columns with a JSON key.
+/// Returns all columns with a JSON key.
 pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     let mut columns = methods(ranking);
     columns.extend([
@@ -98,7 +98,8 @@ pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     columns
 }
 
-/// Where the error reaches a target, and the ratio of the work to the minimum over all methods.
+/// Whether and where a series reaches a target error, and the ratio of its work to the minimum over
+/// all methods.
 type Reached = (Reach, Option<f64>);
 
 fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
@@ -115,7 +116,7 @@ fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
     ]
 }
 
-/// Coefficients of the cost model.
+/// Returns the columns of the coefficients of the cost model.
 pub(crate) fn model<'a>() -> [TableColumn<'a, Model>; 4] {
     let column = |k: usize, heading: &'static str, key: &'static str| {
         TableColumn::<Model>::new(heading, key, "cost (ns, in JSON s)", move |model| {
@@ -132,11 +133,11 @@ pub(crate) fn model<'a>() -> [TableColumn<'a, Model>; 4] {
     ]
 }
 
-/// Name of a case, its model, and the model's relative error on the finest level before this level
-/// ran.
+/// Name of a case, its cost model, and the relative error with which the model predicted the finest
+/// level.
 pub(crate) type FittedModel = (String, Model, Option<f64>);
 
-/// Table of cost models.
+/// Returns the columns of the cost models.
 pub(crate) fn models<'a>() -> Vec<TableColumn<'a, FittedModel>> {
     let name =
         TableColumn::<FittedModel>::text("cost model, ns", "case", |(name, ..)| name.clone());
@@ -148,7 +149,7 @@ pub(crate) fn models<'a>() -> Vec<TableColumn<'a, FittedModel>> {
     std::iter::once(name.flush_left()).chain(terms).chain([finest]).collect()
 }
 
-/// Text about the agreement with theory, or about the main difference.
+/// Describes the agreement with theory, or the main difference.
 fn agreement(found: &Exponent) -> String {
     match found.agreement() {
         Agreement::Agrees => "agrees".to_owned(),
@@ -163,13 +164,13 @@ fn agreement(found: &Exponent) -> String {
     }
 }
 
-/// Observed and expected number, with enough decimals to distinguish them.
+/// Prints the observed and the expected number with enough decimals to distinguish them.
 fn differing(name: &str, observed: f64, expected: f64) -> String {
     let decimals = if (observed - expected).abs() < 0.015 { 4 } else { 2 };
     format!("{name} {observed:.decimals$}, not {expected:.decimals$}")
 }
 
-/// Text of the work; an upper bound if the coarsest level is accurate enough.
+/// Formats the work. If the coarsest level is already accurate enough, its work is an upper bound.
 pub(crate) fn reach_text(reach: Reach) -> String {
     match reach {
         Reach::At { work, .. } => short(work),
@@ -178,7 +179,7 @@ pub(crate) fn reach_text(reach: Reach) -> String {
     }
 }
 
-/// A ratio with two decimals. Further digits would be noise.
+/// Formats a ratio with two decimals. Further digits would be noise.
 fn ratio(times: f64) -> String {
     if times < 1000.0 { format!("{times:.2}") } else { short(times) }
 }

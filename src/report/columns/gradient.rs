@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 /// One level, with the order relative to the previous level.
 pub(crate) type GradientLevelRow = (GradientLevel, Option<f64>);
 
-/// One perturbation: the remainder, the order relative to the previous perturbation, and the
+/// One perturbation, the Taylor remainder, its order relative to the previous perturbation, and the
 /// central difference.
 pub(crate) struct TaylorRow {
     perturbed: Perturbed,
@@ -17,13 +17,13 @@ pub(crate) struct TaylorRow {
     difference: f64,
 }
 
-/// The levels of a study, from coarse to fine.
+/// Returns the levels of a study, from coarse to fine.
 pub(crate) fn level_rows(study: &GradientStudy) -> Vec<GradientLevelRow> {
     let orders = std::iter::once(None).chain(study.pairwise_orders().into_iter().map(Some));
     study.levels.iter().copied().zip(orders).collect()
 }
 
-/// The perturbations of a study, the largest first.
+/// Returns the perturbations of a study, the largest first.
 pub(crate) fn taylor_rows(study: &GradientStudy) -> Vec<TaylorRow> {
     let taylor = &study.taylor;
     let orders = std::iter::once(None).chain(taylor.orders());
@@ -35,7 +35,7 @@ pub(crate) fn taylor_rows(study: &GradientStudy) -> Vec<TaylorRow> {
     all.zip(taylor.differences()).map(row).collect()
 }
 
-/// Columns of the levels.
+/// Returns the columns of the levels.
 pub(crate) fn levels<'a>() -> Vec<TableColumn<'a, GradientLevelRow>> {
     type GradientLevelColumn<'a> = TableColumn<'a, GradientLevelRow>;
     let of = |key, about, value: fn(&GradientLevel) -> f64| {
@@ -57,7 +57,7 @@ pub(crate) fn levels<'a>() -> Vec<TableColumn<'a, GradientLevelRow>> {
     ]
 }
 
-/// Columns of the perturbations.
+/// Returns the columns of the perturbations.
 pub(crate) fn taylor<'a>() -> Vec<TableColumn<'a, TaylorRow>> {
     type TaylorColumn<'a> = TableColumn<'a, TaylorRow>;
     vec![
@@ -76,7 +76,7 @@ pub(crate) fn taylor<'a>() -> Vec<TableColumn<'a, TaylorRow>> {
     ]
 }
 
-/// Columns of the points of a sweep, in JSON only.
+/// Returns the columns of the points of a sweep, in JSON only.
 pub(crate) fn points<'a>() -> Vec<TableColumn<'a, SweepPoint>> {
     type SweepColumn<'a> = TableColumn<'a, SweepPoint>;
     vec![
@@ -88,7 +88,7 @@ pub(crate) fn points<'a>() -> Vec<TableColumn<'a, SweepPoint>> {
     ]
 }
 
-/// The sweep of a study as JSON.
+/// Converts the sweep of a study to JSON.
 pub(crate) fn sweep(study: &GradientStudy) -> Option<Value> {
     let sweep = study.sweep.as_ref()?;
     let jumps: Vec<Value> = sweep.jumps.iter().map(|jump| number(*jump)).collect();

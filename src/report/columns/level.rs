@@ -20,12 +20,12 @@ pub(crate) type LevelColumn<'a> = TableColumn<'a, LevelRow<'a>>;
 /// Name of a case and its study.
 pub(crate) type NamedStudy<'a> = (&'a str, &'a Convergence);
 
-/// The levels of a study, coarse to fine.
+/// Returns the levels of a study, coarse to fine.
 pub(crate) fn rows(study: &Convergence) -> impl Iterator<Item = LevelRow<'_>> {
     study.levels.iter().enumerate().map(move |(index, level)| LevelRow { study, index, level })
 }
 
-/// Cells along the first axis.
+/// Returns the column of the cells along the first axis.
 pub(crate) fn cells<'a>() -> LevelColumn<'a> {
     LevelColumn::new("cells", "cells", "cells along the first axis", |row| {
         Cell::plain(row.level.cells)
@@ -40,7 +40,7 @@ fn ppc<'a>() -> LevelColumn<'a> {
     LevelColumn::new("ppc", "ppc", "particles per cell (MPM)", |row| Cell::plain(row.level.ppc))
 }
 
-/// Spacing of the refined axis, which identifies a level in tables.
+/// Returns the column of the spacing of the refined axis, which identifies a level in tables.
 pub(crate) fn name<'a>(axis: Axis) -> LevelColumn<'a> {
     match axis {
         Axis::Space => cells(),
@@ -49,13 +49,13 @@ pub(crate) fn name<'a>(axis: Axis) -> LevelColumn<'a> {
     }
 }
 
-/// Names of the levels of a study, as headings of its tables.
+/// Returns the names of the levels of a study, as headings of its tables.
 pub(crate) fn names(study: &Convergence) -> Vec<String> {
     let name = name(study.axis);
     rows(study).map(|row| name.cell(&row).text).collect()
 }
 
-/// The judged error.
+/// Returns the column of the judged error.
 pub(crate) fn judged<'a>() -> LevelColumn<'a> {
     let about = "judged error; in brackets if the level does not count for the verdict";
     LevelColumn::new("error", "judged", about, |row| {
@@ -65,13 +65,13 @@ pub(crate) fn judged<'a>() -> LevelColumn<'a> {
     })
 }
 
-/// Order between consecutive levels.
+/// Returns the column of the order between consecutive levels.
 pub(crate) fn order<'a>() -> LevelColumn<'a> {
     let about = "order between the next coarser level and this one";
     LevelColumn::new("order", "order", about, |row| Cell::number(row.level.order, decimals(2)))
 }
 
-/// Norms of the displacement error (m) at the end.
+/// Returns the columns of the norms of the displacement error (m) at the end.
 fn norms<'a>() -> [LevelColumn<'a>; 5] {
     let column = |key: &'static str, about: &'static str, norm: fn(&RunErrors) -> f64| {
         LevelColumn::json(key, about, move |row| {
@@ -87,7 +87,7 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
     ]
 }
 
-/// Largest error at the end and its order, if another norm is judged.
+/// Returns the columns of the largest error at the end and its order, if another norm is judged.
 pub(crate) fn largest_error<'a>() -> [LevelColumn<'a>; 2] {
     let about = "order of linf between the next coarser level and this one";
     [
@@ -105,7 +105,7 @@ pub(crate) fn largest_error<'a>() -> [LevelColumn<'a>; 2] {
     ]
 }
 
-/// Largest difference between repeated runs.
+/// Returns the column of the largest difference between repeated runs.
 pub(crate) fn spread<'a>() -> LevelColumn<'a> {
     let about = "largest difference between repeated runs, in the norm and over the scale of the \
                  error";
@@ -116,7 +116,7 @@ pub(crate) fn spread<'a>() -> LevelColumn<'a> {
     })
 }
 
-/// Error of the observed velocity.
+/// Returns the column of the error of the observed velocity.
 pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
     let about = "error of the observed velocity, divided by its largest exact value";
     LevelColumn::text("velocity", about, |row| {
@@ -125,7 +125,7 @@ pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
     })
 }
 
-/// Columns of the work and of figures that explain the error of a level.
+/// Returns the columns of the work and of values that explain the error of a level.
 pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
     vec![
         LevelColumn::new("particles", "particles", "particles (MPM)", |row| {
@@ -187,7 +187,7 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
     ]
 }
 
-/// Relative drift of a conserved sum.
+/// Returns the column of the relative drift of a conserved sum.
 pub(crate) fn drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     let about = "largest relative change of the sum since t = 0";
     LevelColumn::new(sum.words(), sum.name(), about, move |row| {
@@ -195,7 +195,7 @@ pub(crate) fn drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     })
 }
 
-/// Largest relative drift of a conserved sum over all levels.
+/// Returns the column of the largest relative drift of a conserved sum over all levels.
 pub(crate) fn largest_drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     LevelColumn::text(sum.words(), "largest drift of any level", move |row| {
         let of_level = |row: &LevelRow<'_>| row.level.run.drift.map_or(0.0, |drift| drift.of(sum));
@@ -204,7 +204,7 @@ pub(crate) fn largest_drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     })
 }
 
-/// Energy rate, d ln E/dt (1/s).
+/// Returns the columns of the energy rate, d ln E/dt (1/s).
 pub(crate) fn energy_rate<'a>() -> [LevelColumn<'a>; 3] {
     let column = |heading: &'static str, about: &'static str, end: fn(Interval) -> f64| {
         LevelColumn::new(heading, "", about, move |row| {
@@ -219,7 +219,7 @@ pub(crate) fn energy_rate<'a>() -> [LevelColumn<'a>; 3] {
     ]
 }
 
-/// All columns with a JSON key.
+/// Returns all columns with a JSON key.
 pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
     let mut columns = vec![cells(), dt(), ppc(), judged(), order(), spread()];
     columns.extend(norms());
@@ -263,13 +263,13 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
 }
 
 impl LevelRow<'_> {
-    /// An error, if there is a reference solution.
+    /// Returns the cell of an error; empty without a reference solution.
     fn error(&self, error: f64) -> Cell {
         let error = self.study.compared.then_some(error);
         Cell::number(error, scientific).or_failed(self.level.run.failure.as_ref())
     }
 
-    /// Largest error at the end, for the primary unknown of the study.
+    /// Returns the largest error at the end, for the primary unknown of the study.
     fn linf(&self) -> f64 {
         let run = &self.level.run;
         let errors =
@@ -277,7 +277,8 @@ impl LevelRow<'_> {
         errors.at_end.linf
     }
 
-    /// A figure with one digit. A dash if the level has no figure; `failed` if the level failed.
+    /// Formats a value with one digit: a dash if the level has no value, `failed` if the level
+    /// failed.
     fn unless_failed(&self, figure: Option<f64>) -> Cell {
         let cell = Cell::number(figure, |value| format!("{value:.0e}"));
         cell.or_failed(figure.and(self.level.run.failure.as_ref()))

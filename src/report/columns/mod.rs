@@ -1,4 +1,4 @@
-//! Columns of tables. Each is declared once, with its heading, JSON key, meaning and value.
+//! Columns of tables. Each column is declared once, with its heading, JSON key, meaning and value.
 //!
 //! Text, JSON, Markdown and `docs/columns.md` use the same lists. To add a column, add an entry to
 //! a list.
@@ -25,33 +25,33 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
-    /// A value with different text and JSON.
+    /// Creates a cell with different values in text and JSON.
     pub(crate) fn new(text: impl Text, json: impl Into<Value>) -> Self {
         Self { text: text.text(), json: json.into() }
     }
 
-    /// A value in text only.
+    /// Creates a cell in text only.
     pub(crate) fn text(text: impl Text) -> Self {
         Self::new(text, Value::Null)
     }
 
-    /// A value in JSON only.
+    /// Creates a cell in JSON only.
     pub(crate) fn json(json: impl Into<Value>) -> Self {
         Self::new(None::<String>, json)
     }
 
-    /// A name or a count, equal in text and JSON.
+    /// Creates a cell with a name or a count, which is equal in text and JSON.
     pub(crate) fn plain(value: impl Text + Clone + Into<Value>) -> Self {
         Self::new(value.clone(), value)
     }
 
-    /// A number, with its text formatted by `format`.
+    /// Creates a cell with a number, whose text is formatted by `format`.
     pub(crate) fn number(value: impl Into<Option<f64>>, format: impl Fn(f64) -> String) -> Self {
         let value = value.into();
         Self::new(value.map(format), value.map(number))
     }
 
-    /// The cell with the text `failed` if there is a failure.
+    /// Replaces the text by `failed` if there is a failure.
     pub(crate) fn or_failed(self, failure: Option<&String>) -> Self {
         if failure.is_some() { Self { text: "failed".to_owned(), ..self } } else { self }
     }
@@ -79,12 +79,12 @@ impl<T: Text> Text for Option<T> {
     }
 }
 
-/// A number with `count` decimals.
+/// Returns a function that formats a number with `count` decimals.
 pub(crate) fn decimals(count: usize) -> impl Fn(f64) -> String {
     move |value| format!("{value:.count$}")
 }
 
-/// An error or a length with four significant digits and a two-digit exponent.
+/// Formats an error or a length with four significant digits and a two-digit exponent.
 pub(crate) fn scientific(value: f64) -> String {
     if !value.is_finite() {
         return if value.is_nan() { "nan".to_owned() } else { "inf".to_owned() };
@@ -93,7 +93,7 @@ pub(crate) fn scientific(value: f64) -> String {
     two_digit_exponent(&format!("{:.3e}", value + 0.0))
 }
 
-/// A number with three significant digits and a two-digit exponent.
+/// Formats a number with three significant digits and a two-digit exponent.
 pub(crate) fn short(value: f64) -> String {
     two_digit_exponent(&format!("{value:.2e}"))
 }
@@ -111,7 +111,7 @@ pub(crate) struct TableColumn<'a, R: ?Sized> {
     /// Key in the JSON object of a row; empty for a column in text only. `errors.rms` is the key
     /// `rms` of the object `errors`.
     pub(crate) key: &'static str,
-    /// Meaning, with the unit.
+    /// Meaning of the column, with its unit.
     pub(crate) about: &'static str,
     /// Whether text is aligned to the left, as for names; numbers are aligned to the right.
     pub(crate) flush_left: bool,
@@ -119,7 +119,7 @@ pub(crate) struct TableColumn<'a, R: ?Sized> {
 }
 
 impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
-    /// A column in text and JSON.
+    /// Creates a column in text and JSON.
     pub(crate) fn new(
         heading: impl Into<Cow<'a, str>>,
         key: &'static str,
@@ -129,7 +129,7 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self { heading: heading.into(), key, about, flush_left: false, cell: Box::new(cell) }
     }
 
-    /// A column in text only.
+    /// Creates a column in text only.
     pub(crate) fn text<V: Text>(
         heading: impl Into<Cow<'a, str>>,
         about: &'static str,
@@ -138,7 +138,7 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self::new(heading, "", about, move |row| Cell::text(text(row)))
     }
 
-    /// A column in JSON only.
+    /// Creates a column in JSON only.
     pub(crate) fn json<V: Into<Value>>(
         key: &'static str,
         about: &'static str,
@@ -147,25 +147,26 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self::new("", key, about, move |row| Cell::json(json(row)))
     }
 
-    /// The column, aligned to the left.
+    /// Aligns the column to the left.
     pub(crate) fn flush_left(self) -> Self {
         Self { flush_left: true, ..self }
     }
 
-    /// The column for a table whose rows contain an optional `R`, with dashes in rows without it.
+    /// Adapts the column to a table whose rows contain an optional `R`; rows without it have
+    /// dashes.
     pub(crate) fn within<S: 'a>(self, part: impl Fn(&S) -> Option<&R> + 'a) -> TableColumn<'a, S> {
         let Self { heading, key, about, flush_left, cell } = self;
         let cell = move |row: &S| part(row).map_or_else(|| Cell::json(Value::Null), &cell);
         TableColumn { heading, key, about, flush_left, cell: Box::new(cell) }
     }
 
-    /// The value in a row.
+    /// Returns the value of the column in a row.
     pub(crate) fn cell(&self, row: &R) -> Cell {
         (self.cell)(row)
     }
 }
 
-/// The row as a JSON object.
+/// Converts a row to a JSON object.
 pub(crate) fn json_object<R: ?Sized>(columns: &[TableColumn<'_, R>], row: &R) -> Value {
     let mut object = Map::new();
     for column in columns.iter().filter(|column| !column.key.is_empty()) {
@@ -181,7 +182,7 @@ pub(crate) fn json_object<R: ?Sized>(columns: &[TableColumn<'_, R>], row: &R) ->
     object.into()
 }
 
-/// The number, or `"nan"`, `"inf"` or `"-inf"`.
+/// Returns the number, or `"nan"`, `"inf"` or `"-inf"`.
 pub(crate) fn number(value: f64) -> Value {
     match value {
         v if v.is_nan() => json!("nan"),
@@ -190,13 +191,13 @@ pub(crate) fn number(value: f64) -> Value {
     }
 }
 
-/// An estimate with both ends of its interval.
+/// Returns an estimate with both ends of its interval.
 pub(crate) fn interval(estimate: Interval) -> Value {
     let Interval { value, low, high } = estimate;
     json!({"value": number(value), "low": number(low), "high": number(high)})
 }
 
-/// Values grouped by key, in order of first occurrence.
+/// Groups values by key, in order of first occurrence.
 pub(crate) fn grouped<K: PartialEq, V>(
     pairs: impl IntoIterator<Item = (K, V)>,
 ) -> Vec<(K, Vec<V>)> {
@@ -210,7 +211,7 @@ pub(crate) fn grouped<K: PartialEq, V>(
     groups
 }
 
-/// Values without duplicates, in order of first occurrence.
+/// Removes duplicates, in order of first occurrence.
 pub(crate) fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {
     grouped(values.into_iter().map(|value| (value, ())))
         .into_iter()

@@ -5,7 +5,7 @@ use crate::verify::{SpectrumRow, WaveFigures};
 
 type WaveColumn<'a> = TableColumn<'a, SpectrumRow>;
 
-/// A number of a row, with its text formatted by `format`.
+/// Returns the column of a number, whose text is formatted by `format`.
 fn figure<'a>(
     heading: &'static str,
     key: &'static str,
@@ -16,7 +16,7 @@ fn figure<'a>(
     WaveColumn::new(heading, key, about, move |row| Cell::number(value(row), format))
 }
 
-/// A relative error, in per cent.
+/// Formats a relative error in per cent.
 fn percent(value: f64) -> String {
     format!("{:.4} %", 100.0 * value + 0.0)
 }
@@ -53,7 +53,7 @@ fn courant<'a>() -> WaveColumn<'a> {
     )
 }
 
-/// Columns of the waves.
+/// Returns the columns of the waves.
 pub(crate) fn waves<'a>() -> Vec<WaveColumn<'a>> {
     vec![
         cells(),
@@ -90,7 +90,7 @@ pub(crate) fn waves<'a>() -> Vec<WaveColumn<'a>> {
     ]
 }
 
-/// Columns of the Courant numbers: closed-form figures that no run confirms.
+/// Returns the columns of the Courant numbers: closed-form values that no run confirms.
 pub(crate) fn curves<'a>() -> Vec<WaveColumn<'a>> {
     vec![
         courant(),
@@ -111,7 +111,7 @@ pub(crate) fn curves<'a>() -> Vec<WaveColumn<'a>> {
     ]
 }
 
-/// All columns with a JSON key.
+/// Returns all columns with a JSON key.
 pub(crate) fn json_columns<'a>() -> Vec<WaveColumn<'a>> {
     let mut columns = waves();
     columns.extend(curves().into_iter().skip(1));

@@ -10,14 +10,14 @@ use serde_json::{Value, json};
 type RowColumn<'a> = TableColumn<'a, StabilityRow>;
 type TrialColumn<'a> = TableColumn<'a, Trial>;
 
-/// Value of the swept parameter.
+/// Returns the column of the swept parameter.
 fn swept(study: &StabilityStudy) -> RowColumn<'_> {
     RowColumn::new(study.swept.as_str(), "value", "value of the swept parameter", |row| {
         Cell::new(row.value.to_string(), number(row.value))
     })
 }
 
-/// A figure of a run.
+/// Returns the column of one quantity of a run.
 fn figure<'a>(figure: RunFigure) -> TrialColumn<'a> {
     TrialColumn::new(figure.head(), figure.name(), "figure of the run", move |trial| {
         let value = figure.of(trial);
@@ -37,7 +37,7 @@ fn steps<'a>() -> TrialColumn<'a> {
     TrialColumn::new("steps", "steps", "steps taken", |trial| Cell::plain(trial.steps))
 }
 
-/// Table of runs, if no limit is sought.
+/// Returns the columns of runs, for studies that do not search for a limit.
 pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     let figures = study.figures.iter().map(|one| figure(*one));
     let columns = [verdict(), steps()].into_iter().chain(figures);
@@ -45,7 +45,7 @@ pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     std::iter::once(swept(study)).chain(columns).collect()
 }
 
-/// Table of limits of the parameter `sought`.
+/// Returns the columns of limits of the parameter `sought`.
 pub(crate) fn limits<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColumn<'a>> {
     let mut columns = vec![
         swept(study),
@@ -69,7 +69,7 @@ pub(crate) fn limits<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColu
     columns
 }
 
-/// One column for each share of the predicted limit at which a run confirms it.
+/// Returns one column for each fraction of the predicted limit at which a run confirms the limit.
 fn confirmed(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     let critical = study.rows.iter().filter_map(|row| row.critical.as_ref());
     let longest = critical.max_by_key(|critical| critical.confirmed.len());
@@ -84,7 +84,7 @@ fn confirmed(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     shares.map(column).collect()
 }
 
-/// All columns with a JSON key.
+/// Returns all columns with a JSON key.
 pub(crate) fn json_columns(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     let mut columns = limits(study, study.sought.as_deref().unwrap_or_default());
     columns.extend([
@@ -122,12 +122,12 @@ fn confirmations(critical: &Critical) -> Value {
     critical.confirmed.iter().map(run).collect()
 }
 
-/// The limit of a row, predicted or observed.
+/// Returns the limit of a row, predicted or observed.
 pub(crate) fn limit_of(row: &StabilityRow) -> Option<StabilityLimit> {
     row.critical.as_ref().and_then(Critical::limit)
 }
 
-/// A limit with four decimals, or the end of the searched range beyond which it lies.
+/// Formats a limit with four decimals. A limit outside the searched range is given as a bound.
 pub(crate) fn limit_text(limit: StabilityLimit) -> String {
     match limit {
         StabilityLimit::At(value) => format!("{value:.4}"),
@@ -149,7 +149,7 @@ fn predicted(row: &StabilityRow) -> Option<Prediction> {
     row.critical.as_ref().and_then(|critical| critical.predicted)
 }
 
-/// An eigenvalue as real and imaginary part, or as a single number on the real axis.
+/// Formats the critical eigenvalue as real and imaginary part, or as one number on the real axis.
 fn leaves(prediction: &Prediction) -> Option<String> {
     let (re, im) = prediction.leaves?;
     Some(if im == 0.0 { format!("{re:.2}") } else { format!("{re:.2} +- {im:.2} i") })

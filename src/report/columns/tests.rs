@@ -9,7 +9,7 @@ use rstest::rstest;
 
 const DOCUMENT: &str = include_str!("../../../docs/columns.md");
 
-/// A section of the document: one row for each column, without duplicates between tables.
+/// Creates a section of the document: one row for each column, without duplicates between tables.
 fn section<R>(title: &str, tables: Vec<Vec<TableColumn<'_, R>>>) -> String {
     let mut rows = vec!["| column | JSON key | meaning |".to_owned(), "|---|---|---|".to_owned()];
     for column in tables.into_iter().flatten() {

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 pub(crate) struct TimedLevel<'a> {
     case: &'a CaseOutcome,
     level: &'a LevelOutcome,
-    /// Size of the solution, the divisor of errors.
+    /// Size of the solution, by which errors are divided.
     size: f64,
     load: &'a Workload,
     timing: Option<Timing>,
@@ -18,7 +18,7 @@ pub(crate) struct TimedLevel<'a> {
 
 type TimedColumn<'a> = TableColumn<'a, TimedLevel<'a>>;
 
-/// Levels of the case with this index, coarse to fine.
+/// Returns the levels of the case with this index, coarse to fine.
 pub(crate) fn rows(suite: &TimedSuite, case: usize) -> impl Iterator<Item = TimedLevel<'_>> {
     let outcome = &suite.outcome.cases[case];
     let levels = outcome
@@ -34,7 +34,7 @@ pub(crate) fn rows(suite: &TimedSuite, case: usize) -> impl Iterator<Item = Time
     })
 }
 
-/// Table of levels.
+/// Returns the columns of the levels.
 pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
     [
         TimedColumn::text("case", "case", |row| row.case.case.clone()).flush_left(),
@@ -68,7 +68,7 @@ pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
     ]
 }
 
-/// All columns with a JSON key.
+/// Returns all columns with a JSON key.
 pub(crate) fn json_columns<'a>() -> Vec<TimedColumn<'a>> {
     let mut list: Vec<_> = columns().into();
     list.extend([
@@ -91,13 +91,13 @@ pub(crate) fn json_columns<'a>() -> Vec<TimedColumn<'a>> {
     list
 }
 
-/// Median and quartiles (s) as JSON.
+/// Converts median and quartiles (s) to JSON.
 pub(crate) fn timing(timing: Timing) -> Value {
     let Timing { median, low, high, repeats } = timing;
     json!({"median": number(median), "low": number(low), "high": number(high), "repeats": repeats})
 }
 
-/// Number of bytes that every particle has.
+/// Returns the number of bytes that every particle has.
 fn bytes_of_a_particle(profile: &Profile) -> usize {
     let whole = |column: &&ColumnSize| {
         column.holder == Holder::Particle && column.entries == profile.particles

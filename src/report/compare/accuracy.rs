@@ -10,19 +10,19 @@ use crate::verify::Quantity;
 /// Maximum relative difference between spacings that count as equal.
 const SAME_SPACING: f64 = 1e-6;
 
-/// Maximum error that counts as rounding for a case without an order, as a share of the size of the
-/// judged quantity. Changes of such errors are not compared.
+/// Maximum error that counts as rounding for a case without an order, as a fraction of the size of
+/// the judged quantity. Changes of such errors are not compared.
 const ROUNDING: f64 = 1e-11;
 
 /// Verdict of the gate on errors that are due to rounding.
 const AT_ROUNDING: &str = "at rounding";
 
-/// A level of the old run with the corresponding level of the new run.
+/// A level of the old run and the corresponding level of the new run.
 pub(super) type LevelPair<'a> = (&'a LevelDocument, &'a LevelDocument);
 
-/// Levels that both runs have, coarse to fine.
+/// Returns the levels that both runs have, from coarse to fine.
 pub(super) fn common<'a>(old: &'a CaseDocument, new: &'a CaseDocument) -> Vec<LevelPair<'a>> {
-    // Each level has at most one counterpart, even if a plan contains a spacing twice.
+    // A plan may contain a spacing twice; each level is still paired only once.
     let mut left: Vec<&LevelDocument> = old.levels.iter().collect();
     let counterpart = |level: &'a LevelDocument| {
         let at = left.iter().position(|old| same(old, level))?;
@@ -37,18 +37,18 @@ fn same(a: &LevelDocument, b: &LevelDocument) -> bool {
     a.cells == b.cells && a.ppc == b.ppc && spacing
 }
 
-/// Whether the errors of both runs are due to rounding, so that they count as equal.
+/// Whether the errors of both runs are due to rounding and therefore count as equal.
 pub(super) fn is_rounding(old: &CaseDocument, new: &CaseDocument) -> bool {
     let tiny = |case: &CaseDocument| {
         let small = |level: &LevelDocument| relative(case.judge.as_ref(), level) < ROUNDING;
-        // Rounding errors may have an order by chance, which the gate does not accept.
+        // Rounding errors may have an order by chance. The gate then has the verdict `AT_ROUNDING`.
         let has_no_order = case.observed_order.is_none() || case.verdict == AT_ROUNDING;
         has_no_order && case.levels.iter().all(small)
     };
     tiny(old) && tiny(new)
 }
 
-/// Error relative to the natural size of the judged quantity; NaN if the size is unknown.
+/// Divides the error by the natural size of the judged quantity; NaN if the size is unknown.
 fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     let Some(error) = level.error() else { return f64::NAN };
     let (JsonNumber(h), length) = (level.h, level.cells as f64);
@@ -62,9 +62,9 @@ fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     }
 }
 
-/// Change of the error on the finest level that newly fails or no longer fails. Otherwise the
-/// change on the finest level, or else the change on the level with the largest change. `None`
-/// without a change.
+/// Selects the error change to report: on the finest level that newly fails or no longer fails,
+/// otherwise on the finest level, otherwise on the level with the largest change. `None` without a
+/// change.
 pub(super) fn error(
     pairs: &[LevelPair<'_>],
     axis: Option<&str>,
@@ -73,7 +73,7 @@ pub(super) fn error(
     let counts = |level: &LevelDocument| level.counts.unwrap_or(true);
     let counting: Vec<LevelPair<'_>> =
         pairs.iter().filter(|(old, new)| counts(old) || counts(new)).copied().collect();
-    // If no level counts, as for a floor, all levels are compared.
+    // If no level counts, for example at a floor, all levels are compared.
     let pairs = if counting.is_empty() { pairs } else { &counting };
     let moves: Vec<ErrorMove> =
         pairs.iter().filter_map(|pair| error_of(*pair, axis, tolerance)).collect();
@@ -97,8 +97,8 @@ fn error_of((old, new): LevelPair<'_>, axis: Option<&str>, tolerance: f64) -> Op
     }
 }
 
-/// Ratio of the transfers of the new run to those of the old run, on the finest level, or on the
-/// level with the largest change if the finest one has none.
+/// Returns the ratio of new to old transfers on the finest level. If the finest level has no
+/// change, returns the ratio on the level with the largest change.
 pub(super) fn work(pairs: &[LevelPair<'_>], tolerance: f64) -> Option<f64> {
     let ratio = |(old, new): &LevelPair<'_>| match (old.transfers, new.transfers) {
         (a, b) if a == b => 1.0,
@@ -112,13 +112,13 @@ pub(super) fn work(pairs: &[LevelPair<'_>], tolerance: f64) -> Option<f64> {
     pairs.iter().map(ratio).max_by(|a, b| size(a).total_cmp(&size(b)))
 }
 
-/// Error and transfers of every level, in the order of the plan.
+/// Returns error and transfers of every level, in the order of the plan.
 pub(super) fn points(case: &CaseDocument) -> Vec<ErrorAndWork> {
     let point = |level: &LevelDocument| (level.error().unwrap_or(f64::NAN), level.transfers as f64);
     case.levels.iter().map(point).collect()
 }
 
-/// Name of a level in its study.
+/// Returns the name of a level in its study.
 fn name(level: &LevelDocument, axis: Option<&str>) -> String {
     let JsonNumber(spacing) = level.spacing;
     match (axis, level.ppc) {

@@ -18,13 +18,14 @@ pub enum Rank {
     LessAccurate,
     /// A stability limit is lower.
     LessStable,
-    /// A given error requires more transfers or, if this cannot be compared, a level does.
+    /// More transfers are required for the same error or, without a common error, on the same
+    /// level.
     MoreExpensive,
     /// The case is more accurate, more stable or cheaper.
     Better,
-    /// The problem has changed, so changes of the figures give no information about the method.
+    /// The problem has changed, so changes of results give no information about the method.
     OtherProblem,
-    /// The judged quantity or the refinement has changed, so the figures cannot be compared.
+    /// The judged quantity or the refinement has changed, so the results cannot be compared.
     Otherwise,
     /// The case is new.
     New,
@@ -33,7 +34,7 @@ pub enum Rank {
 }
 
 impl Rank {
-    /// All kinds, in order.
+    /// All kinds, the most important first.
     pub const ALL: [Self; 12] = [
         Self::Broken,
         Self::WorseVerdict,
@@ -49,7 +50,7 @@ impl Rank {
         Self::Gone,
     ];
 
-    /// Text in reports.
+    /// Returns the text for reports.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Broken => "no longer as expected",
@@ -80,28 +81,28 @@ impl Rank {
     }
 }
 
-/// Comparison of two runs.
+/// Result of comparing two runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportComparison {
     /// Suites whose problem has changed.
     pub(super) problems: Vec<ProblemMove>,
     /// Cases that changed, the most important first.
     pub(super) moved: Vec<Moved>,
-    /// Parts of the names of worse cases that no other cases have in common.
+    /// Words in the names of several worse cases, as a hint to the cause.
     pub(super) shared_words: Vec<SharedWord>,
-    /// Target errors with a changed minimum work, the more expensive ones first.
+    /// Target errors whose minimum work has changed, the more expensive ones first.
     pub(super) cheapest: Vec<CheapestMove>,
     /// Number of unchanged cases.
     pub(super) unchanged: usize,
-    /// Maximum relative difference of a figure that counts as unchanged.
+    /// Maximum relative difference of values that count as unchanged.
     pub(super) tolerance: f64,
 }
 
-/// A suite whose problem has changed. Changes of its figures give no information about a solver.
+/// A suite whose problem has changed. Changes of its results give no information about a solver.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ProblemMove {
     pub(super) suite: String,
-    /// Rows that differ: name, old value and new value.
+    /// Statement rows that differ: name, old value and new value.
     pub(super) rows: Vec<[String; 3]>,
 }
 
@@ -116,9 +117,9 @@ pub(super) struct Moved {
     /// Old and new observed order.
     pub(super) order: [Option<f64>; 2],
     pub(super) error: Option<ErrorMove>,
-    /// Ratio of the new to the old transfers on the same level.
+    /// Ratio of the new to the old transfers on one level.
     pub(super) work: Option<f64>,
-    /// Transfers for the same error.
+    /// Change of the transfers for a common error.
     pub(super) equal: Option<EqualError>,
     /// Remarks that the columns do not contain.
     pub(super) notes: Vec<String>,
@@ -134,7 +135,7 @@ pub(super) struct ErrorMove {
     /// New error; `None` if the level fails.
     pub(super) new: Option<f64>,
     pub(super) worse: bool,
-    /// Name of the level.
+    /// Name of the level with this error.
     pub(super) level: String,
 }
 
@@ -144,14 +145,15 @@ pub(super) struct CheapestMove {
     /// Name of the suite, and of its problem if it has several.
     pub(super) place: String,
     pub(super) target: f64,
-    /// Minimum work in the old run, and its method; `None` if no method reaches the target.
+    /// Minimum work in the old run and the method with this work; `None` if no method reaches the
+    /// target.
     pub(super) old: Option<(f64, String)>,
     pub(super) new: Option<(f64, String)>,
 }
 
 impl CheapestMove {
-    /// Ratio of the new to the old work. Infinite if the target is no longer reached, zero if only
-    /// the new run reaches it.
+    /// Returns the ratio of the new to the old work: infinite if the target is no longer reached,
+    /// and zero if only the new run reaches it.
     pub(super) fn ratio(&self) -> f64 {
         match (&self.old, &self.new) {
             (Some((old, _)), Some((new, _))) => new / old,
@@ -162,41 +164,41 @@ impl CheapestMove {
 }
 
 impl ErrorMove {
-    /// Ratio of the new to the old error.
+    /// Returns the ratio of the new to the old error.
     pub(super) fn ratio(&self) -> Option<f64> {
         Some(self.new? / self.old?)
     }
 
-    /// Size of the change in either direction; infinite if the level newly fails.
+    /// Returns the size of the change in either direction; infinite if a level newly fails.
     pub(super) fn weight(&self) -> f64 {
         self.ratio().map_or(f64::INFINITY, |ratio| libm::log(ratio).abs())
     }
 }
 
 impl ReportComparison {
-    /// Number of cases with this kind of change.
+    /// Counts the cases with this kind of change.
     pub fn count(&self, rank: Rank) -> usize {
         self.of(rank).count()
     }
 
-    /// Number of cases that are equal in both runs.
+    /// Returns the number of cases that are equal in both runs.
     pub fn unchanged(&self) -> usize {
         self.unchanged
     }
 
-    /// Whether anything has become worse.
+    /// Whether any result has become worse.
     pub fn is_worse(&self) -> bool {
         let is_worse = self.cheapest.iter().any(|target| !(target.ratio() < 1.0));
         is_worse || self.moved.iter().any(|moved| moved.rank.is_worse())
     }
 
-    /// Changes of this kind.
+    /// Returns the changes of this kind.
     pub(super) fn of(&self, rank: Rank) -> impl Iterator<Item = &Moved> {
         self.moved.iter().filter(move |moved| moved.rank == rank)
     }
 
-    /// Common parts of the names of worse cases, each with the share of worse cases among all with
-    /// this part.
+    /// Lists words in the names of worse cases, each with the number of worse cases and of all
+    /// cases with this word.
     pub(super) fn in_common(&self) -> Option<String> {
         let part = |SharedWord { word, worse, all }: &SharedWord| {
             format!("{worse} of all {all} cases with `{word}` in their names")
@@ -205,7 +207,7 @@ impl ReportComparison {
         (!parts.is_empty()).then(|| format!("worse are {}", parts.join(", ")))
     }
 
-    /// Summary in one line: `2 less accurate, 1 new, 816 unchanged`.
+    /// Summarises the changes in one line: `2 less accurate, 1 new, 816 unchanged`.
     pub(super) fn headline(&self) -> String {
         let counts = Rank::ALL.into_iter().map(|rank| (self.count(rank), rank.words()));
         let counts = counts.chain([(self.unchanged, "unchanged")]).filter(|(count, _)| *count > 0);

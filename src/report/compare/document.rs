@@ -13,10 +13,10 @@ pub struct ReportDocument {
     pub(super) suites: Vec<SuiteDocument>,
 }
 
-/// Reason why a text is not such a document, with its position.
+/// Reason why a text is not a valid report document, with the position in the text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unreadable {
-    /// Description.
+    /// Description of the error.
     pub message: String,
     /// Line and column, counted from one; `None` if the position is unknown.
     pub place: Option<(usize, usize)>,
@@ -26,7 +26,7 @@ pub struct Unreadable {
 pub(super) struct SuiteDocument {
     #[serde(rename = "suite")]
     pub(super) name: String,
-    /// Rows of name and value that describe the problem.
+    /// Description of the problem as rows of name and value.
     #[serde(default)]
     pub(super) statement: Vec<(String, String)>,
     pub(super) cases: Vec<CaseDocument>,
@@ -34,7 +34,7 @@ pub(super) struct SuiteDocument {
     pub(super) cost: Vec<RankingDocument>,
 }
 
-/// Work of methods for target errors.
+/// Work that the methods need to reach target errors.
 #[derive(Debug, Clone, Deserialize)]
 pub(super) struct RankingDocument {
     pub(super) problem: String,
@@ -72,7 +72,7 @@ pub(super) struct CaseDocument {
     pub(super) stability: Option<StabilityDocument>,
 }
 
-/// Judged quantity and norm. Errors are compared only if both are equal.
+/// Judged quantity and norm. Errors are compared only if these are equal in both runs.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(super) struct JudgeDocument {
     pub(super) of: String,
@@ -154,19 +154,19 @@ impl ReportDocument {
         }
     }
 
-    /// All cases with their suites.
+    /// Returns all cases with their suites.
     pub(super) fn cases(&self) -> impl Iterator<Item = (&SuiteDocument, &CaseDocument)> {
         self.suites.iter().flat_map(|suite| suite.cases.iter().map(move |case| (suite, case)))
     }
 }
 
-/// `SUITE::CASE`.
+/// Returns the name `SUITE::CASE`.
 pub(super) fn name(suite: &SuiteDocument, case: &CaseDocument) -> String {
     format!("{}::{}", suite.name, case.name)
 }
 
 impl LevelDocument {
-    /// The judged error; `None` if the level failed or the error is not finite.
+    /// Returns the judged error; `None` if the level failed or the error is not finite.
     pub(super) fn error(&self) -> Option<f64> {
         let JsonNumber(error) = self.judged?;
         (self.failure.is_none() && error.is_finite()).then_some(error)

@@ -3,7 +3,7 @@
 //! Methods and versions reach different errors on the same grid, so the relevant cost is the work
 //! for a target error. Between two levels of a converging series, ln(work) is interpolated linearly
 //! in ln(error). This is exact for `error = C h^p` and `work = c h^-q`. Nothing is extrapolated,
-//! because a series may have a floor beyond its last level.
+//! because the error may stop falling on levels finer than the last one.
 
 /// Error and work of a level.
 pub(super) type ErrorAndWork = (f64, f64);
@@ -20,8 +20,8 @@ pub(super) struct EqualError {
     pub(super) ratio: f64,
 }
 
-/// Ratio of the work of `new` to that of `old` at the smallest round error (1, 2 or 5 times a power
-/// of ten) within the converging parts of both; `None` if there is none.
+/// Returns the ratio of the work of `new` to that of `old` at the smallest round error (1, 2 or 5
+/// times a power of ten) within the converging parts of both; `None` if there is no such error.
 pub(super) fn compare(old: &[ErrorAndWork], new: &[ErrorAndWork]) -> Option<EqualError> {
     let (old, new) = (converging(old)?, converging(new)?);
     let lowest = f64::max(old.last()?.0, new.last()?.0);
@@ -31,8 +31,8 @@ pub(super) fn compare(old: &[ErrorAndWork], new: &[ErrorAndWork]) -> Option<Equa
     Some(EqualError { target, ratio })
 }
 
-/// The longest sequence of levels with decreasing error and increasing work; the coarser of two
-/// equally long ones.
+/// Returns the longest sequence of levels with decreasing error and increasing work; the coarser of
+/// two equally long ones.
 fn converging(points: &[ErrorAndWork]) -> Option<&[ErrorAndWork]> {
     let usable = |(error, work): ErrorAndWork| error > 0.0 && work > 0.0;
     let goes_on =
@@ -41,7 +41,7 @@ fn converging(points: &[ErrorAndWork]) -> Option<&[ErrorAndWork]> {
     runs.reduce(|longest, run| if run.len() > longest.len() { run } else { longest })
 }
 
-/// The smallest number not below `x` that is 1, 2 or 5 times a power of ten.
+/// Returns the smallest number not below `x` that is 1, 2 or 5 times a power of ten.
 fn round_above(x: f64) -> Option<f64> {
     if !(x > 0.0 && x.is_finite()) {
         return None;
@@ -53,7 +53,7 @@ fn round_above(x: f64) -> Option<f64> {
     rungs.into_iter().find(|rung| *rung >= x)
 }
 
-/// Work for an error between the errors of two neighbouring levels.
+/// Interpolates the work for an error between the errors of two neighbouring levels.
 fn work(run: &[ErrorAndWork], target: f64) -> Option<f64> {
     let (a, b) = run.windows(2).map(|pair| (pair[0], pair[1])).find(|(_, b)| b.0 <= target)?;
     let share = libm::log(a.0 / target) / libm::log(a.0 / b.0);
@@ -66,7 +66,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Levels with `error = c h^2` and `work = w h^-3`.
+    /// Creates levels with `error = c h^2` and `work = w h^-3`.
     fn series(c: f64, w: f64, levels: i32) -> Vec<ErrorAndWork> {
         (0..levels)
             .map(|k| libm::exp2(-f64::from(k)))
@@ -74,7 +74,8 @@ mod tests {
             .collect()
     }
 
-    /// Four times the error means eight times the work at equal error: (c'/c)^(3/2).
+    /// With these power laws, four times the error means eight times the work at equal error:
+    /// (c'/c)^(3/2).
     #[rstest]
     #[case::itself(1.0, 1.0, 1.0)]
     #[case::twice_the_work(1.0, 2.0, 2.0)]

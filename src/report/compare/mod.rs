@@ -1,12 +1,12 @@
 //! Compares two runs: the changes between two JSON documents, the most important first.
 //!
 //! The comparison shows whether a pull request makes a method less accurate, less stable or more
-//! expensive. Cases are paired by suite and name, levels by cells, spacing and particles per cell.
-//! Cases and levels without a counterpart are listed but not judged. Work is counted in transfers
-//! between particles and nodes, which are equal on all machines. It is compared at equal error if
-//! the errors of both runs have a common range (`equal_error`).
+//! expensive. Cases are paired by suite and name, and levels by cells, spacing and particles per
+//! cell. Cases and levels without a counterpart are listed but not judged. Work is counted in
+//! particle-node transfers, which are equal on all machines. Work is compared at equal error
+//! (`equal_error`) if the errors of both runs have a common range.
 //!
-//! Cases with bounds on drifts only have no errors; only their verdicts are compared.
+//! Cases that have only bounds on drifts have no errors, so only their verdicts are compared.
 
 mod accuracy;
 mod changes;
@@ -25,7 +25,7 @@ pub use changes::{Rank, ReportComparison};
 pub use document::{ReportDocument, Unreadable};
 pub use output::{json, markdown, text};
 
-/// Default of the maximum relative change of a figure that counts as unchanged, as in the [drift
+/// Default maximum relative change of a value that counts as unchanged, as in the [drift
 /// gate](super::text::drift).
 pub const TOLERANCE: f64 = super::text::drift::RELATIVE;
 

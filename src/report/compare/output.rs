@@ -5,7 +5,7 @@ use crate::report::columns::{TableColumn, number};
 use crate::report::text::table::{Table, printable};
 use serde_json::{Value, json};
 
-/// A comparison as aligned text: a summary line, and a table for each kind of change.
+/// Writes a comparison as aligned text: a summary line, and a table for each kind of change.
 pub fn text(comparison: &ReportComparison) -> String {
     let head = if comparison.is_worse() { "worse" } else { "nothing worse" };
     let mut lines = vec![format!("{head}: {}", comparison.headline())];
@@ -43,10 +43,10 @@ pub fn text(comparison: &ReportComparison) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Maximum number of rows of a Markdown table. A comment is limited to 65536 characters.
+/// Maximum number of rows of a Markdown table, because comments are limited to 65536 characters.
 const MAX_ROWS: usize = 40;
 
-/// A comparison as Markdown, for a comment on a pull request.
+/// Writes a comparison as Markdown, for a comment on a pull request.
 ///
 /// The first line is a summary. Tables of worse results are unfolded, the others folded. All text
 /// from files is escaped, so that it cannot contain markup, mention a user or end a table.
@@ -85,7 +85,7 @@ pub fn markdown(comparison: &ReportComparison) -> String {
     )
 }
 
-/// Table of changed cases, without columns that contain only dashes.
+/// Creates the table of changed cases, without columns that contain only dashes.
 fn changes(moved: &[&Moved]) -> String {
     let mut columns: Vec<_> = cases().into();
     let joined = |moved: &Moved| Some(notes(moved).join("; ")).filter(|notes| !notes.is_empty());
@@ -97,7 +97,8 @@ fn changes(moved: &[&Moved]) -> String {
     table(&columns, moved)
 }
 
-/// Table of the minimum work for target errors, unfolded if an error requires more work.
+/// Creates the table of the minimum work for target errors, unfolded if an error requires more
+/// work.
 fn cheapest(comparison: &ReportComparison) -> String {
     let moved: Vec<&CheapestMove> = comparison.cheapest.iter().collect();
     let Some(first) = moved.first() else { return String::new() };
@@ -109,7 +110,7 @@ fn cheapest(comparison: &ReportComparison) -> String {
     }
 }
 
-/// A Markdown table whose first column is formatted as code.
+/// Creates a Markdown table whose first column is formatted as code.
 fn table<R>(columns: &[TableColumn<'_, R>], rows: &[&R]) -> String {
     let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
     let rule =
@@ -127,8 +128,8 @@ fn table<R>(columns: &[TableColumn<'_, R>], rows: &[&R]) -> String {
     table
 }
 
-/// A comparison as one JSON document: suites with a changed problem; changed cases, the most
-/// important first; and target errors with a changed minimum work.
+/// Converts a comparison to one JSON document: suites with a changed problem; changed cases, the
+/// most important first; and target errors with a changed minimum work.
 pub fn json(comparison: &ReportComparison) -> String {
     let document = json!({
         "worse": comparison.is_worse(),
@@ -178,10 +179,10 @@ fn cheapest_json(target: &CheapestMove) -> Value {
     })
 }
 
-/// Maximum number of printed notes of a case. Only the number of the others is printed.
+/// Maximum number of printed notes of a case. The other notes are only counted.
 const MAX_NOTES: usize = 3;
 
-/// Columns for changes of a case, with dashes if there is no change or value.
+/// Returns the columns for changes of a case, with dashes if there is no change or value.
 pub(super) fn cases<'a>() -> [TableColumn<'a, Moved>; 8] {
     [
         TableColumn::<Moved>::text("case", "suite and case", |moved| moved.name.clone())
@@ -216,7 +217,7 @@ fn errors(error: &ErrorMove) -> String {
     format!("{} -> {}", text(error.old), text(error.new))
 }
 
-/// Columns of the minimum work for target errors.
+/// Returns the columns of the minimum work for target errors.
 pub(super) fn targets<'a>() -> [TableColumn<'a, CheapestMove>; 5] {
     [
         TableColumn::<CheapestMove>::text("suite", "suite, and its problem", |moved| {
@@ -247,7 +248,7 @@ fn both(moved: &CheapestMove, part: impl Fn(&(f64, String)) -> String) -> String
     [old, new].map(|side| side.unwrap_or_else(|| "not reached".to_owned())).join(" -> ")
 }
 
-/// The first notes of a case, and the number of the others.
+/// Returns the first notes of a case, and the number of the other notes.
 pub(super) fn notes(moved: &Moved) -> Vec<String> {
     let mut notes: Vec<String> = moved.notes.iter().take(MAX_NOTES).cloned().collect();
     if let more @ 1.. = moved.notes.len().saturating_sub(MAX_NOTES) {
@@ -256,7 +257,8 @@ pub(super) fn notes(moved: &Moved) -> Vec<String> {
     notes
 }
 
-/// `old -> new`, or the common value. For a case in only one run, its value in that run.
+/// Formats a change as `old -> new`. A value is printed alone if it did not change or is in only
+/// one run.
 fn change(moved: &Moved, [old, new]: [Option<String>; 2]) -> String {
     match (moved.rank, old, new) {
         (Rank::New, _, only) | (Rank::Gone, only, _) => only.unwrap_or_else(dash),
@@ -271,7 +273,7 @@ fn dash() -> String {
     "-".to_owned()
 }
 
-/// A ratio: `1.80 x`, or `1.004 x` if it is close to one.
+/// Formats a ratio: `1.80 x`, or `1.004 x` if the ratio is close to one.
 fn times(ratio: f64) -> String {
     match ratio {
         r if !r.is_finite() => "-".to_owned(),
@@ -281,7 +283,7 @@ fn times(ratio: f64) -> String {
     }
 }
 
-/// A code span. Only backticks, table bars and control characters are replaced.
+/// Creates a code span. Only backticks, table bars and control characters are replaced.
 pub(super) fn code(text: &str) -> String {
     let plain = |c: char| match c {
         '`' => "'".to_owned(),
@@ -292,7 +294,8 @@ pub(super) fn code(text: &str) -> String {
     format!("`{}`", text.chars().map(plain).collect::<String>())
 }
 
-/// Text with all markup escaped, also valid in an attribute. The arrow of a change is not escaped.
+/// Escapes all markup; the result is also valid in an attribute. The arrow of a change is not
+/// escaped.
 pub(super) fn prose(text: &str) -> String {
     let plain = |c: char| match c {
         c if c.is_control() => "\u{fffd}".to_owned(),

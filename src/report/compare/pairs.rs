@@ -10,7 +10,7 @@ use super::{accuracy, equal_error, stability};
 use crate::report::columns::distinct;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// See [`compare`](super::compare()).
+/// Implements [`compare`](super::compare()).
 pub(super) fn compare(
     old: &ReportDocument,
     new: &ReportDocument,
@@ -50,7 +50,8 @@ pub(super) fn compare(
     ReportComparison { problems, moved, shared_words, cheapest, unchanged, tolerance }
 }
 
-/// A case with a changed problem. Only whether it meets its expectations can be compared.
+/// Returns the change of a case whose problem has changed. Only whether the case meets its
+/// expectations can be compared.
 fn of_another_problem(name: String, old: &CaseDocument, new: &CaseDocument) -> Moved {
     let is_broken = old.passed && !new.passed;
     Moved {
@@ -61,7 +62,7 @@ fn of_another_problem(name: String, old: &CaseDocument, new: &CaseDocument) -> M
     }
 }
 
-/// A case that is in only one run.
+/// Returns the change of a case that is in only one run.
 fn lone(name: String, rank: Rank, case: &CaseDocument) -> Moved {
     let word = Some(shown(case));
     let order = case.observed_order.map(|order| order.value.0);
@@ -82,12 +83,12 @@ fn lone(name: String, rank: Rank, case: &CaseDocument) -> Moved {
     }
 }
 
-/// The verdict, with a mark if the case does not meet its expectations.
+/// Returns the verdict, with a mark if the case does not meet its expectations.
 fn shown(case: &CaseDocument) -> String {
     if case.passed { case.verdict.clone() } else { format!("{} (FAIL)", case.verdict) }
 }
 
-/// The change of a case; `None` without a change.
+/// Returns the change of a case; `None` without a change.
 fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) -> Option<Moved> {
     let comparable = old.judge == new.judge || old.judge.is_none() || new.judge.is_none();
     let common = accuracy::common(old, new);
@@ -128,7 +129,7 @@ fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) ->
     Some(found)
 }
 
-/// Descriptions of differences in the judged quantity, the levels and the rows.
+/// Describes differences in the judged quantity, the levels and the rows.
 fn otherwise(
     old: &CaseDocument,
     new: &CaseDocument,
@@ -157,7 +158,7 @@ fn otherwise(
     notes
 }
 
-/// Kind of change if the verdict has changed.
+/// Returns the kind of change if the verdict has changed.
 fn verdict_rank(
     old: &CaseDocument,
     new: &CaseDocument,
@@ -180,7 +181,7 @@ fn verdict_rank(
     Some((rank, 0.0))
 }
 
-/// Severity of a verdict, from 0 (good) to 3 (failed); 1 for an unknown verdict.
+/// Returns the severity of a verdict, from 0 (good) to 3 (failed); 1 for an unknown verdict.
 fn severity(verdict: &str) -> u8 {
     match verdict {
         "converging" | "within bounds" | "agrees" | "smooth" => 0,
@@ -190,7 +191,7 @@ fn severity(verdict: &str) -> u8 {
     }
 }
 
-/// Kind of change if only figures have changed, with the size of the change.
+/// Returns the kind and size of a change that affects only errors, work or stability limits.
 fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(Rank, f64)> {
     let error = found.error.as_ref();
     let work = found.equal.map(|equal| equal.ratio).or(found.work);
@@ -207,11 +208,11 @@ fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(R
     }
 }
 
-/// Rows of a statement about levels and figures. These are compared separately.
+/// Statement rows about levels and outputs, which are compared separately from the problem.
 const OF_LEVELS: [&str; 7] =
     ["cells", "dt", "instants", "particles", "--full adds", "judged", "crossing levels"];
 
-/// Suites of both runs with different statements.
+/// Returns the suites whose statement differs between the runs.
 fn problem_moves(old: &ReportDocument, new: &ReportDocument) -> Vec<ProblemMove> {
     let moved = |suite: &SuiteDocument| {
         let before = old.suites.iter().find(|known| known.name == suite.name)?;
@@ -221,7 +222,8 @@ fn problem_moves(old: &ReportDocument, new: &ReportDocument) -> Vec<ProblemMove>
     new.suites.iter().filter_map(moved).collect()
 }
 
-/// Rows that differ between two statements; empty if one of the statements was not stored.
+/// Returns the rows that differ between two statements; none if one of the statements was not
+/// stored.
 fn differing(old: &[(String, String)], new: &[(String, String)]) -> Vec<[String; 3]> {
     if old.is_empty() || new.is_empty() {
         return Vec::new();
@@ -242,7 +244,7 @@ fn differing(old: &[(String, String)], new: &[(String, String)]) -> Vec<[String;
     moved.map(row).collect()
 }
 
-/// The values that differ between two lists of `name = value`.
+/// Reduces two lists of `name = value` to the values that differ.
 fn shortened(old: &str, new: &str) -> Option<[String; 2]> {
     let [old, new] = [old, new].map(|list| list.split(", ").collect::<Vec<&str>>());
     if old.len() != new.len() {
@@ -254,11 +256,11 @@ fn shortened(old: &str, new: &str) -> Option<[String; 2]> {
     is_list.then(|| [old.join(", "), new.join(", ")])
 }
 
-/// Target errors with a changed minimum work, sorted by decreasing ratio. Targets that no method
-/// reaches any longer come first. Suites with a changed problem are excluded.
+/// Returns the target errors whose minimum work has changed, sorted by decreasing ratio. Targets
+/// that no method reaches any longer come first. Suites with a changed problem are excluded.
 ///
-/// The key `cost` of a document lists the work of each method for each target of its problem. The
-/// work of documents without this key is not compared.
+/// The key `cost` of a document lists the work of each method for each target of its problem.
+/// Documents without this key are not compared.
 fn cheapest_moves(
     old: &ReportDocument,
     new: &ReportDocument,
@@ -305,7 +307,7 @@ fn target_moves(
         .collect()
 }
 
-/// Minimum work for the target with this index, and the first method that needs only this work.
+/// Returns the minimum work for the target with this index, and the first method with this work.
 fn least_work(ranking: &RankingDocument, target: usize) -> Option<(f64, String)> {
     let reached = ranking.methods.iter().filter_map(|method| {
         let reached = method.reached.get(target)?.as_ref()?;

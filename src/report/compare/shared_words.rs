@@ -3,8 +3,8 @@
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
-/// Two minimum shares: worse cases among all cases with a word, and worse cases with a shared word
-/// among all worse cases.
+/// Fraction that must be exceeded twice: by worse cases among all cases with a word, and by worse
+/// cases with a shared word among all worse cases.
 const MOST: f64 = 0.5;
 
 /// Minimum number of worse cases with a shared word.
@@ -18,10 +18,12 @@ pub(super) struct SharedWord {
     pub(super) all: usize,
 }
 
-/// Finds words shared by several worse cases. Words in more worse cases come first, and of these,
-/// words in fewer cases overall. A case counts only for the first of its words. Empty if at most
-/// half of the worse cases have a shared word. `cases` are pairs of `SUITE::CASE` and whether the
-/// case became worse.
+/// Finds words common to the names of several worse cases. `cases` are pairs of `SUITE::CASE` and
+/// whether the case became worse.
+///
+/// Words in more worse cases come first; among these, words in fewer cases overall come first. A
+/// case counts only for the first of its words. The result is empty if at most half of the worse
+/// cases have a shared word.
 pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
     let words = |name: &str| -> BTreeSet<String> {
         let case = name.rsplit("::").next().unwrap_or_default();
@@ -40,7 +42,7 @@ pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
             all: cases.iter().filter(|(words, _)| words.contains(word)).count(),
         };
         let tells = |shared: &SharedWord| {
-            // A word that all cases have does not distinguish any.
+            // A word that all cases have does not distinguish the worse ones.
             shared.all < cases.len()
                 && shared.worse >= FEWEST
                 && shared.worse as f64 > MOST * shared.all as f64

@@ -4,12 +4,12 @@
 use super::document::JsonNumber;
 use super::document::{CaseDocument, LevelDocument, OrderDocument, ReportDocument, SuiteDocument};
 
-/// Axis name for studies whose finest level only is known.
+/// Axis name for studies whose snapshot contains only the finest level.
 pub(super) const FINEST: &str = "finest";
 
 impl ReportDocument {
-    /// Reads the overview of all suites. `report` returns the report of a suite, given its group
-    /// and name, if the report exists.
+    /// Reads the overview of all suites. `report` returns the report of the suite with this group
+    /// and name, if there is one.
     pub fn of_snapshots(overview: &str, report: impl Fn(&str, &str) -> Option<String>) -> Self {
         let mut suites: Vec<SuiteDocument> = Vec::new();
         let (mut group, mut headings) = ("", Vec::new());
@@ -47,7 +47,7 @@ impl ReportDocument {
     }
 }
 
-/// Cells of a table line. They are separated by at least two spaces.
+/// Splits a table line into its cells, which are separated by at least two spaces.
 fn cells(line: &str) -> Vec<&str> {
     line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect()
 }
@@ -79,7 +79,8 @@ fn case<'a>(name: &str, value: impl Fn(&str) -> Option<&'a str>) -> CaseDocument
     }
 }
 
-/// The rows of a report that describe the problem. The parts of a paragraph become separate rows.
+/// Returns the rows of a report that describe the problem. The parts of a paragraph become separate
+/// rows.
 fn statement(report: &str) -> Vec<(String, String)> {
     let mut rows: Vec<(String, String)> = Vec::new();
     for line in report.lines().skip_while(|line| !line.starts_with("  source ")) {

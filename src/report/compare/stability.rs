@@ -84,13 +84,13 @@ impl StabilityMove {
     }
 }
 
-/// Severity of a verdict; larger is worse.
+/// Returns the severity of a verdict; larger is worse.
 fn severity(word: &str) -> usize {
     let known = ["stable", "bounded_growth", "unstable", "failed", "refused"];
     known.iter().position(|known| *known == word).unwrap_or(known.len())
 }
 
-/// Sort key of a limit. `None` is the worst limit.
+/// Returns the sort key of a limit. `None` is the worst limit.
 fn bound(limit: Option<LimitDocument>) -> f64 {
     match limit {
         None => 0.0,

@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use rstest::rstest;
 use serde_json::{Value, json};
 
-/// A case that converges over four levels, with `error = c h^2` and `transfers = w/h^2`.
+/// Creates a case that converges over four levels, with `error = c h^2` and `transfers = w/h^2`.
 fn case(name: &str, c: f64, w: f64) -> Value {
     let level = |cells: u32| {
         let h = 1.0 / f64::from(cells);
@@ -17,7 +17,7 @@ fn case(name: &str, c: f64, w: f64) -> Value {
         "unmet": [], "stability": null, "forces": null})
 }
 
-/// A case of a stability study, with verdicts or limits for two values.
+/// Creates a case of a stability study, with verdicts or limits for two values.
 fn sweep(runs: &[Value; 2], predicted: &[Value; 2]) -> Value {
     let row = |k: usize, value: f64| {
         json!({"value": value, "run": runs[k],
@@ -33,7 +33,7 @@ fn document(cases: &[Value]) -> ReportDocument {
     ReportDocument::read(&text).expect("a document")
 }
 
-/// A document with `case` in a suite with the parameters `young`.
+/// Creates a document with `case` in a suite whose statement contains the modulus `young`.
 fn stating(young: &str, case: &Value) -> ReportDocument {
     let statement = json!([["parameters", young], ["dt", "h"]]);
     let suite = json!({"suite": "bar", "statement": statement, "cases": [case]});
@@ -142,11 +142,11 @@ fn one_change(#[case] path: &str, #[case] value: Value, #[case] expected: Option
 #[test]
 fn a_small_change_is_seen() {
     let found = after(&case("a", 1.0, 1.0), set("/levels/3/transfers", json!(6426)));
-    // The change affects only a share of the interval between the two finest levels: 1.004^0.82.
+    // Only part of the interval between the two finest levels has changed work: 1.004^0.82.
     assert!(text(&found).contains("  1.004 x     1.003 x at 2e-4"), "{}", text(&found));
 }
 
-/// NaN before and after is the same failure. A number after NaN is an improvement.
+/// NaN before and after is the same failure. A number in place of NaN is an improvement.
 #[test]
 fn what_failed_before_is_not_worse_now() {
     let broken = {
@@ -233,7 +233,7 @@ fn a_small_error_with_an_order_counts() {
     assert_eq!(rank(&found), Some(Rank::LessAccurate));
 }
 
-/// Rounding errors may have an order by chance.
+/// Rounding errors may have an order by chance; then the gate has the verdict `at rounding`.
 #[test]
 fn an_order_of_roundings_is_none() {
     let mut before = case("a", 1e-12, 1.0);
@@ -300,7 +300,7 @@ fn what_moved_is_sorted_by_importance() {
     assert!(page.contains("    bar::unmet: an order of 2 was expected"), "{page}");
 }
 
-/// A document with one suite that ranks two methods at errors of 1e-2 and 1e-3.
+/// Creates a document with one suite that ranks two methods at errors of 1e-2 and 1e-3.
 fn ranked(first: [Option<f64>; 2], second: [Option<f64>; 2]) -> ReportDocument {
     let method = |name: &str, work: [Option<f64>; 2]| {
         let reached =
@@ -391,7 +391,7 @@ fn markdown_is_escaped() {
     assert!(!text(&after(&before, set("/passed", json!(false)))).contains('\u{1b}'));
 }
 
-/// A comment is limited to 65536 characters.
+/// Comments are limited to 65536 characters, so long lists are shortened.
 #[test]
 fn a_long_list_is_cut() {
     let cases = |c: f64| -> Vec<Value> {

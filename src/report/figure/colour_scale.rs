@@ -1,4 +1,4 @@
-//! Colours for numbers, from dark to light in steps of equal lightness, so that they remain
+//! Assigns colours to numbers, from dark to light in steps of equal lightness. The colours remain
 //! distinguishable in grey print.
 
 use super::plot::scale::{Pad, Scale};
@@ -6,13 +6,13 @@ use super::plot::style::INK;
 use super::plot::svg::{Pt, SvgElement};
 use super::plot::ticks::{self, Tick};
 
-/// Height of the colour bar, without its labels.
+/// Height of the colour bar without its labels (px).
 const BAR: f64 = 12.0;
-/// Width of the colour bar.
+/// Width of the colour bar (px).
 pub(super) const BAR_WIDTH: f64 = 240.0;
 /// Number of shades in the colour bar.
 const SHADES: u32 = 48;
-/// Minimum ratio of the largest to the smallest value for a logarithmic scale.
+/// Minimum ratio of the largest to the smallest value for which the scale is logarithmic.
 const SPAN: f64 = 1e3;
 
 /// Scale that assigns colours to values.
@@ -20,7 +20,7 @@ const SPAN: f64 = 1e3;
 pub(super) struct ColourScale(Scale);
 
 impl ColourScale {
-    /// The scale from the smallest to the largest finite value.
+    /// Creates the scale from the smallest to the largest finite value.
     pub(super) fn of(values: impl Iterator<Item = f64>) -> Self {
         let finite = values.filter(|value| value.is_finite());
         let (low, high) = finite
@@ -31,13 +31,13 @@ impl ColourScale {
         Self(if is_logarithmic { Scale::log(ends, none) } else { Scale::linear(ends, none) })
     }
 
-    /// Position of a value between dark (0) and light (1).
+    /// Returns the position of a value between dark (0) and light (1).
     pub(super) fn share(self, value: f64) -> f64 {
         self.0.fraction(value)
     }
 
-    /// A colour bar with its upper left corner at `corner`, numbers below it, and `label` on its
-    /// left.
+    /// Draws a colour bar with its upper left corner at `corner`, numbers below it, and `label` on
+    /// its left.
     pub(super) fn bar(self, corner: Pt, label: &str) -> SvgElement {
         let (x, y) = corner;
         let mut group = SvgElement::new("g");
@@ -46,7 +46,7 @@ impl ColourScale {
             let (fill, _) = colour((f64::from(k) + 0.5) / f64::from(SHADES));
             let at = x + step * f64::from(k);
             let shade = SvgElement::new("rect").at("x", at).at("y", y);
-            // Each shade is wider than its step, so that there are no gaps.
+            // Shades overlap slightly, so that there are no gaps between them.
             let wide = if k + 1 < SHADES { step + 0.6 } else { step };
             group.add(&shade.at("width", wide).at("height", BAR).set("fill", &fill));
         }
@@ -67,12 +67,13 @@ impl ColourScale {
     }
 }
 
-/// Text colours on dark and on light fields. They do not belong to the palette, because fields and
-/// their texts have the same colours in the dark theme.
+/// Text colour on dark fields; `OVER_LIGHT` is the colour on light fields. Fields and their texts
+/// look the same in both themes, so these colours are not in the palette.
 const OVER_DARK: &str = "#fff";
 const OVER_LIGHT: &str = "#222";
 
-/// Red, green and blue from dark to light (after Nunez, Anderton & Renslow 2018, cividis).
+/// Red, green and blue of the shades, from dark to light (cividis, after Nunez, Anderton & Renslow
+/// 2018).
 const COLOURS: [[f64; 3]; 6] = [
     [0.0, 32.0, 81.0],
     [60.0, 77.0, 110.0],
@@ -82,7 +83,7 @@ const COLOURS: [[f64; 3]; 6] = [
     [253.0, 234.0, 69.0],
 ];
 
-/// The colour at `share` between dark and light, and the colour of text on it.
+/// Returns the colour at `share` (0 dark, 1 light), and the colour of text on it.
 pub(super) fn colour(share: f64) -> (String, &'static str) {
     let last = COLOURS.len() - 1;
     let place = share.clamp(0.0, 1.0) * last as f64;

@@ -5,14 +5,15 @@ use super::{LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::verify::{Ranked, Ranking, Sample, SuiteOutcome, pareto_front};
 use std::ops::Range;
 
-/// Maximum number of lines with a colour and a name, because a reader cannot distinguish more.
+/// Maximum number of lines with their own colour and name, because a reader cannot distinguish
+/// more.
 const MOST_NAMED: usize = 7;
 
 /// Maximum relative difference between points of two methods that are drawn as one line.
 const SAME: f64 = 0.02;
 
-/// Creates a diagram for each ranking of a suite. `work` labels the horizontal axis; `unit` is part
-/// of the file name.
+/// Creates a diagram for each ranking of a suite. `work` is the label of the horizontal axis;
+/// `unit` is part of the file name.
 pub fn cost_figures(
     outcome: &SuiteOutcome,
     rankings: &[Ranking],
@@ -79,7 +80,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
 fn coincide(a: &Ranked, b: &Ranked) -> bool {
     let (a, b) = (&a.method.samples, &b.method.samples);
     let near = |x: f64, y: f64| (x / y - 1.0).abs() <= SAME;
-    // Levels that do not count may be different.
+    // Only levels that count for one of the methods must coincide.
     let same = |(a, b): (&Sample, &Sample)| {
         let counts = a.counts() || b.counts();
         !counts || (near(a.work, b.work) && near(a.error, b.error))
@@ -87,8 +88,8 @@ fn coincide(a: &Ranked, b: &Ranked) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(same)
 }
 
-/// Points of the levels. Levels in the window of a divergent series do not get the mark of a
-/// converging one.
+/// Returns the points of the levels. The levels of a divergent series are not marked as members of
+/// the asymptotic window.
 fn points(row: &Ranked) -> Vec<PlotPoint> {
     let levels = row.method.samples.iter().enumerate();
     levels.map(|(level, one)| point(&row.part.levels, level, one)).collect()

@@ -1,5 +1,5 @@
-//! The error in each part of the body, with a panel for each case. All panels share the scales of
-//! length and colour, so that cases can be compared visually.
+//! Maps of the error in each part of the body, with a panel for each case. All panels have the same
+//! length scale and colour scale, so that cases can be compared visually.
 
 use super::colour_scale::{ColourScale, colour};
 use super::plot::canvas::{Heading, canvas, shorten, wrap};
@@ -13,18 +13,18 @@ const LEFT: f64 = 14.0;
 const GAP: f64 = 16.0;
 /// Number of panels per row for plane bodies.
 const PLANES: usize = 2;
-/// Maximum height of a panel for a plane body.
+/// Maximum height of a panel for a plane body (px).
 const HIGHEST: f64 = 260.0;
-/// Height of a panel for a bar.
+/// Height of a panel for a bar (px).
 const LINE: f64 = 14.0;
-/// Maximum number of lines of a name.
+/// Maximum number of lines of a case name.
 const LINES: usize = 2;
-/// Height of one line of a name.
+/// Height of one line of a case name (px).
 const LEADING: f64 = 14.0;
 /// Number of distinct shades. Each part is drawn in the nearest shade.
 const SHADES: f64 = 24.0;
 
-/// Errors over the bodies of several cases.
+/// Errors over the bodies of several cases, with one panel for each case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorMap {
     /// Title above the panels.
@@ -69,7 +69,7 @@ impl ErrorMap {
         BodyWindow { low, high, zoom, width, height, gap: GAP, columns }
     }
 
-    /// The figure as a standalone SVG document.
+    /// Creates the figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
         let window = self.window();
         let BodyWindow { width, columns, .. } = window;
@@ -105,7 +105,8 @@ impl ErrorMap {
     }
 }
 
-/// Draws one path of squares for each shade, and crosses where an error is not finite.
+/// Draws one path of squares for each shade, and one path of crosses for errors that are not
+/// finite.
 fn drawn(panel: &mut SvgElement, field: &ErrorField, window: &BodyWindow, scale: ColourScale) {
     let BodyWindow { low, high, zoom, width, height, .. } = window;
     let mut paths: BTreeMap<i64, String> = BTreeMap::new();
@@ -162,8 +163,8 @@ mod tests {
         assert!(svg.contains("v14h-"), "{svg}");
     }
 
-    /// Next to another panel the name of a case has limited space. A note after the name continues
-    /// on the next line.
+    /// A long name of a case is shortened if another panel is next to it. The note after the name
+    /// remains visible on the next line.
     #[test]
     fn what_is_said_behind_a_long_name_is_seen() {
         let field = ErrorField { is_plane: true, size: 0.5, parts: vec![[0.0; 3], [1.0; 3]] };

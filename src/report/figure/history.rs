@@ -21,13 +21,13 @@ pub struct HistoryPlot {
     pub curves: Vec<Curve>,
 }
 
-/// One curve.
+/// One curve of a history plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     /// Name in the legend. A curve without a name has no legend entry.
     pub name: String,
-    /// Index of the colour, which is the same for a method in all figures of a suite. The exact
-    /// solution has a separate colour.
+    /// Index of the curve's colour. A method has the same colour in all figures of a suite; the
+    /// exact solution has a separate colour.
     pub look: usize,
     /// The points in drawing order. A point that is not finite interrupts the curve.
     pub points: Vec<(f64, f64)>,
@@ -48,12 +48,13 @@ struct CurveLine<'a> {
 const MARKER_DISTANCE: f64 = 2.4 * RADIUS;
 
 impl HistoryPlot {
-    /// The figure as a standalone SVG document.
+    /// Creates the figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
         self.to_svg_among(std::slice::from_ref(self))
     }
 
-    /// The figure as SVG, with axes that contain all data of `figures`, including this figure.
+    /// Creates the figure as SVG, with axes that contain all data of `figures`, including this
+    /// figure.
     pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
         let plot = self.plot(figures);
         let lines: Vec<CurveLine> = self
@@ -77,7 +78,7 @@ impl HistoryPlot {
         plot.document(&layers, &Legend::new(entries.collect()), &[])
     }
 
-    /// Length of the vertical axis that the curves require.
+    /// Returns the difference between the highest and the lowest value of the curves.
     pub(crate) fn rise(&self) -> f64 {
         let finite = self.points().map(|point| point.1);
         let (low, high) = finite
@@ -102,7 +103,7 @@ fn is_finite(point: Pt) -> bool {
     point.0.is_finite() && point.1.is_finite()
 }
 
-/// Parts of a curve between interruptions, in pixels.
+/// Splits a curve at its interruptions and converts it to pixels.
 fn runs(points: &[Pt], plot: &Plot) -> Vec<Vec<Pt>> {
     points
         .split(|&p| !is_finite(p))
@@ -148,7 +149,7 @@ impl CurveLine<'_> {
         }
     }
 
-    /// A dot for a point between two interruptions, where a line would not be visible.
+    /// Draws a dot for a point between two interruptions, where a line would not be visible.
     fn dot(&self, at: Pt) -> SvgElement {
         SvgElement::new("circle")
             .at("cx", at.0)

@@ -31,19 +31,20 @@ pub struct LogLogPlot {
     pub reference_orders: Vec<f64>,
 }
 
-/// Free share of an axis at each end.
+/// Fraction of an axis left empty at each end.
 const MARGIN: f64 = 0.06;
 
 /// Width of the band of the Pareto front (px).
 const BAND: f64 = 11.0;
 
 impl LogLogPlot {
-    /// The figure as a standalone SVG document.
+    /// Creates the figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
         self.to_svg_among(std::slice::from_ref(self))
     }
 
-    /// The figure as SVG, with axes that contain all data of `figures`, including this figure.
+    /// Creates the figure as SVG, with axes that contain all data of `figures`, including this
+    /// figure.
     pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
         let plot = self.plot(figures);
         let lines = self.lines();
@@ -67,8 +68,8 @@ impl LogLogPlot {
         self.others.iter().map(SeriesLine::in_grey).chain(named).collect()
     }
 
-    /// The frame with axes that contain all data of `figures`. A strip below the data remains free
-    /// if slope triangles need it.
+    /// Creates the frame with axes that contain all data of `figures`. A strip below the data
+    /// remains empty if slope triangles need it.
     fn plot(&self, figures: &[Self]) -> Plot<'_> {
         let all: Vec<Vec<SeriesLine>> = figures.iter().map(Self::lines).collect();
         let lines = || all.iter().flatten();
@@ -89,7 +90,7 @@ impl LogLogPlot {
         if foot > MARGIN { frame(foot) } else { draft }
     }
 
-    /// Slope triangles; none if there is no data to compare with.
+    /// Creates the slope triangles; there are none without data to compare with.
     fn triangles(&self, lines: &[SeriesLine], plot: &Plot) -> TriangleRow {
         let positive = |order: &f64| order.is_finite() && *order > 0.0;
         let has_data = lines.iter().any(|line| line.count() > 0);
@@ -103,14 +104,14 @@ impl LogLogPlot {
             |point: &&Pt| [point.0, point.1].iter().all(|value| value.is_finite() && *value > 0.0);
         let mut points: Vec<Pt> =
             self.front.iter().filter(has_place).map(|point| plot.place(*point)).collect();
-        // A line of zero length has round ends, so it is visible.
+        // A single point is drawn as a line of zero length, whose round ends are visible.
         if let [only] = points[..] {
             points.push(only);
         }
         if points.is_empty() { SvgElement::new("g") } else { band(&points) }
     }
 
-    /// Legend entries: named lines, the front, other lines, and the marks that occur.
+    /// Returns the legend entries: named lines, the front, other lines, and the marks that occur.
     fn entries(&self, lines: &[SeriesLine]) -> Vec<LegendEntry> {
         let mut entries = series::names(lines);
         if !self.front.is_empty() {
@@ -126,7 +127,7 @@ impl LogLogPlot {
         entries
     }
 
-    /// Note about points that cannot be drawn on logarithmic axes.
+    /// Returns notes about points that cannot be drawn on logarithmic axes.
     fn omissions(&self, lines: &[SeriesLine]) -> Vec<String> {
         let points = self.series.iter().chain(&self.others).map(|one| one.points.len());
         let count = points.sum::<usize>() - lines.iter().map(SeriesLine::count).sum::<usize>();

@@ -1,6 +1,6 @@
 //! The map: a table of numbers over coloured fields, with one row for each case.
 //!
-//! The numbers are printed in the fields, and colours are only a guide. Colours run from dark to
+//! Each field contains its number as text; the colours are only a guide. Colours run from dark to
 //! light in steps of equal lightness and remain distinguishable in grey print. A gap separates rows
 //! whose names begin with different words.
 
@@ -15,9 +15,9 @@ use crate::verify::rounded;
 pub struct Map {
     /// Title above the table.
     pub title: String,
-    /// Label of the columns.
+    /// Label of the horizontal axis, which lists the columns.
     pub x_label: String,
-    /// Label of the numbers.
+    /// Label of the colour bar: the quantity that the fields show.
     pub z_label: String,
     /// Heading of each column.
     pub columns: Vec<String>,
@@ -36,18 +36,18 @@ pub struct MapField {
 
 const LEFT: f64 = 14.0;
 const ROW: f64 = 17.0;
-/// Minimum width of a field. Longer column names widen it.
+/// Minimum width of a field (px). Longer column names widen the fields.
 const FIELD: f64 = 62.0;
-/// Gap between rows whose names begin with different words.
+/// Gap between rows whose names begin with different words (px).
 const GAP: f64 = 5.0;
 
-/// A swept value as a column heading, rounded to five digits.
+/// Formats a swept value as a column heading, rounded to five digits.
 pub(crate) fn column_head(value: f64) -> String {
     rounded(value, 5).to_string()
 }
 
 impl Map {
-    /// The figure as a standalone SVG document.
+    /// Creates the figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
         let names = self.rows.iter().map(|(name, _)| name.as_str());
         let names = names.chain([self.z_label.as_str()]).map(|name| text_width(name, TEXT));
@@ -77,7 +77,7 @@ impl Map {
         svg.render() + "\n"
     }
 
-    /// Positions of the rows, starting at `y`, and the position after the last row.
+    /// Returns the positions of the rows, starting at `y`, and the position after the last row.
     fn places(&self, mut y: f64) -> (Vec<f64>, f64) {
         let mut places = Vec::new();
         let mut group = None;
@@ -99,7 +99,7 @@ impl Map {
 struct RowPlace {
     left: f64,
     top: f64,
-    /// Width of one field.
+    /// Width of one field (px).
     field: f64,
 }
 

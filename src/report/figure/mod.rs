@@ -5,7 +5,7 @@
 //! [`ErrorMap`] (errors over bodies). All are pure functions of their input and can be compared
 //! byte by byte: coordinates have two decimals, and transcendental functions come from `libm`.
 //!
-//! Figures accept any input. A value that cannot be placed on its axis is marked as failed,
+//! Figures accept any input. A value that cannot be placed on its axis is drawn as failed,
 //! interrupts its curve, or is counted in a note below the figure.
 //!
 //! ```
@@ -46,7 +46,7 @@ pub use log_log::LogLogPlot;
 pub use map::{Map, MapField};
 pub use series::{Mark, PlotPoint, PlotSeries};
 
-/// A figure and the name of its file.
+/// A figure with the name of its file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// File name, without a folder.
@@ -58,7 +58,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// File name of the LaTeX document, without a folder.
+    /// Returns the file name of the LaTeX document, without a folder.
     pub fn pgfplots_file(&self) -> String {
         format!("{}.tex", self.file.strip_suffix(".svg").unwrap_or(&self.file))
     }

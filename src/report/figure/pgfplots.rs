@@ -7,19 +7,21 @@ use super::plot::style::{CONTEXT, EXACT, MarkerShape, NEUTRAL, look};
 use super::{ErrorMap, HistoryPlot, LogLogPlot, Map, Mark, PlotPoint, PlotSeries};
 use crate::report::latex::escaped;
 
-/// Maximum number of points of a curve, because TeX is slow and a page has no higher resolution.
+/// Maximum number of points of a curve, because TeX is slow and more points are not visible in
+/// print.
 const MOST_POINTS: usize = 400;
 
 /// Position and alignment of the legend.
 const LEGEND: &str = "legend pos=outer north east, legend cell align=left";
 
-/// Number of decades below which a logarithmic axis has labels at 1, 2 and 5 times powers of ten.
+/// Minimum length (decades) of a logarithmic axis on which powers of ten are the only labels.
+/// Shorter axes also have labels at 2 and 5 times powers of ten.
 const SHORT: f64 = 2.0;
 
 /// Number of panels per row of an error map.
 const PANELS: usize = 4;
 
-/// A document under construction.
+/// LaTeX source of a document under construction.
 struct PgfDocument {
     text: String,
 }
@@ -58,7 +60,7 @@ impl PgfDocument {
         self.line("};");
     }
 
-    /// Adds a legend entry with a line or marker of this style, even if the curve has no points.
+    /// Adds a legend entry with a line or marker of this style, even if its curve has no points.
     fn legend(&mut self, style: &str, name: &str) {
         self.line(&format!("\\addlegendimage{{{style}}}"));
         self.line(&format!("\\addlegendentry{{{name}}}"));
@@ -72,13 +74,13 @@ impl PgfDocument {
     }
 }
 
-/// A number in PGFPlots notation.
+/// Formats a number for PGFPlots.
 fn number(value: f64) -> String {
     if value.is_finite() { format!("{value:e}") } else { "nan".to_owned() }
 }
 
-/// Option for the labels of a short logarithmic axis with these values, where powers of ten alone
-/// would be too few. Empty for longer axes.
+/// Returns the option that adds labels between powers of ten to a short logarithmic axis with these
+/// values; an empty text for longer axes.
 fn log_ticks(axis: &str, values: impl Iterator<Item = f64> + Clone) -> String {
     let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(0.0, f64::max));
     if !(low > 0.0 && libm::log10(high / low) < SHORT) {
@@ -101,7 +103,7 @@ fn log_ticks(axis: &str, values: impl Iterator<Item = f64> + Clone) -> String {
     format!(", {axis}tick={{{}}}, {axis}ticklabels={{{}}}", ticks.join(","), labels.join(","))
 }
 
-/// Title and labels as axis options.
+/// Returns title and labels as axis options.
 fn titles(title: &str, x_label: &str, y_label: &str) -> String {
     format!(
         "title={{{}}}, xlabel={{{}}}, ylabel={{{}}}",
@@ -111,7 +113,7 @@ fn titles(title: &str, x_label: &str, y_label: &str) -> String {
     )
 }
 
-/// Options for a marker, filled or hollow.
+/// Returns the options for a marker, filled or hollow.
 fn mark(shape: MarkerShape, is_filled: bool) -> String {
     let (mark, rotation) = match shape {
         MarkerShape::Circle => ("*", 0),
@@ -134,9 +136,9 @@ fn is_drawn(point: &PlotPoint) -> bool {
 }
 
 impl LogLogPlot {
-    /// The figure as a LaTeX document. A solid line with filled markers connects the levels of the
-    /// asymptotic window, a thin dashed line with hollow markers connects all levels, and each
-    /// reference order has a dotted grey line.
+    /// Creates the figure as a LaTeX document. A solid line with filled markers connects the levels
+    /// of the asymptotic window; a thin dashed line with hollow markers connects all levels. Each
+    /// reference order is a dotted grey line.
     pub fn to_pgfplots(&self) -> String {
         let mut document = PgfDocument::new();
         let titles = titles(&self.title, &self.x_label, &self.y_label);
@@ -195,13 +197,13 @@ impl LogLogPlot {
     }
 }
 
-/// An order with at most two decimals, without trailing zeros.
+/// Formats an order with at most two decimals, without trailing zeros.
 fn rounded(order: f64) -> String {
     let text = format!("{order:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The points with a mark that `is_chosen` accepts, sorted by spacing or work.
+/// Returns the points whose mark `is_chosen` accepts, sorted by spacing or work.
 fn sorted(series: &PlotSeries, is_chosen: impl Fn(Mark) -> bool) -> Vec<(f64, f64)> {
     let drawn =
         series.points.iter().filter(|point| is_drawn(point)).filter(|point| is_chosen(point.mark));
@@ -211,8 +213,8 @@ fn sorted(series: &PlotSeries, is_chosen: impl Fn(Mark) -> bool) -> Vec<(f64, f6
 }
 
 impl HistoryPlot {
-    /// The figure as a LaTeX document. Curves with more than 400 points are drawn through evenly
-    /// chosen ones.
+    /// Creates the figure as a LaTeX document. Curves with more than 400 points are reduced to
+    /// evenly chosen points.
     pub fn to_pgfplots(&self) -> String {
         let mut document = PgfDocument::new();
         let titles = titles(&self.title, &self.x_label, &self.y_label);
@@ -244,7 +246,7 @@ impl HistoryPlot {
 }
 
 impl Map {
-    /// The figure as a LaTeX document with a field for each number, including its text.
+    /// Creates the figure as a LaTeX document with a field for each number, including its text.
     pub fn to_pgfplots(&self) -> String {
         let mut document = PgfDocument::new();
         let titles = titles(&self.title, &self.x_label, "");
@@ -290,9 +292,9 @@ impl Map {
 }
 
 impl ErrorMap {
-    /// The figure as a LaTeX document. Plane bodies have a panel for each case, with a square for
-    /// each part, coloured by the decimal logarithm of its error. Bars have one plot of the errors
-    /// over the position, with a curve for each case.
+    /// Creates the figure as a LaTeX document. Plane bodies have a panel for each case. Each part
+    /// of the body is a square, coloured by the decimal logarithm of its error. Bars have one plot
+    /// of the errors over the position, with a curve for each case.
     pub fn to_pgfplots(&self) -> String {
         if self.panels.iter().any(|(_, field)| field.is_plane) {
             self.panels_to_pgfplots()

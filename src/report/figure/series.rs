@@ -7,7 +7,7 @@ use super::plot::marker::Fill;
 use super::plot::style::{CONTEXT, FRAME_HEIGHT, Look, MarkerShape, NEUTRAL, look};
 use super::plot::svg::{Pt, SvgElement};
 
-/// Error on one level.
+/// Error of a method on one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlotPoint {
     /// Cell size, time step or work.
@@ -15,22 +15,22 @@ pub struct PlotPoint {
     /// The error. An error that is not finite is drawn as failed; a zero error is mentioned below
     /// the figure.
     pub error: f64,
-    /// Role of the level.
+    /// Role of the level in the judgement.
     pub mark: Mark,
 }
 
 /// Role of a level in the judgement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// In the asymptotic window: filled marker, solid line.
+    /// The level is in the asymptotic window: filled marker, solid line.
     Window,
-    /// Measured but not judged: drawn as in the window, without a legend entry.
+    /// The level is measured but not judged: drawn as in the window, without a legend entry.
     Measured,
-    /// Outside the window: hollow marker, thin dashed line.
+    /// The level is outside the window: hollow marker, thin dashed line.
     OutsideWindow,
-    /// Particles changed their cell: hollow marker with a cross.
+    /// Particles change their cell on the level: hollow marker with a cross.
     Crossing,
-    /// No finite error: arrow at the upper edge of the frame.
+    /// The level has no finite error: arrow at the upper edge of the frame.
     Failed,
 }
 
@@ -39,9 +39,9 @@ pub enum Mark {
 pub struct PlotSeries {
     /// Name in the legend.
     pub name: String,
-    /// Index of its colour and marker, which are the same for a method in all figures of a suite.
+    /// Index of the colour and marker, which are the same for a method in all figures of a suite.
     pub look: usize,
-    /// Levels in any order.
+    /// The levels of the method, in any order.
     pub points: Vec<PlotPoint>,
 }
 
@@ -55,7 +55,7 @@ struct PlotLevel {
     mark: Mark,
 }
 
-/// Drawable levels in ascending order of `x`.
+/// Returns the levels that can be drawn, in ascending order of `x`.
 fn levels(points: &[PlotPoint]) -> Vec<PlotLevel> {
     let mut levels: Vec<PlotLevel> = points.iter().filter_map(level).collect();
     levels.sort_by(|a, b| a.x.total_cmp(&b.x));
@@ -98,22 +98,22 @@ impl<'a> SeriesLine<'a> {
         !self.grey
     }
 
-    /// Number of drawn levels.
+    /// Returns the number of drawn levels.
     pub(super) fn count(&self) -> usize {
         self.levels.len()
     }
 
-    /// Values of `x` of all levels.
+    /// Returns the values of `x` of all levels.
     pub(super) fn xs(&self) -> impl Iterator<Item = f64> {
         self.levels.iter().map(|level| level.x)
     }
 
-    /// Errors of all levels that have one.
+    /// Returns the errors of all levels that have one.
     pub(super) fn errors(&self) -> impl Iterator<Item = f64> {
         self.levels.iter().filter_map(|level| level.error)
     }
 
-    /// Pixels of the errors.
+    /// Returns the positions of the errors in pixels.
     pub(super) fn path(&self, plot: &Plot) -> Vec<Pt> {
         self.marked_path(plot).into_iter().map(|(at, _)| at).collect()
     }
@@ -166,7 +166,7 @@ impl<'a> SeriesLine<'a> {
     }
 }
 
-/// All marks with a legend text, in legend order.
+/// All marks with a legend text, in the order of the legend.
 const MARKS: [(Mark, &str); 4] = [
     (Mark::Window, "in the asymptotic window"),
     (Mark::OutsideWindow, "outside the window"),
@@ -174,13 +174,13 @@ const MARKS: [(Mark, &str); 4] = [
     (Mark::Failed, "failed or not finite"),
 ];
 
-/// Legend entries of the named series.
+/// Returns the legend entries of the named series.
 pub(super) fn names(lines: &[SeriesLine]) -> Vec<LegendEntry> {
     lines.iter().filter(|line| line.is_named()).map(SeriesLine::entry).collect()
 }
 
-/// Legend entries of the marks that occur. Series without a name have no markers, except for failed
-/// levels.
+/// Returns the legend entries of the marks that occur. A series without a name adds only the mark
+/// of its failed levels.
 pub(super) fn marks(lines: &[SeriesLine]) -> Vec<LegendEntry> {
     let occurs = |mark| {
         let drawn = lines.iter().filter(|line| line.is_named() || mark == Mark::Failed);
@@ -209,22 +209,23 @@ fn fill(mark: Mark) -> Fill {
     }
 }
 
-/// A failed level with its position below the upper edge.
+/// A failed level with its position in the column of failures at the same `x`.
 pub(super) struct FailedLevel {
     x: f64,
     look: Look,
-    /// Number of failures of other series above it, at the same `x`.
+    /// Number of failures of other series above this one, at the same `x`.
     rank: usize,
 }
 
-/// Height of the arrow (px), and of each failed marker below it.
+/// Height of the arrow above failed levels (px); `FAILED_ROW` is the height of each marker below
+/// it.
 const ARROW: f64 = 13.0;
 const FAILED_ROW: f64 = 13.0;
 
-/// Maximum share of the frame that is reserved for failed levels.
+/// Maximum fraction of the frame height that is reserved for failed levels.
 const LARGEST_HEAD: f64 = 0.4;
 
-/// Failed levels. If several series fail at the same `x`, their markers form a column.
+/// Returns the failed levels. If several series fail at the same `x`, their markers form a column.
 pub(super) fn failures(lines: &[SeriesLine]) -> Vec<FailedLevel> {
     let mut failures: Vec<FailedLevel> = Vec::new();
     for line in lines {
@@ -237,7 +238,7 @@ pub(super) fn failures(lines: &[SeriesLine]) -> Vec<FailedLevel> {
     failures
 }
 
-/// Share of the frame that is reserved above the errors for failed levels.
+/// Returns the fraction of the frame height that is reserved above the errors for failed levels.
 pub(super) fn headroom(failures: &[FailedLevel]) -> f64 {
     let rows = failures.iter().map(|failure| failure.rank + 1).max();
     rows.map_or(0.0, |rows| (ARROW + FAILED_ROW * rows as f64) / FRAME_HEIGHT).min(LARGEST_HEAD)

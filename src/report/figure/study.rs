@@ -18,8 +18,8 @@ const MOST_PANELS: usize = 24;
 /// Maximum ratio of the highest to the lowest curve for which plots share an axis.
 const MOST_ALIKE: f64 = 3.0;
 
-/// Convergence plots, split to remain readable; error maps; velocity histories of cases with an
-/// observed point; energies if requested.
+/// Draws convergence plots, split to remain readable; error maps; velocity histories of cases with
+/// an observed point; and energies if requested.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures = convergence(outcome);
     figures.extend(error_maps(outcome));
@@ -34,8 +34,8 @@ fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &Convergence)> {
     studies.filter(|(_, study)| study.compared).collect()
 }
 
-/// Plots of errors over spacings, all with the same axes. Cases with a single level are excluded,
-/// because they have no order; a table has their numbers.
+/// Plots errors over spacings, all with the same axes. Cases with a single level have no order and
+/// are excluded; a table lists their errors.
 fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut studies = studies(outcome);
     studies.retain(|(_, study)| study.levels.len() > 1);
@@ -53,8 +53,8 @@ fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
 /// Width and height of a thumbnail (px).
 const THUMBNAIL: (f64, f64) = (96.0, 40.0);
 
-/// The lines of all convergence plots of a suite, without axes and texts. `None` if there is
-/// nothing to draw.
+/// Draws the lines of all convergence plots of a suite in small, without axes and texts. `None` if
+/// there is nothing to draw.
 pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
     let line = |(name, study): &(&str, &Convergence)| {
         let drawn = |value: f64| value.is_finite() && value > 0.0;
@@ -90,7 +90,7 @@ pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
     Some(svg.render())
 }
 
-/// Index of a case in its suite. It determines the colour of the case in all figures.
+/// Returns the index of a case in its suite, which determines its colour in all figures.
 fn look(outcome: &SuiteOutcome, case: &str) -> usize {
     outcome.cases.iter().position(|known| known.case == case).unwrap_or(0)
 }
@@ -116,7 +116,7 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> LogLogPlot 
     }
 }
 
-/// Label of the spacing axis.
+/// Returns the label of the spacing axis.
 fn spacing(axis: Axis) -> &'static str {
     match axis {
         Axis::Space => "cell size h (m)",
@@ -125,7 +125,7 @@ fn spacing(axis: Axis) -> &'static str {
     }
 }
 
-/// Maps of the error of each case on its finest level.
+/// Draws maps of the error of each case on its finest level.
 fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
     let field = |(name, study): (&str, &Convergence)| {
         let level = study.levels.last()?;
@@ -151,13 +151,13 @@ fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
     parts.map(figure).collect()
 }
 
-/// Observed order of a converging series, for a reference slope.
+/// Returns the observed order of a converging series, for a reference slope.
 fn order(study: &Convergence) -> Option<f64> {
     let order = study.judgement.order.filter(|_| study.verdict() == Verdict::Converging)?;
     Some(order.value)
 }
 
-/// Reference slopes: observed orders, rounded to thirds, without duplicates.
+/// Converts observed orders to reference slopes: rounds to thirds and removes duplicates.
 fn slopes(orders: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut slopes: Vec<f64> = orders.map(|order| libm::round(order * 3.0) / 3.0).collect();
     slopes.sort_by(f64::total_cmp);
@@ -180,8 +180,8 @@ fn point(study: &Convergence, index: usize, level: &LevelOutcome) -> PlotPoint {
     PlotPoint { x: level.spacing, error, mark }
 }
 
-/// Exact and computed velocity at the observed label, on the coarsest, the middle and the finest
-/// level.
+/// Plots the exact and the computed velocity at the observed point, on the coarsest, the middle and
+/// the finest level.
 fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
     let figure = |(name, study): (&str, &Convergence)| {
         let seen: Vec<_> = study
@@ -218,7 +218,8 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
     };
     let (files, plots): (Vec<String>, Vec<HistoryPlot>) =
         studies(outcome).into_iter().filter_map(figure).unzip();
-    // On an axis shared with a diverging method, other curves would look flat.
+    // A diverging method would make other curves look flat, so plots share an axis only if their
+    // ranges are similar.
     let rises = || plots.iter().map(HistoryPlot::rise);
     let least = rises().fold(f64::INFINITY, f64::min);
     let alike = rises().fold(0.0, f64::max) <= MOST_ALIKE * least;
@@ -232,8 +233,8 @@ fn histories(outcome: &SuiteOutcome) -> Vec<Figure> {
     files.into_iter().zip(&plots).map(figure).collect()
 }
 
-/// Energy over time, relative to its initial value, on the finest level of each case with a
-/// reported energy rate.
+/// Plots the energy over time, relative to its initial value, on the finest level of each case with
+/// a reported energy rate.
 fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
     let curve = |(name, study): (&str, &Convergence)| {
         let account = &study.levels.last().filter(|_| study.rated)?.run.account;
@@ -254,7 +255,7 @@ fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
     Some(Figure { file, svg: plot.to_svg(), pgfplots: plot.to_pgfplots() })
 }
 
-/// Plot of the forces of an internal-force study.
+/// Plots the forces of an internal-force study.
 pub(crate) fn forces(outcome: &SuiteOutcome) -> Option<Figure> {
     let mut curves = Vec::new();
     for case in &outcome.cases {

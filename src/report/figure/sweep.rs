@@ -1,22 +1,23 @@
-//! Figures of runs over a swept parameter: curves for many values, a map for few values.
+//! Figures of runs over a swept parameter: curves if there are many values, and a map if there are
+//! few.
 
 use super::Figure;
 use super::map::{column_head, merged_fields};
 use super::{Curve, HistoryPlot, Map, MapField};
 use crate::verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome};
 
-/// Minimum number of values for a curve.
+/// Minimum number of parameter values for which curves are drawn.
 const CURVES: usize = 5;
 
 /// Maximum number of curves in one plot.
 const MOST_CURVES: usize = 6;
 
-/// Studies that seek no limit, with the names of their cases.
+/// Returns the studies that do not search for a stability limit, with the names of their cases.
 fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_none()).collect()
 }
 
-/// A plot for each reported figure of the runs, if there are values to compare.
+/// Draws one plot for each reported quantity, if there are several runs to compare.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let studies = studies(outcome);
     let Some((_, first)) = studies.first() else { return Vec::new() };
@@ -33,13 +34,13 @@ pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     first.figures.iter().flat_map(shown).collect()
 }
 
-/// Value of the figure in a run; NaN if the run failed.
+/// Returns the reported quantity of a run; NaN if the run failed.
 fn value(row: &StabilityRow, figure: RunFigure) -> f64 {
     let ended = row.trial.as_ref().filter(|trial| trial.verdict != Stability::Failed);
     ended.map_or(f64::NAN, |trial| figure.of(trial))
 }
 
-/// Number with three digits, short enough for a map field.
+/// Formats a value with three digits, which fit into a map field.
 fn short(value: f64) -> String {
     match value.abs() {
         size if size.is_nan() => "failed".to_owned(),

@@ -10,7 +10,7 @@ use crate::verify::{
 };
 use serde_json::{Value, json};
 
-/// Rankings as JSON, one entry for each problem. `work` is the unit of work.
+/// Converts rankings to JSON, one entry for each problem. `work` is the name of the unit of work.
 pub(crate) fn rankings(rankings: &[Ranking], work: &str) -> Value {
     let ranking = |ranking: &Ranking| {
         let columns = cost_columns(ranking);
@@ -25,7 +25,7 @@ pub(crate) fn rankings(rankings: &[Ranking], work: &str) -> Value {
     rankings.iter().map(ranking).collect()
 }
 
-/// Diagnosis of one case as JSON: the paragraph of the text report, and the runs.
+/// Converts the diagnosis of one case to JSON: the paragraph of the text report, and the runs.
 pub fn diagnosis_json(found: &Diagnosis) -> Value {
     // If the reference error is not finite, the ratio to it is undefined.
     let finite = |ratio: f64| Some(ratio).filter(|ratio| ratio.is_finite());
@@ -58,8 +58,8 @@ pub fn diagnosis_json(found: &Diagnosis) -> Value {
     })
 }
 
-/// The JSON document, indented and with a final newline. Each suite has either been timed or
-/// searched for its best candidate.
+/// Creates the JSON document, indented and with a final newline, from timed suites and from suites
+/// whose best candidate was searched.
 pub fn timed_json(timed: &[TimedSuite], best: &[(String, BestCandidate)]) -> String {
     let suites = timed.iter().map(suite).chain(best.iter().map(|(name, found)| {
         json!({"suite": name, "machine": null, "cases": [], "cost": [], "best_candidate": candidate(found)})

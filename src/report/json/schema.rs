@@ -1,5 +1,5 @@
 //! JSON Schema (draft 2020-12) of the document that `run --format json` prints. Keys and
-//! descriptions of rows come from their columns; tests compare the rest with documents.
+//! descriptions of rows are taken from the table columns; tests compare the rest with documents.
 
 use crate::report::columns::{TableColumn, cost, force, gradient, level, spectrum, stability};
 use crate::verify::{
@@ -7,7 +7,7 @@ use crate::verify::{
 };
 use serde_json::{Map, Value, json};
 
-/// The schema, as indented JSON.
+/// Returns the schema as indented JSON.
 pub fn report_schema() -> String {
     let suite = object([
         ("suite", text(), "name of the suite"),
@@ -47,7 +47,7 @@ fn case() -> Value {
     let levels = row(&level::json_columns());
     let forces = row(&force::columns());
     let axes: Vec<&str> = Axis::ALL.iter().map(|axis| axis.name()).collect();
-    // Other studies and cases that do not apply have other verdicts.
+    // Studies of other kinds and cases that do not apply have other verdicts.
     let verdicts = json!({"anyOf": [{"enum": Verdict::ALL.map(Verdict::name)}, text()]});
     object([
         ("case", text(), "name of the case"),
@@ -169,8 +169,8 @@ fn ranking() -> Value {
     ])
 }
 
-/// Schema of a table row with the keys of its columns. `errors.rms` becomes the key `rms` of
-/// `errors`.
+/// Returns the schema of a table row with the keys of its columns. The column `errors.rms` becomes
+/// the key `rms` of the object `errors`.
 fn row<R>(columns: &[TableColumn<'_, R>]) -> Value {
     let mut properties = Map::new();
     for column in columns.iter().filter(|column| !column.key.is_empty()) {
@@ -188,7 +188,7 @@ fn row<R>(columns: &[TableColumn<'_, R>]) -> Value {
     closed(properties)
 }
 
-/// Schema of an object with these keys, each with its schema and meaning.
+/// Returns the schema of an object. Each key is given with its schema and its meaning.
 fn object<const N: usize>(keys: [(&str, Value, &str); N]) -> Value {
     let property = |(key, mut schema, about): (&str, Value, &str)| {
         schema["description"] = about.into();
@@ -197,7 +197,7 @@ fn object<const N: usize>(keys: [(&str, Value, &str); N]) -> Value {
     closed(keys.into_iter().map(property).collect())
 }
 
-/// Schema of an object with all of these keys and no others.
+/// Returns the schema of an object with all of these keys and no others.
 fn closed(properties: Map<String, Value>) -> Value {
     let keys: Vec<&String> = properties.keys().collect();
     let object = json!({"type": "object", "required": keys, "additionalProperties": false});

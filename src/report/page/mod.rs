@@ -31,8 +31,8 @@ const SCRIPT: &str = include_str!("script.js");
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
-/// Creates the page, which states the number of suites that could not run. Names of suites must be
-/// unique, because they are used as ids of sections.
+/// Creates the page. `refused` is the number of suites that could not run, which the page states.
+/// Names of suites must be unique, because they are used as ids of sections.
 pub fn page(sources: &[SuiteSource<'_>], refused: usize) -> String {
     let mut body = vec![
         head(sources, refused),
@@ -73,7 +73,7 @@ fn meta() -> Vec<Html> {
     ]
 }
 
-/// Headline: whether all results are as expected, and otherwise a list of the unexpected ones.
+/// Creates the page header: whether all results are as expected, and a list of the unexpected ones.
 fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
     let cases = || sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |c| (s, c)));
     let (all, failed) = (cases().count(), cases().filter(|(_, case)| !case.passed()).count());

@@ -7,7 +7,7 @@ use crate::report::figure::plot::style::{SUPERSCRIPT, WIDTH};
 use crate::report::{svg, text};
 use crate::verify::{CaseOutcome, SuiteOutcome};
 
-/// The section of a suite.
+/// Creates the section of a suite.
 pub(super) fn section(source: &SuiteSource<'_>) -> Html {
     let outcome = source.outcome;
     let (id, suite) = (suite_id(outcome), outcome.suite.as_str());
@@ -41,7 +41,8 @@ fn links(source: &SuiteSource<'_>) -> Html {
     Html::tag("p", &[("class", "links")], parts)
 }
 
-/// Table with one row for each case. Neighbouring rows with equal expectations share its cell.
+/// Creates a table with one row for each case. Neighbouring rows with equal expectations share one
+/// cell.
 fn cases(outcome: &SuiteOutcome) -> Html {
     let judged = outcome.cases.iter().filter_map(CaseOutcome::convergence).find(|s| s.compared);
     let measured = outcome.cases.iter().any(|case| case.convergence().is_some());
@@ -92,7 +93,7 @@ fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Ht
     group.iter().enumerate().map(row).collect()
 }
 
-/// The complete text report.
+/// Adds the complete text report, initially folded.
 fn report(outcome: &SuiteOutcome) -> Html {
     let text = Html::text(&text(outcome));
     folded(
@@ -108,17 +109,17 @@ fn file(source: &SuiteSource<'_>) -> Html {
     folded(&id, source.file, &format!("File {}", source.file), source.yaml.into())
 }
 
-/// Preformatted text that is initially folded.
+/// Creates a folded block of preformatted text. `words` is the text that unfolds it.
 fn folded(id: &str, words: &str, label: &str, text: Html) -> Html {
     let summary = Html::tag("summary", &[], words);
     let text = scrolled(label, Html::tag("pre", &[], text));
     Html::tag("details", &[("id", id)], vec![summary, text])
 }
 
-/// Minimum text size on the screen (px).
+/// Minimum size of text in a figure on the screen (px).
 const LEGIBLE: f64 = 9.0;
 
-/// All figures, starting with the scene; `None` without figures.
+/// Shows all figures, starting with the scene; `None` without figures.
 fn figures(source: &SuiteSource<'_>) -> Option<Html> {
     let outcome = source.outcome;
     let scene = source.sketch.map(|svg| {
@@ -134,7 +135,7 @@ fn figures(source: &SuiteSource<'_>) -> Option<Html> {
     (!figures.is_empty()).then(|| Html::block("div", &[("class", "figures")], &figures))
 }
 
-/// A figure. Wide figures scroll if their texts would otherwise be too small.
+/// Shows one figure. A wide figure scrolls if its texts would otherwise be too small.
 fn figure(id: &str, svg: &str, name: &str) -> Html {
     let caption = Html::tag("figcaption", &[("class", "muted")], name);
     let width = svg_width(svg).unwrap_or(WIDTH);
@@ -174,13 +175,13 @@ pub(super) fn inline_svg(document: &str, prefix: &str) -> Html {
     Html::trusted(inline)
 }
 
-/// Width of an SVG document (px), from its `viewBox`.
+/// Reads the width of an SVG document (px) from its `viewBox`.
 fn svg_width(document: &str) -> Option<f64> {
     let (_, view) = document.split_once(" viewBox=\"")?;
     view.split([' ', '"']).nth(2)?.parse().ok()
 }
 
-/// Ids in a document, without duplicates.
+/// Returns the ids in a document, without duplicates.
 fn ids(document: &str) -> Vec<&str> {
     let mut ids: Vec<&str> = document
         .match_indices(" id=\"")

@@ -1,7 +1,7 @@
 //! Tables of the page: the matrix of problems and methods, and the verdicts of all cases.
 //!
-//! Number cells contain the plain value for the sorting script. Cells without a value are sorted
-//! last in both directions.
+//! For the sorting script, cells with numbers contain the plain value. Cells without a value are
+//! sorted last in both directions.
 
 use super::html::Html;
 use crate::report::columns::scientific;
@@ -14,15 +14,16 @@ use crate::verify::{CaseOutcome, SuiteOutcome};
 pub struct SuiteSource<'a> {
     /// Results of the suite.
     pub outcome: &'a SuiteOutcome,
-    /// Name of the file, without its folders, which depend on the machine.
+    /// Name of the suite file without its folders, because these depend on the machine.
     pub file: &'a str,
-    /// Text of the file.
+    /// Text of the suite file.
     pub yaml: &'a str,
     /// SVG sketch of the scene, if the suite has a scene.
     pub sketch: Option<&'a str>,
 }
 
-/// Table of the cases with the expected order, for each group of suites and each basis.
+/// Creates a table of how many cases reach the order of theory, for each group of suites and each
+/// basis.
 pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
     let head = |name: &str| Html::tag("th", &[("scope", "col"), ("class", "word")], name);
     let heads: Vec<Html> = ["Topic"].iter().chain(&COLUMNS).map(|name| head(name)).collect();
@@ -51,8 +52,8 @@ pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
     )
 }
 
-/// Cell with the number of cases with the expected order. All, most, some and none have different
-/// colours.
+/// Creates the cell `K of N`: K of the N cases reach the order of theory. The colour shows whether
+/// these are all, at least half, fewer, or none.
 fn share((kept, all): (usize, usize)) -> Html {
     if all == 0 {
         return Html::tag("td", &[], "-");
@@ -66,18 +67,18 @@ fn share((kept, all): (usize, usize)) -> Html {
     coloured(class, format!("{kept} of {all}"))
 }
 
-/// A cell with the colour of a class. Only the text is coloured, because a background would hide
-/// the shadow that indicates more columns.
+/// Creates a cell with the colour of a class. Only the text is coloured, because a background would
+/// hide the shadow that indicates further columns.
 fn coloured(class: FindingClass, text: String) -> Html {
     Html::tag("td", &[], Html::tag("span", &[("class", class.name())], text))
 }
 
-/// Converts a name for use in an id.
+/// Converts a name for use in an id: whitespace becomes `_`.
 fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_whitespace() { '_' } else { c }).collect()
 }
 
-/// Table of all suites with their results, below the names of their groups.
+/// Creates the table of all suites with their results, grouped under the names of their groups.
 pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
     let head = |name: &str| Html::tag("th", &[("scope", "col"), ("class", "word")], name);
     let heads = Html::tag(
@@ -104,7 +105,7 @@ pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
     Html::block("nav", &[("id", "suites"), ("aria-label", "Suites")], &parts)
 }
 
-/// Legend, with the names of findings formatted as code.
+/// Creates the legend, with the names of findings formatted as code.
 fn legend() -> Html {
     let part = |(k, part): (usize, &str)| match k % 2 {
         0 => Html::text(part),
@@ -113,7 +114,7 @@ fn legend() -> Html {
     LEGEND.split('`').enumerate().map(part).collect()
 }
 
-/// Meanings of the colours, which repeat the texts of the cells.
+/// Explains the colours of the table cells.
 fn key() -> Html {
     let item = |class: FindingClass| Html::tag("span", &[("class", class.name())], class.meaning());
     Html::tag("p", &[("class", "key")], FindingClass::SHOWN.map(item).to_vec())
@@ -138,7 +139,7 @@ fn suite_row(source: &SuiteSource<'_>) -> Html {
     Html::tag("tr", &[], cells)
 }
 
-/// Headings of the verdict table, and whether the column contains numbers.
+/// Heading of each column of the verdict table, and whether the column contains numbers.
 const VERDICT_COLUMNS: [(&str, bool); 8] = [
     ("Suite", false),
     ("Case", false),
@@ -150,7 +151,7 @@ const VERDICT_COLUMNS: [(&str, bool); 8] = [
     ("Expected", false),
 ];
 
-/// Table of all verdicts, with one row for each case of each suite.
+/// Creates the table of all verdicts, with one row for each case of each suite.
 pub(super) fn verdicts(sources: &[SuiteSource<'_>]) -> Html {
     let cases = sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |case| (s, case)));
     let rows: Vec<Html> = cases.map(|(source, case)| case_row(source, case)).collect();
@@ -197,14 +198,15 @@ fn case_row(source: &SuiteSource<'_>, case: &CaseOutcome) -> Html {
     )
 }
 
-/// A region that scrolls on its own if it is wider than the screen, also with the keyboard.
+/// Wraps content that scrolls separately, also by keyboard, if it is wider than the screen.
 pub(super) fn scrolled(label: &str, content: Html) -> Html {
     let attributes =
         [("class", "wide"), ("role", "region"), ("tabindex", "0"), ("aria-label", label)];
     Html::tag("div", &attributes, content)
 }
 
-/// Whether the result of a case is as expected, as text and not only by colour.
+/// States as text whether the result of a case is as expected, because colour alone is not
+/// accessible.
 pub(super) fn result(case: &CaseOutcome) -> Html {
     match (case.result(), case.passed()) {
         (word, true) => Html::tag("span", &[("class", "ok")], word),
@@ -212,8 +214,8 @@ pub(super) fn result(case: &CaseOutcome) -> Html {
     }
 }
 
-/// Cells with the order and its interval, and with the judged error and the transfers on the finest
-/// level.
+/// Creates three cells: the order with its interval, the judged error on the finest level, and the
+/// particle-node transfers on the finest level.
 pub(super) fn figure_cells(case: &CaseOutcome) -> [Html; 3] {
     let study = case.convergence();
     let order = study.and_then(|study| study.judgement.order);
@@ -237,17 +239,17 @@ fn number(figure: Option<(f64, String)>) -> Html {
     Html::tag("td", &[("class", "number"), ("data-value", &value)], text)
 }
 
-/// Id of a suite's section.
+/// Returns the id of a suite's section.
 pub(super) fn suite_id(outcome: &SuiteOutcome) -> String {
     format!("suite-{}", outcome.suite)
 }
 
-/// Id of a case's row in the section of its suite. Names of suites contain no dot.
+/// Returns the id of a case's row in the section of its suite. Names of suites contain no dot.
 pub(super) fn case_id(outcome: &SuiteOutcome, case: &CaseOutcome) -> String {
     format!("case-{}.{}", outcome.suite, plain(&case.case))
 }
 
-/// A link to the row of a case, with or without the name of the suite.
+/// Creates a link to the row of a case. `full` adds the name of the suite.
 pub(super) fn case_link(outcome: &SuiteOutcome, case: &CaseOutcome, full: bool) -> Html {
     let name = if full { format!("{}::{}", outcome.suite, case.case) } else { case.case.clone() };
     Html::tag("a", &[("href", &format!("#{}", case_id(outcome, case)))], name)

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 const HOSTILE: &str = "</pre></script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&lt;";
 
-/// An internal-force study with `words` as every text.
+/// Creates an internal-force study with `words` as every text.
 fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
     let word = || words.to_owned();
     let row = |position| ForceRow { position, left: 1, right: 2, force: position, predicted: 0.5 };
@@ -42,7 +42,7 @@ fn of(outcomes: &[SuiteOutcome], yaml: &str) -> String {
     page(&outcomes.iter().map(source).collect::<Vec<_>>(), 0)
 }
 
-/// All start tags with their attributes. Fails unless each tag is closed correctly.
+/// Returns all start tags with their attributes. Fails unless each tag is closed correctly.
 fn tags(page: &str) -> Vec<(String, String)> {
     let (mut open, mut seen): (Vec<String>, _) = (Vec::new(), Vec::new());
     let mut rest = page.strip_prefix("<!DOCTYPE html>").expect("a document type");
@@ -68,7 +68,7 @@ fn tags(page: &str) -> Vec<(String, String)> {
     seen
 }
 
-/// Values of an attribute, in the order of the page.
+/// Returns the values of an attribute, in the order of the page.
 fn values<'a>(page: &'a str, name: &str) -> Vec<&'a str> {
     let key = format!(" {name}=\"");
     let value = |(at, _)| page[at + key.len()..].split('"').next();
@@ -164,7 +164,7 @@ fn nothing_is_loaded() {
     assert!(!STYLE.contains("url(") && !STYLE.contains("@import") && !SCRIPT.contains("fetch"));
 }
 
-/// The light and the dark variant of a colour of the page.
+/// Returns the light and the dark variant of a colour of the page.
 fn colour(name: &str) -> [&'static str; 2] {
     let key = format!("--{name}:light-dark(");
     let (_, value) = STYLE.split_once(&key).expect(name);

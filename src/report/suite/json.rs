@@ -34,8 +34,8 @@
 //! ```
 //!
 //! `cost` ranks the methods of each problem of the suite, the cheapest first. Errors are divided by
-//! `size`. `reached` contains the work for each of the `targets`, and the ratio `times` of this
-//! work to the least work. `pareto_front` lists the levels that no other level dominates.
+//! `size`. `reached` contains the work for each of the `targets`; `times` is the ratio of this work
+//! to that of the cheapest method. `pareto_front` lists the levels that no other level dominates.
 //! `exponent` is k in work ~ error^k.
 //!
 //! `null` marks a missing value. Numbers that are not finite are the strings `"nan"`, `"inf"`,
@@ -44,9 +44,9 @@
 //! Internal-force studies have no levels; their `forces` are a list of
 //! `{"position", "n_left", "n_right", "force", "predicted"}`. Stability studies have no levels
 //! either; their `stability` is `{"swept", "sought", "rows"}`. Each row contains the `value` of the
-//! swept parameter and either the `run`, with its verdict and figures, or the limit of the sought
-//! parameter: `predicted`, `observed` (each with `at`, or `above` or `below` the range) and the
-//! runs that `confirmed` it.
+//! swept parameter. It also contains either the `run`, with its verdict and measured values, or the
+//! limit of the sought parameter: `predicted`, `observed` (each with `at`, or `above` or `below`
+//! the range) and the runs that `confirmed` it.
 //!
 //! `axis` is the refined axis (`space`, `time`, `particles`) and `spacing` the spacing on this
 //! axis. There is no formal order for `particles`. `energy_rate` is d ln E/dt (1/s), followed by
@@ -75,7 +75,7 @@ pub fn json(outcomes: &[SuiteOutcome]) -> String {
     format!("{:#}\n", json!({ "version": version, "commit": commit(), "suites": suites }))
 }
 
-/// The tested commit, if a CI service states it.
+/// Returns the tested commit, if a CI service states it.
 pub(crate) fn commit() -> Option<String> {
     let said = |name: &&str| std::env::var(name).ok().filter(|commit| !commit.is_empty());
     ["GITHUB_SHA", "CI_COMMIT_SHA"].iter().find_map(said)
@@ -116,7 +116,7 @@ pub(crate) fn case(outcome: &CaseOutcome) -> Value {
     members.into()
 }
 
-/// Cost of a step as JSON.
+/// Converts the cost of a step to JSON.
 pub fn profile(profile: &Profile) -> Value {
     let visit = |(part, particles): &(&str, u64)| json!({"part": part, "particles": particles});
     let column = |column: &ColumnSize| {

@@ -26,10 +26,10 @@ const WIDTHS: [(&str, usize); 16] = [
     ("observed", 66),
 ];
 
-/// Width of a column with the orders and verdicts of a basis.
+/// Width of a column with the orders and verdicts of one basis.
 const BASIS: usize = 15;
 
-/// Short overview of suites: the result, and the matrix of problems and methods.
+/// Returns a short overview of suites: the result, and the matrix of problems and methods.
 pub fn glance(outcomes: &[SuiteOutcome]) -> String {
     at_a_glance(outcomes, Table::lines)
 }
@@ -62,8 +62,8 @@ fn at_a_glance(outcomes: &[SuiteOutcome], lines_of: fn(&Table) -> Vec<String>) -
     lines.join("\n") + "\n"
 }
 
-/// Overview of suites: a summary, and one line for each case, in groups. Columns have fixed widths,
-/// so that a change of a case changes only one line.
+/// Returns an overview of suites: a summary, and one line for each case, in groups. Columns have
+/// fixed widths, so that a change of a case changes only one line.
 pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     let fixed = |table: &Table| table.lines_of_widths(&WIDTHS);
     let mut lines = vec!["Overview of all suites".to_owned(), String::new()];
@@ -79,7 +79,8 @@ pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Share of 95 % intervals of limits that contain the exact value, and number of refused series.
+/// Reports how many 95 % intervals of limits contain the exact value, and how many limits are
+/// refused.
 fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
     let studies: Vec<&Convergence> = cases.iter().filter_map(|case| case.convergence()).collect();
     let results = studies.iter().filter_map(|study| study.observed_limit);
@@ -96,12 +97,12 @@ fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
     })
 }
 
-/// Suites by group, in alphabetical order of the groups.
+/// Groups suites, with the groups in alphabetical order.
 fn groups(outcomes: &[SuiteOutcome]) -> Vec<(&str, Vec<&SuiteOutcome>)> {
     by_group(outcomes, |suite| suite)
 }
 
-/// The matrix: headings, and one row for each suite in group order.
+/// Creates the matrix: headings, and one row for each suite in group order.
 fn matrix(outcomes: &[SuiteOutcome]) -> Table {
     let headings = ["suite"].iter().chain(&COLUMNS).map(|heading| (*heading).to_owned());
     let row = |suite: &&SuiteOutcome| {
@@ -112,7 +113,7 @@ fn matrix(outcomes: &[SuiteOutcome]) -> Table {
     Table::of_cells(headings.collect(), rows).without_empty_columns()
 }
 
-/// Lines of a table, with the name of each group above its suites.
+/// Adds the lines of a table, with the name of each group above its suites.
 fn grouped(lines: &mut Vec<String>, outcomes: &[SuiteOutcome], table: Vec<String>) {
     let mut table = table.into_iter();
     lines.push(String::new());

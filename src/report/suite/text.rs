@@ -12,7 +12,7 @@ use crate::report::text::table::Table;
 use crate::report::text::table::shared;
 use crate::verify::{CaseOutcome, SuiteOutcome};
 
-/// The complete report of a suite.
+/// Returns the complete report of a suite.
 pub fn text(outcome: &SuiteOutcome) -> String {
     let mut lines = vec![format!("{}: {}", outcome.suite, outcome.title), String::new()];
     let rankings = crate::verify::by_transfers(&outcome.cases);
@@ -31,7 +31,7 @@ pub fn text(outcome: &SuiteOutcome) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Statement of the problem: parameters and functions in rows, the rest in one paragraph.
+/// Adds the statement of the problem: parameters and functions in rows, the rest in one paragraph.
 fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
     // The heading of the errors states the judged quantity.
     let is_told = |(key, value): &&(String, String)| {
@@ -48,7 +48,7 @@ fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
     row(lines, "problem", &others.join("; "));
 }
 
-/// Report of one case, for failing tests.
+/// Returns the report of one case, for failing tests.
 pub fn case(outcome: &CaseOutcome) -> String {
     let mut lines = Vec::new();
     let cases = std::slice::from_ref(outcome);
@@ -61,7 +61,8 @@ pub fn case(outcome: &CaseOutcome) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Settings common to all cases. The names of the cases contain the differences.
+/// Adds the settings that all cases have in common. Differences are visible in the names of the
+/// cases.
 fn in_common(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let Some((first, others)) = cases.split_first() else { return };
     let is_common =
@@ -82,7 +83,7 @@ fn in_common(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     }
 }
 
-/// The first sentence of a text. The suite file contains the complete text.
+/// Returns the first sentence of a text. The suite file contains the complete text.
 fn first_sentence(text: &str) -> &str {
     let ends = |(at, _): &(usize, &str)| {
         text[at + 2..].starts_with(char::is_uppercase) && !text[..*at].ends_with(char::is_uppercase)
@@ -90,7 +91,7 @@ fn first_sentence(text: &str) -> &str {
     text.match_indices(". ").find(ends).map_or(text, |(at, _)| &text[..=at])
 }
 
-/// Table with one line for each case, as printed by `run`.
+/// Returns a table with one line for each case, as printed by `run`.
 pub fn summary(outcomes: &[SuiteOutcome]) -> String {
     let rows = outcomes.iter().flat_map(|suite| suite.cases.iter().map(move |case| (suite, case)));
     Table::new(&verdicts(), rows).lines().join("\n") + "\n"

@@ -9,10 +9,10 @@ use crate::report::text::table::Table;
 use crate::report::text::table::together;
 use crate::verify::{CaseOutcome, Ranking};
 
-/// Target error for the cost next to each verdict.
+/// Relative error for which the cost of each case is compared.
 const TARGET: f64 = 1e-3;
 
-/// Verdicts, unmet expectations, expectations with their reasons, and remarks.
+/// Adds verdicts, unmet expectations, expectations with their reasons, and remarks.
 pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[Ranking]) {
     row(lines, "result", &result(&cases.iter().collect::<Vec<_>>()));
     for case in cases {
@@ -34,7 +34,7 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
     remarks(lines, cases);
 }
 
-/// Text with the number of cases with the expected result.
+/// Summarises how many cases have the expected result.
 pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
     let count = |word: &str| cases.iter().filter(|case| case.result() == word).count();
     let (expected, failing) =
@@ -70,14 +70,14 @@ pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
     parts.join("; ")
 }
 
-/// Table of verdicts, with one line for each case.
+/// Creates the table of verdicts, with one line for each case.
 pub(crate) fn table(cases: &[CaseOutcome], rankings: &[Ranking]) -> Table {
     Table::new(&columns(rankings, &[]), cases).without_empty_columns()
 }
 
 type CaseColumn<'a> = TableColumn<'a, CaseOutcome>;
 
-/// Columns of the verdict table, with letters that refer to expectations.
+/// Returns the columns of the verdict table, with letters that refer to expectations.
 fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColumn<'a>; 10] {
     let order = |case: &CaseOutcome| case.convergence()?.judgement.order;
     [
@@ -114,7 +114,7 @@ fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColu
     ]
 }
 
-/// Ratio of a case's work for the target error to that of the cheapest case.
+/// Returns the ratio of a case's work for the target error to that of the cheapest case.
 fn cost(case: &CaseOutcome, rankings: &[Ranking]) -> Option<f64> {
     let of_case = |ranking: &Ranking| {
         let k = ranking.targets.iter().position(|target| *target == TARGET)?;
@@ -131,18 +131,18 @@ fn outcome(case: &CaseOutcome) -> &'static str {
     }
 }
 
-/// Distinct expectations of a suite, in the order of its cases.
+/// Lists the distinct expectations of a suite, in the order of its cases.
 fn expectations(cases: &[CaseOutcome]) -> Vec<String> {
     distinct(cases.iter().map(CaseOutcome::expectation))
 }
 
-/// Letter of an expectation: `a` to `z`, then `aa` and so on.
+/// Returns the letter of an expectation: `a` to `z`, then `aa` and so on.
 fn letter(k: usize) -> String {
     let last = char::from(b'a' + (k % 26) as u8);
     if k < 26 { last.to_string() } else { format!("{}{last}", letter(k / 26 - 1)) }
 }
 
-/// Remarks on single cases.
+/// Adds the remarks on single cases.
 fn remarks(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let of_case = |case: &'_ CaseOutcome| {
         let remarks = KINDS.iter().flat_map(|kind| kind.remarks(case));

@@ -1,5 +1,5 @@
 //! Cost tables: the work of each method for a target error and for one more digit, compared with
-//! theory. Also reports of timed suites, whose figures depend on the machine and are not in
+//! theory. Also reports of timed suites; their times depend on the machine and are not in
 //! snapshots.
 //!
 //! Snapshots count work in particle-node transfers, which are equal on all machines.
@@ -11,7 +11,7 @@ use crate::verify::{BestCandidate, Interval, Machine, Model, Ranked, Ranking, Ti
 /// Unit of counted work.
 const TRANSFERS: &str = "particle-node transfers";
 
-/// Tables of a ranking. `work` is the unit of work.
+/// Returns the tables of a ranking. `work` is the name of the unit of work.
 pub fn cost(ranking: &Ranking, work: &str) -> String {
     let mut lines = vec![format!("== cost, {} ==", ranking.problem)];
     lines.push(format!("  {:18}{}", "error", relative(ranking)));
@@ -30,7 +30,7 @@ pub fn cost(ranking: &Ranking, work: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The cheapest method for each target that a method reaches, in one line.
+/// Names the cheapest method for each target that a method reaches, in one line.
 pub(crate) fn cheapest(ranking: &Ranking) -> Option<String> {
     let best = |(k, target): (usize, &f64)| {
         let reached = |row: &&Ranked| row.times[k].is_some_and(|times| times <= 1.0);
@@ -43,7 +43,7 @@ pub(crate) fn cheapest(ranking: &Ranking) -> Option<String> {
         .then(|| format!("{} {TRANSFERS}; errors {}", best.join("; "), relative(ranking)))
 }
 
-/// Text about the scale of the errors.
+/// States the value by which the errors of a ranking are divided.
 fn relative(ranking: &Ranking) -> String {
     if ranking.size == 1.0 {
         return "as judged, relative to the scale of the suite".to_owned();
@@ -51,7 +51,7 @@ fn relative(ranking: &Ranking) -> String {
     format!("relative to {}, the largest exact value", short(ranking.size))
 }
 
-/// Report of a timed suite.
+/// Returns the report of a timed suite.
 pub fn timed(timed: &TimedSuite) -> String {
     let mut text = format!("{}: {}\n\n", timed.outcome.suite, timed.outcome.title);
     text += &machine(&timed.machine);
@@ -84,7 +84,7 @@ fn lines(lines: &[String]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Cores, load and noise of the machine.
+/// Describes the cores, load and noise of the machine.
 pub(crate) fn machine(machine: &Machine) -> String {
     let cores = if machine.cores == 1 { "core" } else { "cores" };
     let load = machine.load.map_or("load not known".to_owned(), |[before, after]| {
@@ -101,14 +101,14 @@ pub(crate) fn machine(machine: &Machine) -> String {
         + &row("noise", &format!("{waited}{noise}"))
 }
 
-/// Table of the error and the time of every level of every case.
+/// Returns the table of the error and the time of every level of every case.
 fn levels(timed: &TimedSuite) -> Vec<String> {
     let cases = 0..timed.outcome.cases.len();
     let rows = cases.flat_map(|case| timed_level::rows(timed, case));
     Table::new(&timed_level::columns(), rows).without_empty_columns().lines()
 }
 
-/// Table of the cost model of each case, and of its prediction error on the finest level.
+/// Returns the table of each case's cost model, with its prediction error on the finest level.
 fn models(timed: &TimedSuite) -> Option<Vec<String>> {
     let cases = timed.outcome.cases.iter().enumerate();
     let rows = cases.filter_map(|(index, case)| {
@@ -119,7 +119,7 @@ fn models(timed: &TimedSuite) -> Option<Vec<String>> {
     (!table.is_empty()).then(|| table.lines())
 }
 
-/// Report of the best setting within a budget.
+/// Returns the report of the best setting within a budget.
 pub fn best_candidate(suite: &str, best: &BestCandidate) -> String {
     let BestCandidate { budget, case, cells, dt, ppc, seconds, error, .. } = best;
     let mut text = format!("{suite}: the most accurate setting predicted within {budget} s\n\n");

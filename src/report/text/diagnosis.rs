@@ -6,7 +6,7 @@ use crate::report::columns::TableColumn;
 
 use crate::verify::{Cause, ChangedRun, Diagnosis, Evidence, Interval, Verdict};
 
-/// Diagnosis of one case: a paragraph, and a table of the runs.
+/// Writes the diagnosis of one case: a paragraph, and a table of the runs.
 pub fn diagnosis(found: &Diagnosis) -> String {
     let mut lines = vec![format!("== {} ==", found.case)];
     paragraph_lines(&mut lines, &paragraph(found));
@@ -20,7 +20,7 @@ pub fn diagnosis(found: &Diagnosis) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Paragraph with verdict, causes, evidence and remedies.
+/// Writes the paragraph with verdict, causes, evidence and remedies.
 pub(crate) fn paragraph(found: &Diagnosis) -> String {
     let judgement = &found.judgement;
     if found.is_sound() {
@@ -58,7 +58,7 @@ pub(crate) fn paragraph(found: &Diagnosis) -> String {
     sentences.join(" ")
 }
 
-/// Range of the repeated levels, from the coarsest to the finest.
+/// Names the repeated levels, from the coarsest to the finest.
 fn range(found: &Diagnosis) -> String {
     match (found.levels.first(), found.levels.last()) {
         (Some(first), Some(last)) => format!("{first} to {last}"),
@@ -70,7 +70,7 @@ fn order(order: Option<Interval>) -> String {
     order.map_or("not determined".to_owned(), |order| order.shown())
 }
 
-/// Effect of the run that reveals the cause.
+/// Describes the effect of the run that reveals the cause.
 fn evidence_of_run(found: &Diagnosis, run: &ChangedRun, evidence: Evidence) -> String {
     let (change, with, before) = (&run.change, order(run.order), order(found.finest.order));
     let (range, error) = (range(found), error_of_run(found, run));
@@ -88,7 +88,7 @@ fn evidence_of_run(found: &Diagnosis, run: &ChangedRun, evidence: Evidence) -> S
     }
 }
 
-/// Finest error of a changed run, compared with that of the unchanged case.
+/// Describes the finest error of a changed run, compared with that of the unchanged case.
 fn error_of_run(found: &Diagnosis, run: &ChangedRun) -> String {
     let (before, after) = (found.finest_error, run.error);
     if !run.ratio.is_finite() {
@@ -104,7 +104,7 @@ fn error_of_run(found: &Diagnosis, run: &ChangedRun) -> String {
     format!("the finest error is {after:.3e}, {share} {before:.3e}{relative}")
 }
 
-/// Text of a positive ratio, to be followed by the reference value.
+/// Writes a positive ratio as text to be followed by the reference value, such as `1/8 of`.
 fn share(ratio: f64) -> String {
     if ratio < 1e-4 {
         format!("{ratio:.0e} of")
@@ -115,7 +115,7 @@ fn share(ratio: f64) -> String {
     }
 }
 
-/// Remedy of a cause, or the reason why `check` rejects it.
+/// Returns the remedy of a cause, or the reason why `check` rejects it.
 fn remedy(cause: &Cause<'_>) -> Option<String> {
     let label = match cause {
         Cause::Run(_, Evidence::Raised | Evidence::Lowered) => "Partial remedy",

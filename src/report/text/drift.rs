@@ -2,13 +2,12 @@
 //!
 //! Text and whole numbers (counters) must be equal. Decimal numbers may differ by [`RELATIVE`], or
 //! by one unit in the last printed digit. A number that is not finite equals nothing, not even
-//! itself. So the last bits of another platform do not change a snapshot, but any relevant change
-//! does.
+//! itself. These tolerances cover last-bit differences between platforms, but no relevant change.
 
 /// Maximum relative difference between decimal numbers that count as equal.
 pub const RELATIVE: f64 = 1e-3;
 
-/// Whether `new` and `old` are equal within tolerances. Several spaces count as one, because a
+/// Whether `new` and `old` are equal within the tolerances. Several spaces count as one, because a
 /// column may become wider.
 pub fn same(old: &str, new: &str) -> bool {
     let (old, new) = (old.trim_end(), new.trim_end());
@@ -59,8 +58,8 @@ fn is_decimal(token: &str) -> bool {
     token.contains(['.', 'e'])
 }
 
-/// One unit in the last printed place: 0.01 for `1.99`, 1e-8 for `1.235e-05`. A zero in scientific
-/// notation is exact, because any other number would be printed differently.
+/// Returns one unit in the last printed digit: 0.01 for `1.99`, 1e-8 for `1.235e-05`. The unit of a
+/// zero in scientific notation is 0, because any other number would be printed differently.
 fn last_place(token: &str) -> f64 {
     if token.contains('e') && number(token) == Some(0.0) {
         return 0.0;

@@ -10,7 +10,8 @@ use crate::verify::{
     Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, StepKind, format_number,
 };
 
-/// Tables of errors with their orders, figures of the finest levels, drifts, rates and limits.
+/// Adds tables of errors with their orders, measured values of the finest levels, drifts, rates and
+/// limits.
 pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     settings(lines, studies);
     for alike in by_levels(studies) {
@@ -24,15 +25,15 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     observed_limits(lines, studies);
 }
 
-/// The levels, listed once for all cases that have them in common.
+/// Lists the levels. Levels that all cases have in common are listed once.
 fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     for (levels, names) in shared(studies.iter().map(|(name, study)| (*name, setting(study)))) {
         row(lines, "levels", &format!("{levels}{names}"));
     }
 }
 
-/// Levels as text: `8, 16, 32 cells; h = 0.125 ... 0.03125 m; dt = ... s; 4 ppc; 32 ... 128
-/// particles; ... steps`.
+/// Describes the levels:
+/// `8, 16, 32 cells; h = 0.125 ... 0.03125 m; dt = ... s; 4 ppc; 32 ... 128 particles; ... steps`.
 fn setting(study: &Convergence) -> String {
     // A failed level has fewer steps than planned, so it is excluded.
     let levels = || study.levels.iter().filter(|level| level.run.failure.is_none());
@@ -75,7 +76,7 @@ fn setting(study: &Convergence) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
-/// Groups of studies with equal level names and equal judged errors.
+/// Groups studies that have equal level names and equal judged errors.
 fn by_levels<'a>(studies: &[NamedStudy<'a>]) -> Vec<Vec<NamedStudy<'a>>> {
     let key = |study: &Convergence| format!("{} {}", study.judged(), level::names(study).join(" "));
     let compared = studies.iter().filter(|(_, study)| study.compared);
@@ -83,7 +84,7 @@ fn by_levels<'a>(studies: &[NamedStudy<'a>]) -> Vec<Vec<NamedStudy<'a>>> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// Table of the judged errors and their orders.
+/// Adds the table of the judged errors and their orders.
 fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let Some((_, first)) = studies.first() else { return };
     let judged = first.judged();
@@ -94,7 +95,7 @@ fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_level(lines, &judged, studies, &[level::judged(), level::order()]);
 }
 
-/// Table of the differences between repeated runs.
+/// Adds the table of the differences between repeated runs.
 fn spreads(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let is_repeated =
         |(_, study): &&NamedStudy<'_>| study.levels.iter().any(|level| level.spread.is_some());
@@ -109,7 +110,7 @@ fn observed_velocities(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_level(lines, velocity.about, &observed, &[level::velocity()]);
 }
 
-/// Table with `columns` for each level, below a heading.
+/// Adds a table with `columns` for each level, below a heading.
 fn by_level<'a>(
     lines: &mut Vec<String>,
     heading: &str,
@@ -140,7 +141,7 @@ fn by_level<'a>(
 /// Name of a case and a level of its study.
 type NamedLevel<'a> = (&'a str, LevelRow<'a>);
 
-/// Table of the finest levels below a heading, with one row for each case. Nothing is printed if
+/// Adds a table of the finest levels below a heading, with one row for each case. Adds nothing if
 /// all cells are empty.
 fn by_case<'a>(
     lines: &mut Vec<String>,
@@ -160,7 +161,7 @@ fn by_case<'a>(
     }
 }
 
-/// Table of the figures of the finest levels.
+/// Adds the table of the measured values on the finest levels.
 fn finest(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let of_levels = ["particles", "steps"];
     let counters = level::counters().into_iter();
@@ -169,7 +170,7 @@ fn finest(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_case(lines, "on the finest level", studies, columns);
 }
 
-/// Table of the reported drifts of conserved sums.
+/// Adds the table of the reported drifts of conserved sums.
 fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let sums = distinct(studies.iter().flat_map(|(_, study)| study.drifts.iter().copied()));
     let asked: Vec<NamedStudy<'_>> =
@@ -182,7 +183,7 @@ fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     );
 }
 
-/// Table of the energy rate on the finest level, if it is reported.
+/// Adds the table of the energy rate on the finest level, if it is reported.
 fn rates(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let rated: Vec<NamedStudy<'_>> =
         studies.iter().filter(|(_, study)| study.rated).copied().collect();
@@ -190,8 +191,8 @@ fn rates(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_case(lines, heading, &rated, level::energy_rate());
 }
 
-/// Table of the limits of the displacement at the observed place, with the true errors if they are
-/// known.
+/// Adds the table of the extrapolated displacements at the observed point, with their true errors
+/// if the exact displacement is known.
 fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let Some(place) = studies.iter().find_map(|(_, study)| study.place()) else { return };
     let limit = |(name, study): &NamedStudy<'_>| {
@@ -216,14 +217,14 @@ fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     lines.extend(Table::new(&limit_columns(), &rows).without_empty_columns().lines());
 }
 
-/// The limit, rounded to two digits of the half-width of its interval.
+/// Rounds the limit to two digits of the half-width of its interval.
 fn limit_shown(estimate: &LimitEstimate) -> String {
     let (value, half_width) = (estimate.limit.value, estimate.limit.half_width());
     let digits = libm::floor(libm::log10(value.abs())) - libm::floor(libm::log10(half_width));
     format!("{value:.*e}", (digits + 1.0).clamp(1.0, 15.0) as usize)
 }
 
-/// The limit of a case, or the reason why there is none.
+/// Extrapolated limit of a case, or the reason why there is none.
 struct ObservedLimit {
     case: String,
     result: Result<LimitEstimate, EstimateRefusal>,

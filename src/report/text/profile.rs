@@ -1,4 +1,4 @@
-//! Cost of a step: effects, passes, visits and memory, as rows for reports and `explain`, and as
+//! Cost of a step (effects, passes, visits and memory) as rows for reports and `explain`, and as
 //! tables of all methods.
 
 use super::prose::{hanging, paragraph_lines};
@@ -7,7 +7,7 @@ use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, SuiteOutcome};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Rows of name and text that describe a profile.
+/// Describes a profile in rows of name and text.
 pub fn profile(profile: &Profile) -> Vec<(&'static str, String)> {
     vec![
         ("effects", effects(profile, "none")),
@@ -18,20 +18,20 @@ pub fn profile(profile: &Profile) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// Names of the active effects, or the text `none`.
+/// Lists the names of the active effects, or returns the text `none` if no effect is active.
 pub(crate) fn effects(profile: &Profile, none: &str) -> String {
     if profile.effects.is_empty() { none.to_owned() } else { profile.effects.join(", ") }
 }
 
-/// Differences between two profiles: rows of the first that the second changes, each followed by
-/// the changed row.
+/// Lists the differences between two profiles: each row of the first that differs in the second,
+/// followed by the row of the second.
 pub fn difference(with: &Profile, without: &Profile) -> Vec<(&'static str, String)> {
     let rows = profile(with).into_iter().zip(profile(without));
     let changed = rows.filter(|((_, before), (_, after))| before != after);
     changed.flat_map(|((key, before), (_, after))| [(key, before), ("  becomes", after)]).collect()
 }
 
-/// Visits of a step: `p2g mass, p2g momentum x 2, p2g point force at 4 of 20 particles`.
+/// Lists the visits of a step: `p2g mass, p2g momentum x 2, p2g point force at 4 of 20 particles`.
 fn visits(profile: &Profile) -> String {
     let particles = profile.particles as u64;
     let part = |&(name, visited): &(&str, u64)| match visited.checked_div(particles) {
@@ -42,8 +42,8 @@ fn visits(profile: &Profile) -> String {
     profile.visits.iter().map(part).collect::<Vec<_>>().join(", ")
 }
 
-/// Memory per particle or node: `168 B: X 16, x 16, ...`. Columns with fewer entries than particles
-/// or nodes come last.
+/// Lists the memory per particle or node: `168 B: X 16, x 16, ...`. Columns with fewer entries than
+/// particles or nodes come last.
 fn memory(profile: &Profile, holder: Holder) -> String {
     let holders = profile.holders(holder);
     let (whole, partial): (Vec<&ColumnSize>, Vec<&ColumnSize>) = profile
@@ -69,7 +69,7 @@ const HOW_TO_READ: &str = "For each dimension: a row for each method and what it
     and how often a step visits a particle; then the columns behind the bytes, and the passes of a \
     step. A suite's report says which effects its scene lists.";
 
-/// Report of the profiles of all cases.
+/// Returns the report of the profiles of all cases.
 pub fn profiles(outcomes: &[SuiteOutcome]) -> String {
     let mut lines = vec!["Memory and passes of a step".to_owned(), String::new()];
     paragraph_lines(&mut lines, HOW_TO_READ);
@@ -90,7 +90,7 @@ pub fn profiles(outcomes: &[SuiteOutcome]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Number of dimensions, computed from the size of positions in the profile.
+/// Computes the number of dimensions from the size of positions in the profile.
 fn dimension(profile: &Profile) -> usize {
     let position = profile.columns.iter().find(|column| column.name == "X");
     position.map_or(0, |column| column.bytes / size_of::<f64>())
@@ -101,7 +101,7 @@ fn named(case: &CaseOutcome, keys: &[&str]) -> String {
     if words.is_empty() { case.subject.to_owned() } else { words.join(" ") }
 }
 
-/// One row for each distinct combination of method, memory, visits and effects.
+/// Returns one row for each distinct combination of method, memory, visits and effects.
 fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     let headings =
         ["method", "particle", "where it acts", "node", "where it acts", "visits", "effects"];
@@ -126,7 +126,8 @@ fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     table.flush_left(&["effects"]).lines()
 }
 
-/// Bytes per particle or node: in columns with an entry for each of them, and in the other columns.
+/// Returns the bytes per particle or node: first those of columns with one entry for each, then
+/// those of the other columns.
 fn bytes(profile: &Profile, holder: Holder) -> [usize; 2] {
     let whole = profile.holders(holder);
     let of_holder = || profile.columns.iter().filter(|column| column.holder == holder);

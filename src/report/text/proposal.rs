@@ -9,16 +9,16 @@ const WIDTH: usize = 96;
 /// Indentation of continuation lines in a list of cases.
 const LIST: &str = "           ";
 
-/// Cases with equal proposals.
+/// Cases that have the same proposed expectation.
 struct Group<'a> {
     proposal: Proposal,
     /// Name and observed result of each case.
     cases: Vec<(&'a str, String)>,
 }
 
-/// The proposed `expect` of a suite, with one entry for all cases with equal proposals. Comments
-/// state the origin of each key and ways to a stronger expectation. `remarks` about the suite come
-/// first.
+/// Writes the proposed `expect` of a suite, with one entry for all cases with equal proposals.
+/// Comments state the origin of each key and how to reach a stronger expectation. The text begins
+/// with `remarks` about the suite.
 pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) -> String {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for (case, study) in outcome.results::<Convergence>() {
@@ -37,8 +37,8 @@ pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) 
     let mut lines = Vec::new();
     remarks.for_each(|remark| folded(&mut lines, "# ", &remark));
     lines.push("expect:".to_owned());
-    // An external solver is only one method of its suite. Its results give no proposals for other
-    // methods, so the entry names its cases.
+    // An external solver is only one method of its suite. Its results do not apply to other
+    // methods, so the entry names the cases of the solver.
     let is_external = outcome.cases.iter().any(|case| case.subject == "external");
     let alone = groups.len() == 1 && !is_external;
     for group in &groups {

@@ -8,14 +8,14 @@ pub(crate) fn paragraph_lines(lines: &mut Vec<String>, paragraph: &str) {
     wrap(lines, WIDTH, paragraph);
 }
 
-/// `text` in lines of at most 100 characters, each indented by two spaces.
+/// Wraps `text` to lines of at most 100 characters, each indented by two spaces.
 pub fn indented(text: &str) -> String {
     let mut lines = Vec::new();
     wrap(&mut lines, WIDTH - 2, text);
     format!("  {}\n", lines.join("\n  "))
 }
 
-/// Adds `key` in the first column and `value`, wrapped, in the second.
+/// Adds a row with `key` in the first column and the wrapped `value` in the second.
 pub(crate) fn row(lines: &mut Vec<String>, key: &str, value: &str) {
     beside(lines, 14, key, value);
 }

@@ -7,12 +7,13 @@ use crate::report::figure::map::{column_head, merged_fields};
 use crate::report::figure::{Map, MapField};
 use crate::verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
 
-/// Studies of a suite that seek a limit, with the names of their cases.
+/// Returns the studies of a suite that search for a stability limit, with the names of their cases.
 fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_some()).collect()
 }
 
-/// Map of the stability limits of all cases of a suite; `None` if no study seeks a limit.
+/// Returns the map of the stability limits of all cases of a suite; `None` if no study searches for
+/// a limit.
 pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
     let studies = seeking(outcome);
     let (_, first) = studies.first()?;
@@ -39,8 +40,8 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
 /// Name of a case and its study.
 type NamedSweep<'a> = (&'a str, &'a StabilityStudy);
 
-/// Tables of limits, with a row for each case and a column for each value of the swept parameter.
-/// Tables of runs, with a row for each case and value.
+/// Adds tables of limits, with a row for each case and a column for each value of the swept
+/// parameter, and tables of runs, with a row for each case and value.
 pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     let (seeking, others): (Vec<NamedSweep<'_>>, Vec<NamedSweep<'_>>) =
         studies.iter().partition(|(_, study)| study.sought.is_some());
@@ -48,7 +49,7 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     trials(lines, &others);
 }
 
-/// Remarks about values without a run, and about runs that did not reach their end.
+/// Returns remarks about values without a run, and about runs that stopped early.
 pub(crate) fn remarks(study: &StabilityStudy) -> Vec<String> {
     let remark = |row: &StabilityRow| {
         let stopped = || row.trial.as_ref().and_then(|trial| trial.why.clone());

@@ -33,7 +33,7 @@ impl Table {
         Self { rows: std::iter::once(headings).chain(rows).collect(), flush_left }
     }
 
-    /// The table with the columns of these headings aligned to the left.
+    /// Aligns the columns with these headings to the left.
     pub(crate) fn flush_left(mut self, headings: &[&str]) -> Self {
         for (flush_left, heading) in self.flush_left.iter_mut().zip(&self.rows[0]) {
             *flush_left |= headings.contains(&heading.as_str());
@@ -72,12 +72,13 @@ impl Table {
         self
     }
 
-    /// Number of columns.
+    /// Returns the number of columns.
     pub(crate) fn columns(&self) -> usize {
         self.rows[0].len()
     }
 
-    /// Lines of the table, indented by two spaces. Each column is as wide as its widest cell.
+    /// Returns the lines of the table, indented by two spaces. Each column is as wide as its widest
+    /// cell.
     pub(crate) fn lines(&self) -> Vec<String> {
         let columns = self.rows[0].len();
         let width =
@@ -85,8 +86,8 @@ impl Table {
         self.aligned(&(0..columns).map(width).collect::<Vec<_>>())
     }
 
-    /// Lines of the table with fixed column widths by heading. A wider cell shifts only the rest of
-    /// its line. Columns that `widths` does not list are as wide as their headings.
+    /// Returns the lines of the table, with the column widths that `widths` lists by heading. A
+    /// wider cell shifts only the rest of its line. Other columns are as wide as their headings.
     pub(crate) fn lines_of_widths(&self, widths: &[(&str, usize)]) -> Vec<String> {
         let width = |heading: &String| {
             let listed = widths.iter().find(|(known, _)| known == heading);
@@ -108,7 +109,8 @@ impl Table {
     }
 }
 
-/// Replaces control characters. Names may come from a file and must not control a terminal.
+/// Replaces control characters. Names may come from a file, and control characters could change the
+/// terminal.
 pub(crate) fn printable(text: &str) -> String {
     let safe = |c: char| if c.is_control() { '\u{fffd}' } else { c };
     text.chars().map(safe).collect()
@@ -139,8 +141,8 @@ fn merged(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     kept.into_iter().map(row).collect()
 }
 
-/// Distinct values, each followed by the names with this value in brackets, unless all names have
-/// the same value.
+/// Lists the distinct values, each followed by the names with this value in brackets. The names are
+/// omitted if all have the same value.
 pub(crate) fn shared<'a>(
     values: impl Iterator<Item = (&'a str, String)>,
 ) -> impl Iterator<Item = (String, String)> {

@@ -14,8 +14,8 @@
 //! row     | node 0 | node 1 | ... | node n-1 | MARGIN nodes |     x fastest, then y, then z
 //! ```
 //!
-//! The margin of a periodic axis repeats its first nodes, so that the nodes of a patch always form
-//! a box. The margin of other axes is zero; functions with weight zero may read it.
+//! The margin of a periodic axis repeats its first nodes, so the nodes of a patch always form a
+//! box. The margin of other axes is zero. Functions with weight zero may read the margin.
 //!
 //! The module also defines the columns of nodes to which packed fields are unpacked.
 
@@ -33,19 +33,19 @@ use std::ops::Range;
 /// Number of nodes in a piece of a 1-D grid.
 const PIECE: usize = 1 << 12;
 
-/// Packed nodal field.
+/// Nodal field in packed layout.
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct PackedField<N> {
     nodes: Vec<N>,
     layout: Layout,
 }
 
-/// Number of nodes along each axis; one for a missing axis.
+/// Returns the number of nodes along each axis; one for an axis that the dimension does not have.
 fn counts<const D: usize>(grid: &Grid<D>) -> [usize; 3] {
     std::array::from_fn(|axis| grid.counts.get(axis).copied().unwrap_or(1))
 }
 
-/// The components of a vector in the first lanes of a node.
+/// Returns the components of a vector in the first lanes of a node.
 #[inline(always)]
 fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
     std::array::from_fn(|lane| if lane < D { vector[lane] } else { 0.0 })
@@ -70,7 +70,7 @@ impl<N: PackedNode> PackedField<N> {
         }
     }
 
-    /// Margin nodes of a periodic `axis`, each with the node that it repeats.
+    /// Lists the margin nodes of a periodic `axis`, each with the node that it repeats.
     fn seam<const D: usize>(
         &self,
         grid: &Grid<D>,
@@ -89,7 +89,7 @@ impl<N: PackedNode> PackedField<N> {
 }
 
 impl PackedField<Node4> {
-    /// Shared view of the field.
+    /// Returns a shared view of the field.
     pub(in crate::mpm) fn view(&self) -> FieldView<'_> {
         FieldView { nodes: &self.nodes, layout: self.layout }
     }
@@ -122,7 +122,7 @@ impl PackedField<Node4> {
             } else {
                 values.for_each(|(Node4(here), value)| *here = lanes(value));
             }
-            // Functions of weight zero may belong here, so NaN from an earlier pass must be
+            // Functions of weight zero may read these nodes, so NaN from an earlier pass must be
             // removed.
             beyond.fill(Node4::default());
         });
@@ -134,28 +134,30 @@ impl PackedField<Node4> {
     }
 }
 
-/// Number of nodes in a piece of a 1-D grid: all columns of a piece stay in the cache.
+/// Number of nodes in a piece of a 1-D grid. The piece is small enough for all its columns to stay
+/// in the cache.
 const COLUMN_PIECE: usize = 1 << 9;
 
-/// Targets of unpacking: all nodes, or the nodes of some layers across the last axis.
+/// Columns into which a field is unpacked: for all nodes, or for some layers across the last axis.
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct Columns<'a, const D: usize> {
-    /// Receives the last of the four lanes.
+    /// Nodal mass, from the last of the four lanes.
     pub(in crate::mpm) mass: Option<&'a mut [f64]>,
-    /// Receives the first lanes.
+    /// Nodal momentum, from the first lanes.
     pub(in crate::mpm) momentum: Option<&'a mut [Vector<D>]>,
-    /// Receives the lanes after the momentum, or the first lanes if there is no momentum.
+    /// Nodal force, from the lanes after the momentum, or from the first lanes if there is no
+    /// momentum.
     pub(in crate::mpm) force: Option<&'a mut [Vector<D>]>,
     /// Number of grid nodes before the first node of these columns.
     pub(in crate::mpm) before: usize,
 }
 
-/// Range of all node layers across the last axis of a packed field.
+/// Returns the range of all node layers across the last axis of a packed field.
 pub(in crate::mpm) fn layers<const D: usize>(grid: &Grid<D>) -> Range<usize> {
     0..grid.counts[D - 1] + MARGIN
 }
 
-/// Number of nodes in a layer of the grid.
+/// Returns the number of nodes in a layer of the grid.
 fn nodes_of_layer<const D: usize>(grid: &Grid<D>) -> usize {
     grid.counts[..D - 1].iter().product()
 }
@@ -169,7 +171,7 @@ impl<const D: usize> Columns<'_, D> {
         Columns { mass, momentum, force, before: *before }
     }
 
-    /// Splits into the nodes before `layer` of the grid and the nodes from `layer`.
+    /// Splits the columns into the nodes before `layer` of the grid and the nodes from `layer`.
     pub(in crate::mpm) fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
         let before = self.before;
         let from = layer.min(grid.counts[D - 1]) * nodes_of_layer(grid);
@@ -235,7 +237,8 @@ impl<const D: usize> Columns<'_, D> {
         );
     }
 
-    /// Unpacks `count` nodes of a row, from the node with this index to node `to` of the grid.
+    /// Unpacks `count` nodes of a row, starting at `index` in the field, to grid nodes starting at
+    /// number `to`.
     fn unpack_row<N: PackedNode>(
         &mut self,
         field: &FieldViewMut<'_, N>,
@@ -270,8 +273,8 @@ mod tests {
     }
 
     proptest! {
-        /// Every place of the packed field represents one node of the grid: packing writes the
-        /// nodal value to the place, and folding adds the place to the node.
+        /// Every position in the packed field represents one node of the grid: packing copies the
+        /// nodal value to this position, and folding adds the value at this position to the node.
         #[test]
         fn packing_and_folding_are_transposes(
             counts in [1_usize..6, 1..6],

@@ -1,13 +1,13 @@
-//! Nodes of packed fields, which have the size of a register, and views of the whole field or of
-//! consecutive layers.
+//! Nodes of packed fields, each as large as a register. Views of the whole field or of consecutive
+//! layers.
 
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::simd::{LANES, Plain, Register, Simd};
 use std::fmt::Debug;
 
-/// Node of a packed field.
+/// The numbers of one node of a packed field: momentum, mass and force, or some of these.
 pub trait PackedNode: Copy + Debug + Default + Send + Sync {
-    /// Whether a node has lanes for momentum, mass and force in any dimension.
+    /// Whether the node has separate lanes for force, next to momentum and mass.
     const IS_WIDE: bool;
 
     /// Register for the numbers of a node.
@@ -19,16 +19,16 @@ pub trait PackedNode: Copy + Debug + Default + Send + Sync {
     /// Stores the numbers of a register.
     fn store<S: Simd>(&mut self, numbers: Self::Lanes<S>);
 
-    /// All lanes zero.
+    /// Returns a register whose lanes are all zero.
     #[inline(always)]
     fn zero<S: Simd>(simd: S) -> Self::Lanes<S> {
         Self::default().load(simd)
     }
 
-    /// Lanes of momentum and mass, without a force.
+    /// Creates the lanes from momentum and mass, without a force.
     fn of_inertia<S: Simd>(simd: S, inertia: S::F64x4) -> Self::Lanes<S>;
 
-    /// Lanes of a force, without momentum and mass.
+    /// Creates the lanes from a force, without momentum and mass.
     fn of_force<S: Simd>(simd: S, force: S::F64x4) -> Self::Lanes<S>;
 
     /// Joins the lanes of momentum and mass with the lanes of a force.
@@ -40,24 +40,25 @@ pub trait PackedNode: Copy + Debug + Default + Send + Sync {
         self.store::<Plain>(self.load(Plain) + other.load(Plain));
     }
 
-    /// The first four numbers: momentum, and mass in the last lane.
+    /// Returns the first four numbers: momentum, and mass in the last lane.
     fn inertia(&self) -> [f64; LANES];
 
-    /// The four numbers that contain a force, starting at lane [`force_lane`].
+    /// Returns the four numbers that contain a force, starting at lane [`force_lane`].
     fn force(&self) -> [f64; LANES];
 }
 
-/// First lane of a force among its four lanes. In 1-D these also contain momentum and mass.
+/// Returns the first lane of a force among its four lanes. In 1-D these also contain momentum and
+/// mass.
 pub(in crate::mpm) const fn force_lane(dimension: usize) -> usize {
     if dimension == 1 { 1 } else { 0 }
 }
 
-/// Four numbers in one cache line.
+/// Four numbers of a node, within one cache line.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(32))]
 pub(in crate::mpm) struct Node4(pub(in crate::mpm) [f64; LANES]);
 
-/// Eight numbers in one cache line.
+/// Eight numbers of a node, in one cache line.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
 pub(in crate::mpm) struct Node8([f64; 2 * LANES]);
@@ -146,21 +147,21 @@ impl PackedNode for Node8 {
     }
 }
 
-/// Number of additional nodes along an axis: one less than the maximum number of functions of a
+/// Number of nodes in the margin of an axis: one less than the maximum number of functions of a
 /// patch.
 pub(in crate::mpm) const MARGIN: usize = 3;
 
-/// Memory layout of the nodes in a packed field.
+/// Memory layout of the nodes in a packed field or in a view of the field.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Layout {
-    /// Distance between neighbours along each axis, followed by the number of nodes.
+    /// Distance between neighbours along each axis, followed by the number of nodes of the field.
     pub(in crate::mpm) strides: [usize; 4],
     /// Number of field nodes before the first node of the view.
     pub(in crate::mpm) before: usize,
 }
 
 impl Layout {
-    /// Layout of a field on `grid`.
+    /// Creates the layout of a field on `grid`.
     pub(in crate::mpm) fn new<const D: usize>(grid: &Grid<D>) -> Self {
         let mut strides = [1; 4];
         for axis in 0..3 {
@@ -170,8 +171,8 @@ impl Layout {
         Self { strides, before: 0 }
     }
 
-    /// Position in the view of the node with these indices. For a node before the view, the
-    /// position is beyond the end.
+    /// Returns the position in the view of the node with these indices. A node before the view gets
+    /// a position after the end of the view.
     #[inline(always)]
     pub(in crate::mpm) fn number<const D: usize>(&self, index: &[usize; D]) -> usize {
         let mut number = index[0];
@@ -181,21 +182,21 @@ impl Layout {
         number.wrapping_sub(self.before)
     }
 
-    /// Distance of row `j` in plane `k` from the first row.
+    /// Returns the distance of row `j` in plane `k` from the first row.
     #[inline(always)]
     pub(in crate::mpm) fn row(&self, j: usize, k: usize) -> usize {
         j * self.strides[1] + k * self.strides[2]
     }
 }
 
-/// Field that a loop reads.
+/// Shared view of a packed field, for loops that read it.
 #[derive(Debug, Clone, Copy)]
 pub struct FieldView<'a> {
     pub(in crate::mpm) nodes: &'a [Node4],
     pub(in crate::mpm) layout: Layout,
 }
 
-/// Field, or consecutive layers of a field, to which a loop adds.
+/// Mutable view of a packed field or of consecutive layers, for loops that add to it.
 #[derive(Debug)]
 pub struct FieldViewMut<'a, N> {
     pub(in crate::mpm) nodes: &'a mut [N],
@@ -203,7 +204,7 @@ pub struct FieldViewMut<'a, N> {
 }
 
 impl FieldView<'_> {
-    /// K nodes of a row.
+    /// Returns K nodes of a row.
     #[inline(always)]
     pub(in crate::mpm) fn row<const K: usize>(&self, start: usize) -> &[Node4] {
         &self.nodes[start..start + K]
@@ -211,13 +212,13 @@ impl FieldView<'_> {
 }
 
 impl<N: PackedNode> FieldViewMut<'_, N> {
-    /// Reborrowed view.
+    /// Reborrows the view for a shorter lifetime.
     #[inline(always)]
     pub(in crate::mpm) fn reborrow(&mut self) -> FieldViewMut<'_, N> {
         FieldViewMut { nodes: self.nodes, layout: self.layout }
     }
 
-    /// K mutable nodes of a row.
+    /// Returns K mutable nodes of a row.
     #[inline(always)]
     pub(in crate::mpm) fn row<const K: usize>(&mut self, start: usize) -> &mut [N] {
         &mut self.nodes[start..start + K]
@@ -228,7 +229,7 @@ impl<N: PackedNode> FieldViewMut<'_, N> {
         self.nodes.fill(N::default());
     }
 
-    /// Splits into the nodes before a layer across the last of D axes and the nodes from this
+    /// Splits the view at a layer across the last of D axes. The second part begins with this
     /// layer.
     pub(in crate::mpm) fn split_at<const D: usize>(self, layer: usize) -> (Self, Self) {
         let Self { nodes, layout } = self;

@@ -27,10 +27,10 @@ use std::ops::Range;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 use std::sync::LazyLock;
 
-/// Loop over registers. All functions called by the loop must be `#[inline(always)]`, because other
+/// Loop over registers. All functions called by the loop must be `#[inline(always)]`. Other
 /// functions are compiled for the baseline processor.
 pub trait SimdPass: Sized {
-    /// Whether the loop runs faster with the registers of AVX-512: 32 instead of 16, and twice as
+    /// Whether the loop is faster with AVX-512, which has 32 registers instead of 16, twice as
     /// wide.
     const NEEDS_AVX512: bool;
 
@@ -64,12 +64,12 @@ pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
     pass.run(Plain);
 }
 
-/// The best level of this processor.
+/// Best processor level that this computer supports.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 static LEVEL: LazyLock<Level> = LazyLock::new(Level::new);
 
-/// Runs `loops` without explicit registers, compiled for AVX2 if the processor supports it. The
-/// closure and all functions that it calls must be `#[inline(always)]`.
+/// Runs `loops`, which uses no explicit registers, compiled for AVX2 if the processor supports it.
+/// The closure and all functions that it calls must be `#[inline(always)]`.
 #[inline(always)]
 pub(in crate::mpm) fn vectorized<R>(loops: impl FnOnce() -> R) -> R {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -86,7 +86,7 @@ pub(in crate::mpm) fn vectorized<R>(loops: impl FnOnce() -> R) -> R {
 pub trait Simd: Copy {
     /// Register of four numbers.
     type F64x4: F64x4;
-    /// Register of eight numbers, or two registers of four.
+    /// Register of eight numbers, or a pair of registers of four.
     type F64x8: Register + Into<[f64; 2 * LANES]>;
 
     /// Loads four numbers.
@@ -127,7 +127,8 @@ impl Simd for Plain {
     }
 }
 
-/// Registers of four numbers, which are identical at both x86 levels.
+/// Implements the part of [`Simd`] for registers of four numbers, which is identical at both x86
+/// levels.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 macro_rules! four {
     () => {
@@ -179,7 +180,7 @@ impl Simd for fearless_simd::x86::Avx512 {
     }
 }
 
-/// Number of particles in a batch. The weights of a batch are computed before any of its nodes is
+/// Number of particles in a batch. All weights of a batch are computed before any of its nodes is
 /// visited. The batch is large enough to amortise its set-up, and small enough to keep the weights
 /// in the L1 cache.
 pub(in crate::mpm) const BATCH: usize = 16;
@@ -193,36 +194,36 @@ const REGISTERS: usize = BATCH / LANES;
 pub(in crate::mpm) struct F64Batch(pub(in crate::mpm) [f64; BATCH]);
 
 impl F64Batch {
-    /// All numbers zero.
+    /// A batch whose numbers are all zero.
     pub(in crate::mpm) const ZERO: Self = Self([0.0; BATCH]);
 
-    /// The number of particle `lane` of the batch.
+    /// Returns the number of particle `lane` of the batch.
     #[inline(always)]
     pub(in crate::mpm) fn get(&self, lane: usize) -> f64 {
-        // The remainder avoids a bounds check: lanes are below BATCH.
+        // The remainder does not change `lane`, which is below BATCH. It avoids a bounds check.
         self.0[lane % BATCH]
     }
 
-    /// Loads a register.
+    /// Loads the register with this index.
     #[inline(always)]
     pub(in crate::mpm) fn load<S: Simd>(&self, simd: S, register: usize) -> S::F64x4 {
         simd.load(array(0.0, |lane| self.0[register % REGISTERS * LANES + lane]))
     }
 
-    /// Stores a register.
+    /// Stores `values` in the register with this index.
     #[inline(always)]
     pub(in crate::mpm) fn store<F: F64x4>(&mut self, register: usize, values: F) {
         self.0[register % REGISTERS * LANES..][..LANES].copy_from_slice(&values.into());
     }
 }
 
-/// Range of registers that contain these particles of a batch.
+/// Returns the range of registers that contain these particles of a batch.
 #[inline(always)]
 pub(in crate::mpm) fn registers_of(lanes: &Range<usize>) -> Range<usize> {
     lanes.start / LANES..lanes.end.div_ceil(LANES)
 }
 
-/// D lanes, starting at `first`, as a vector.
+/// Returns D lanes, starting at `first`, as a vector.
 #[inline(always)]
 pub(in crate::mpm) fn components<const D: usize>(
     register: impl Into<[f64; LANES]>,
@@ -236,7 +237,7 @@ pub(in crate::mpm) fn components<const D: usize>(
     vector
 }
 
-/// Implements [`Register`].
+/// Implements [`Register`] for a register type of `fearless_simd`.
 macro_rules! sums {
     ($register:ty) => {
         impl Register for $register {
@@ -261,7 +262,8 @@ macro_rules! registers {
 
             #[inline(always)]
             fn are_in(self, low: f64, high: f64) -> bool {
-                // The conjunction of the masks would be a call that is not inlined.
+                // A conjunction of the masks would be a call that is not inlined, so each mask is
+                // checked separately.
                 self.simd_ge(low).all_true() && self.simd_lt(high).all_true()
             }
 
@@ -298,11 +300,13 @@ registers!(fearless_simd::x86::Avx2);
 registers!(fearless_simd::x86::Avx512);
 sums!(fearless_simd::f64x8<fearless_simd::x86::Avx512>);
 
-/// Leading 32 bits of the square root of 1/2, at which numbers are split into `2^k` and a factor.
+/// Leading 32 bits of sqrt(1/2). A number is split into `2^k` and a factor from sqrt(1/2) to
+/// sqrt(2).
 const ROOT_OF_HALF: u64 = 0x3fe6_a09e << 32;
 const ONE: u64 = 0x3ff0_0000 << 32;
 const MANTISSA: u64 = (1 << 52) - 1;
-/// 2^52, whose last bit has the value one: an integer put into the mantissa is added.
+/// Bits of 2^52. The last bit of the mantissa has the value one, so an integer put into the
+/// mantissa is added.
 const COUNTING: u64 = 0x4330_0000 << 32;
 
 const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;
@@ -315,7 +319,7 @@ const LG5: f64 = 1.818_357_216_161_805e-1;
 const LG6: f64 = 1.531_383_769_920_937_3e-1;
 const LG7: f64 = 1.479_819_860_511_658_6e-1;
 
-/// `ln x` of each number, with the bits of `libm::log`.
+/// Computes `ln x` of each number, bit-identical to `libm::log`.
 #[inline(always)]
 #[allow(
     clippy::manual_range_contains,
@@ -333,7 +337,7 @@ pub(in crate::mpm) fn ln(x: &F64Batch) -> F64Batch {
     if all_normal { result } else { one_by_one(x) }
 }
 
-/// `ln x` of a positive number that is neither subnormal nor infinite.
+/// Computes `ln x` of a positive number that is neither subnormal nor infinite.
 #[inline(always)]
 fn ln_of_normal(x: f64) -> f64 {
     let shifted = x.to_bits().wrapping_add(ONE - ROOT_OF_HALF);
@@ -348,7 +352,8 @@ fn ln_of_normal(x: f64) -> f64 {
     s * (half_square + (odd + even)) + k * LN2_LOW - half_square + f + k * LN2_HIGH
 }
 
-/// `ln x` lane by lane, for batches with a number that is zero, negative, subnormal or not finite.
+/// Computes `ln x` lane by lane, for batches with a number that is zero, negative, subnormal or not
+/// finite.
 #[cold]
 #[inline(never)]
 fn one_by_one(x: &F64Batch) -> F64Batch {

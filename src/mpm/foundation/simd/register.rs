@@ -9,12 +9,12 @@ pub(in crate::mpm) const LANES: usize = 4;
 
 /// A register of several `f64`.
 pub trait Register: Copy + Add<Output = Self> + AddAssign + Mul<f64, Output = Self> {
-    /// `self + a b`, rounded once (fusedMultiplyAdd of IEEE 754). The result is bit-identical on
-    /// processors without this instruction.
+    /// Computes `self + a b`, rounded once (fusedMultiplyAdd of IEEE 754). Processors without this
+    /// instruction give a bit-identical result.
     fn plus_product(self, a: Self, b: f64) -> Self;
 }
 
-/// Eight `f64` in two registers of four.
+/// Eight `f64` as a pair of registers of four.
 #[derive(Debug, Clone, Copy)]
 pub struct Pair<F>(pub(super) F, pub(super) F);
 
@@ -62,25 +62,25 @@ impl<F: Into<[f64; LANES]>> From<Pair<F>> for [f64; 2 * LANES] {
 pub trait F64x4:
     Register + Add<f64, Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Into<[f64; LANES]>
 {
-    /// Largest integer not above each lane, for magnitudes up to 2^51.
+    /// Returns the largest integer not above each lane, for magnitudes up to 2^51.
     fn floor(self) -> Self;
 
     /// Whether all lanes are in `low..high`; false for NaN.
     fn are_in(self, low: f64, high: f64) -> bool;
 
-    /// Magnitudes.
+    /// Returns the magnitude of each lane.
     fn abs(self) -> Self;
 
-    /// Maximum of each lane and `limit`; `limit` for NaN.
+    /// Returns the maximum of each lane and `limit`; `limit` for NaN.
     fn at_least(self, limit: f64) -> Self;
 
-    /// Minimum of each lane and `limit`; `limit` for NaN.
+    /// Returns the minimum of each lane and `limit`; `limit` for NaN.
     fn at_most(self, limit: f64) -> Self;
 
-    /// Reciprocals.
+    /// Returns the reciprocal of each lane.
     fn inverse(self) -> Self;
 
-    /// Reciprocals; zero for lanes that do not exceed `smallest`.
+    /// Returns the reciprocal of each lane; zero for lanes that do not exceed `smallest`.
     fn inverse_above(self, smallest: f64) -> Self;
 }
 
@@ -88,7 +88,7 @@ pub trait F64x4:
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct Plain;
 
-/// Four `f64` in memory.
+/// Four `f64` in memory, which emulate a register.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct Array(pub(super) [f64; LANES]);
 
@@ -106,8 +106,8 @@ impl Array {
     }
 }
 
-/// `a b + c`, rounded once. Uses the processor instruction if the target guarantees it, and
-/// otherwise `libm::fma`, because some platform libraries are wrong.
+/// Computes `a b + c`, rounded once. Uses the processor instruction if the target guarantees it,
+/// and otherwise `libm::fma`, because some platform libraries round incorrectly.
 #[inline(always)]
 fn fused(a: f64, b: f64, c: f64) -> f64 {
     if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {

@@ -2,10 +2,10 @@
 //!
 //! In each cell a linear Taylor polynomial is fitted to the particle data. Nodal mass, momentum and
 //! internal force are integrated from the polynomial by Gauss quadrature (Wobbes, Moeller, Galavi &
-//! Vuik 2019, IJNME 117). The internal force of a uniform stress is zero between any two full
-//! cells, for any number of particles in each cell. The fits of mass and momentum density conserve
-//! the sums in every cell; the fit of the stress is unconstrained. Velocities are transferred back
-//! as in FLIP.
+//! Vuik 2019, IJNME 117). At a node between two full cells, the internal force of a uniform stress
+//! is zero, for any number of particles in each cell. The fits of mass and momentum density
+//! conserve the sums in every cell; the fit of the stress is unconstrained. Velocities are
+//! transferred back as in FLIP.
 
 mod quadrature_points;
 
@@ -27,8 +27,8 @@ pub struct Tls<const D: usize> {
     points: Option<Particles<D>>,
 }
 
-/// Fills a column of the quadrature points, with particle values at particles and fits at Gauss
-/// points.
+/// Fills a column of the quadrature points. Points that are particles get the value of the
+/// particle, and Gauss points get the value of the fit.
 fn fill<const D: usize, T>(
     quadrature: &QuadraturePoints<D>,
     column: &mut Vec<T>,
@@ -84,7 +84,7 @@ impl<const D: usize> Transfer<D> for Tls<D> {
         self.quadrature.columns().into_iter().chain(points).collect()
     }
 
-    /// Each stage integrates other fields, in two passes.
+    /// Performs P2G in two passes, because each stage integrates other fields.
     fn p2g(
         &mut self,
         kernel: &dyn Kernel<D>,
@@ -115,7 +115,7 @@ impl<const D: usize> Transfer<D> for Tls<D> {
     }
 }
 
-/// P2G of the momentum (kg m/s), integrated over the `points`, into `grid.velocity`.
+/// Performs P2G of the momentum (kg m/s), integrated over the `points`, into `grid.velocity`.
 fn p2g_momentum<const D: usize>(
     quadrature: &QuadraturePoints<D>,
     points: &mut Particles<D>,
@@ -141,7 +141,7 @@ fn p2g_momentum<const D: usize>(
     grid.velocity = momentum;
 }
 
-/// The particles in a cell.
+/// Linear fits to the particles in a cell.
 struct Fit<'a, const D: usize> {
     /// Positions of all particles (m), wrapped into the grid on periodic axes.
     x: &'a [Vector<D>],
@@ -150,9 +150,9 @@ struct Fit<'a, const D: usize> {
 }
 
 impl<const D: usize> Fit<'_, D> {
-    /// Value at `point` of the polynomial `f(x) = mean + g . (x - centre)`. Its integral over the
-    /// cell is `sum`, and g is fitted to the particle densities by least squares (Wobbes et al.
-    /// 2019, with the Taylor basis of degree one).
+    /// Returns the value at `point` of the polynomial `f(x) = mean + g . (x - centre)`. The
+    /// integral of f over the cell is `sum`, and g is fitted to the particle densities by least
+    /// squares (Wobbes et al. 2019, with the Taylor basis of degree one).
     fn conserved<T>(
         &self,
         point: &QuadraturePoint<D>,
@@ -167,7 +167,7 @@ impl<const D: usize> Fit<'_, D> {
         self.sloped(point, &point.centre, mean, density)
     }
 
-    /// Value at `point` of the linear least-squares fit.
+    /// Returns the value at `point` of the linear least-squares fit.
     fn free<T>(&self, point: &QuadraturePoint<D>, value: impl Fn(usize) -> T) -> T
     where
         T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
@@ -183,15 +183,16 @@ impl<const D: usize> Fit<'_, D> {
         self.members.iter().map(|&p| self.x[p] * share).sum()
     }
 
-    /// Second moments of the particles about a point (m^2).
+    /// Returns the second moments of the particles about a point (m^2).
     fn second(&self, about: &Vector<D>) -> Matrix<D> {
         let arm = |p: usize| self.x[p] - about;
         self.members.iter().map(|&p| dyad(&arm(p), &arm(p))).sum()
     }
 
-    /// `mean + g . (x - about)` with the best-fit slope g; zero slope if the particles do not span
-    /// all axes. For a single row of particles, a line through the cell mean also exists. It would
-    /// be steeper the closer the row is to the centre, and could give negative nodal masses.
+    /// Returns `mean + g . (x - about)` with the slope g of best fit. The slope is zero if the
+    /// particles do not span all axes. For a single row of particles, a line through the cell mean
+    /// also exists. If the row is near the cell centre, this line is steep and could give negative
+    /// nodal masses.
     fn sloped<T>(
         &self,
         point: &QuadraturePoint<D>,
@@ -212,7 +213,7 @@ impl<const D: usize> Fit<'_, D> {
     }
 }
 
-/// Inverse of the second moments, if the particles span every axis.
+/// Inverts the second moments; `None` unless the particles span every axis.
 fn spanned<const D: usize>(second: &Matrix<D>, smallest: f64) -> Option<Matrix<D>> {
     let spans = |axis: usize| second[(axis, axis)] > smallest;
     (0..D).all(spans).then(|| second.try_inverse()).flatten()
@@ -225,8 +226,8 @@ mod tests {
     use approx::assert_abs_diff_eq;
     use rstest::rstest;
 
-    /// Eight cells with three particles each; the last particle of the fourth cell has moved to the
-    /// fifth cell.
+    /// Creates eight cells with three particles each. The last particle of the fourth cell has
+    /// moved to the fifth cell.
     fn uneven() -> (Grid<1>, Particles<1>) {
         let grid = Grid::new(Vector::zeros(), 1.0, [8], [true], [8]);
         let block = Block { from: Vector::<1>::new(0.0), to: Vector::<1>::new(8.0), density: 2.0 };

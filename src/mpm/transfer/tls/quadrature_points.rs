@@ -1,29 +1,29 @@
-//! Quadrature points: the Gauss points of full cells, and the particles in cells at the rim of the
-//! body. In rim cells a polynomial would extend beyond the body.
+//! Quadrature points: the Gauss points of full cells, and the particles in cells at the boundary of
+//! the body. In these boundary cells a polynomial would extend outside the body.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Column, Entry};
 
-/// Gauss quadrature along an axis, exact for a cubic B-spline times a linear field.
+/// Gauss points and weights along an axis; exact for a cubic B-spline times a linear field.
 const RULE: [(f64, f64); 3] = [
     (-0.774_596_669_241_483_4, 5.0 / 18.0),
     (0.0, 8.0 / 18.0),
     (0.774_596_669_241_483_4, 5.0 / 18.0),
 ];
 
-/// Second moments below this share of h^2 are rounding errors.
+/// Second moments below this fraction of h^2 are rounding errors.
 const SMALLEST: f64 = 1e-6;
 
-/// A quadrature point.
+/// A point at which the fields of a cell are integrated.
 #[derive(Debug, Clone)]
 pub(in crate::mpm) struct QuadraturePoint<const D: usize> {
     /// Position (m).
     pub(in crate::mpm) x: Vector<D>,
     /// Volume (m^D).
     pub(in crate::mpm) volume: f64,
-    /// The particle, if the point is a particle.
+    /// Index of the particle; `None` for a Gauss point.
     pub(in crate::mpm) particle: Option<usize>,
     /// Centre of the cell of the point (m).
     pub(in crate::mpm) centre: Vector<D>,
@@ -38,9 +38,9 @@ pub(in crate::mpm) struct QuadraturePoints<const D: usize> {
     all: Vec<QuadraturePoint<D>>,
     /// Position of each particle (m), wrapped into the grid on periodic axes.
     x: Vec<Vector<D>>,
-    /// Cell of each particle.
+    /// Index of the cell of each particle.
     cell: Vec<usize>,
-    /// Particles, cell by cell.
+    /// Indices of the particles, cell by cell.
     order: Vec<usize>,
     /// Start of each cell in `order`, and the end of the last cell.
     first: Vec<usize>,
@@ -49,7 +49,7 @@ pub(in crate::mpm) struct QuadraturePoints<const D: usize> {
 impl<const D: usize> Entry for QuadraturePoint<D> {}
 
 impl<const D: usize> QuadraturePoints<D> {
-    /// Columns with entries for points, particles and cells.
+    /// Returns the columns with entries for points, particles and cells.
     pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 5] {
         [
             Column::of_particles("quadrature point", &self.all),
@@ -72,17 +72,17 @@ impl<const D: usize> QuadraturePoints<D> {
         most
     }
 
-    /// All points.
+    /// Returns all points.
     pub(in crate::mpm) fn all(&self) -> &[QuadraturePoint<D>] {
         &self.all
     }
 
-    /// Positions of all particles (m), wrapped into the grid on periodic axes.
+    /// Returns the positions of all particles (m), wrapped into the grid on periodic axes.
     pub(in crate::mpm) fn x(&self) -> &[Vector<D>] {
         &self.x
     }
 
-    /// Particles in the cell of `point`.
+    /// Returns the particles in the cell of `point`.
     pub(in crate::mpm) fn members(&self, point: &QuadraturePoint<D>) -> &[usize] {
         &self.order[point.members.0..point.members.1]
     }
@@ -128,14 +128,14 @@ impl<const D: usize> QuadraturePoints<D> {
         }
     }
 
-    /// Sorts the particles by counting, so that particles keep their order within a cell. Particles
+    /// Sorts the particles by counting, which preserves their order within a cell. Particles
     /// outside the grid are ignored, as in the particle loops.
     fn sort(&mut self, grid: &Grid<D>, particles: &Particles<D>) {
         let cells: usize = grid.cells.iter().product();
         self.first.fill(0);
         for ((cell, inside), x) in self.cell.iter_mut().zip(&mut self.x).zip(&particles.x) {
             *inside = Vector::from_fn(|axis, _| {
-                // Positions on other axes are not changed, not even by rounding.
+                // Positions on axes without periodicity are not changed, not even by rounding.
                 let turns = if grid.periodic[axis] { grid.turns(x, axis) } else { 0.0 };
                 x[axis] - turns * grid.cells[axis] as f64 * grid.h
             });
@@ -145,7 +145,7 @@ impl<const D: usize> QuadraturePoints<D> {
         for cell in 0..=cells {
             self.first[cell + 1] += self.first[cell];
         }
-        // Each start advances to the start of the next cell, and is restored below.
+        // Each start advances to the start of the next cell. The starts are restored below.
         for (p, cell) in self.cell.iter().enumerate() {
             self.order[self.first[*cell]] = p;
             self.first[*cell] += 1;
@@ -154,7 +154,7 @@ impl<const D: usize> QuadraturePoints<D> {
         self.first[0] = 0;
     }
 
-    /// Whether every neighbour across a face contains particles or is a wall.
+    /// Whether every neighbour of a cell across a face either contains particles or is a wall.
     fn is_full(&self, index: &[usize; D], grid: &Grid<D>) -> bool {
         (0..D).all(|axis| {
             let n = grid.cells[axis];
@@ -172,7 +172,7 @@ impl<const D: usize> QuadraturePoints<D> {
     }
 }
 
-/// Gauss points in a cell, relative to its centre (m), with their volumes (m^D).
+/// Returns the Gauss points in a cell, relative to its centre (m), with their volumes (m^D).
 fn gauss<const D: usize>(h: f64) -> impl Iterator<Item = (Vector<D>, f64)> {
     (0..RULE.len().pow(D as u32)).map(move |k| {
         let (mut rest, mut x, mut volume) = (k, Vector::zeros(), 1.0);
@@ -186,12 +186,12 @@ fn gauss<const D: usize>(h: f64) -> impl Iterator<Item = (Vector<D>, f64)> {
     })
 }
 
-/// Index of a cell; the first axis varies fastest.
+/// Returns the index of a cell from its index on each axis. The first axis varies fastest.
 fn fold<const D: usize>(index: &[usize; D], counts: &[usize; D]) -> usize {
     (0..D).rev().fold(0, |number, axis| number * counts[axis] + index[axis])
 }
 
-/// Index of a cell on each axis.
+/// Returns the index of a cell on each axis.
 fn unfold<const D: usize>(mut cell: usize, counts: &[usize; D]) -> [usize; D] {
     std::array::from_fn(|axis| {
         let index = cell % counts[axis];

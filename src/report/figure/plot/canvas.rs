@@ -4,7 +4,7 @@
 use super::style::{FONT, INK, PAPER, TEXT, TITLE, style_sheet};
 use super::svg::{SvgElement, number};
 
-/// Margins at both ends of a title, and above it (px).
+/// Margin at both ends of a title, and above it (px).
 const LEFT: f64 = 14.0;
 const TOP: f64 = 18.0;
 /// Height of a title line (px).
@@ -12,8 +12,8 @@ const LEADING: f64 = 17.0;
 /// Maximum number of title lines.
 const LINES: usize = 3;
 
-/// An empty document of this size (px), with the paper colour as background. Screen readers read
-/// `title`.
+/// Creates an empty document of this size (px), with the paper colour as background. Screen readers
+/// read `title`.
 pub(crate) fn canvas(width: f64, height: f64, title: &str) -> SvgElement {
     let mut svg = SvgElement::new("svg")
         .set("xmlns", "http://www.w3.org/2000/svg")
@@ -43,7 +43,7 @@ impl Heading {
         Self { lines: wrap(title, 1.12 * TITLE, width - 2.0 * LEFT, LINES), width }
     }
 
-    /// Vertical position (px) at which the figure below may begin.
+    /// Returns the vertical position (px) at which the figure below may begin.
     pub(crate) fn bottom(&self) -> f64 {
         TOP + LEADING * self.lines.len() as f64
     }
@@ -58,16 +58,16 @@ impl Heading {
     }
 }
 
-/// Estimated width of `text` (px) at the font size `size`. The actual width of SVG text depends on
-/// the viewer.
+/// Estimates the width of `text` (px) at the font size `size`. The actual width of SVG text depends
+/// on the viewer.
 ///
 /// The estimate is based on `DejaVu Sans`, the widest face of the font stack. A text that fits in
-/// it also fits in Helvetica.
+/// this face also fits in Helvetica.
 pub(crate) fn text_width(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum::<f64>() * size
 }
 
-/// Advance width of one character in units of the font size.
+/// Returns the advance width of one character in units of the font size.
 fn advance(c: char) -> f64 {
     match c {
         'i' | 'j' | 'l' | '\'' | ' ' | '.' | ',' | '|' => 0.32,

@@ -14,7 +14,7 @@ pub(crate) struct Titles<'a> {
     pub(crate) y_label: &'a str,
 }
 
-/// A frame with two scales.
+/// A frame with a scale for each axis.
 #[derive(Debug)]
 pub(crate) struct Plot<'a> {
     titles: Titles<'a>,
@@ -84,18 +84,20 @@ impl<'a> Plot<'a> {
         self.frame.x + self.x.scale.fraction(x) * self.frame.w
     }
 
-    /// Pixels per working unit along both axes. On logarithmic axes the unit is a decade.
+    /// Returns the number of pixels per working unit along both axes. On logarithmic axes the unit
+    /// is a decade.
     pub(crate) fn pace(&self) -> Pt {
         (self.frame.w / self.x.scale.span(), self.frame.h / self.y.scale.span())
     }
 
-    /// A text at the centre of an empty frame.
+    /// Creates a text at the centre of an empty frame.
     pub(crate) fn placeholder(&self, text: &str) -> SvgElement {
         let middle = (self.frame.x + self.frame.w / 2.0, self.frame.y + self.frame.h / 2.0);
         SvgElement::text(middle, "middle", text).set("fill", NEUTRAL)
     }
 
-    /// The complete document: `layers` above the grid, and `legend` and `notes` below the frame.
+    /// Creates the complete document: `layers` above the grid, and `legend` and `notes` below the
+    /// frame.
     pub(crate) fn document(
         &self,
         layers: &[SvgElement],
@@ -237,12 +239,12 @@ impl Legend {
         Self { entries, rows }
     }
 
-    /// Height (px), including the distance to the element below; zero without entries.
+    /// Returns the height (px), including the distance to the element below; zero without entries.
     pub(crate) fn height(&self) -> f64 {
         if self.entries.is_empty() { 0.0 } else { LEGEND_ROW * self.rows as f64 + LEGEND_MARGIN }
     }
 
-    /// The legend, centred in the figure, with its upper edge at `top`.
+    /// Draws the legend, centred in the figure, with its upper edge at `top`.
     pub(crate) fn draw(&self, top: f64) -> SvgElement {
         let mut group = SvgElement::new("g").set("class", "legend");
         let mut left = (WIDTH - legend_width(&self.entries, self.rows)) / 2.0;
@@ -261,7 +263,7 @@ impl Legend {
     }
 }
 
-/// Width (px) of entries in columns of `rows` each.
+/// Returns the width (px) of entries in columns of `rows` each.
 fn legend_width(entries: &[LegendEntry], rows: usize) -> f64 {
     let columns = entries.chunks(rows).map(|column| column_width(column) + COLUMN_GAP);
     columns.sum::<f64>() - COLUMN_GAP

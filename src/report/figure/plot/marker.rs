@@ -17,7 +17,7 @@ pub(crate) enum Fill {
 /// Nominal radius of a marker (px).
 pub(crate) const RADIUS: f64 = 4.2;
 
-/// Radius of a crossed marker (px), larger so that the cross is visible in print.
+/// Radius of a crossed marker (px). The larger radius keeps the cross visible in print.
 const CROSSED_RADIUS: f64 = 5.6;
 
 /// Draws a marker centred at `at`.
@@ -49,7 +49,7 @@ pub(crate) fn draw(shape: MarkerShape, fill: Fill, colour: &str, at: Pt) -> SvgE
     crossed
 }
 
-/// An arrow from `tail` straight up to `tip`, for a value beyond the frame.
+/// Draws an arrow from `tail` straight up to `tip`, for a value that does not fit in the frame.
 pub(crate) fn arrow_up(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
     let mut arrow =
         SvgElement::new("g").set("fill", "none").set("stroke", colour).at("stroke-width", 1.3);
@@ -59,7 +59,7 @@ pub(crate) fn arrow_up(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
     arrow
 }
 
-/// Vertical distance of a triangle's centroid below the centre of the marker, in radii.
+/// Returns how far the centroid of a triangle is below the centre of the marker, in radii.
 fn lowered(shape: MarkerShape) -> f64 {
     match shape {
         MarkerShape::Up => 0.2,
@@ -69,7 +69,7 @@ fn lowered(shape: MarkerShape) -> f64 {
 }
 
 fn body(shape: MarkerShape, at: Pt, radius: f64) -> SvgElement {
-    // Corners for the unit radius, with about the same area for all shapes.
+    // Corners for the unit radius. All shapes have about the same area.
     let corners: &[Pt] = match shape {
         MarkerShape::Circle => {
             return SvgElement::new("circle").at("cx", at.0).at("cy", at.1).at("r", radius);

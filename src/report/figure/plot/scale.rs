@@ -4,7 +4,7 @@ use super::canvas::text_width;
 use super::style::{SUPERSCRIPT, TEXT};
 use super::svg::{Pt, SvgElement};
 
-/// Working coordinate of an axis. It is linear in pixels.
+/// Working coordinate of an axis: a function of the value that is linear in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ScaleKind {
     /// The value divided by a power of ten.
@@ -24,12 +24,12 @@ pub(crate) struct Scale {
     hi: f64,
 }
 
-/// Free space at the ends of an axis, as shares of its length.
+/// Empty space at the ends of an axis, as fractions of its length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pad {
-    /// Share at the low end.
+    /// Fraction at the low end.
     pub(crate) lo: f64,
-    /// Share at the high end.
+    /// Fraction at the high end.
     pub(crate) hi: f64,
 }
 
@@ -37,10 +37,11 @@ pub(crate) struct Pad {
 /// fill the figure.
 const MIN_DECADES: f64 = 0.5;
 
-/// Minimum length of a linear axis, as a share of its largest value, for the same purpose.
+/// Minimum length of a linear axis as a fraction of its largest value, also because of rounding
+/// noise.
 const MIN_SPREAD: f64 = 1e-7;
 
-/// Magnitude below which a value is drawn as zero, near the subnormal numbers.
+/// Magnitude below which a value is drawn as zero; slightly above the subnormal numbers.
 const TINY: f64 = 1e-290;
 
 impl Scale {
@@ -79,12 +80,12 @@ impl Scale {
         Self { kind, lo: lo - pad.lo * span, hi: hi + pad.hi * span }
     }
 
-    /// Working coordinate of the axis.
+    /// Returns the working coordinate of the axis.
     pub(crate) fn kind(&self) -> ScaleKind {
         self.kind
     }
 
-    /// The common power of ten of all labels, if any.
+    /// Returns the common power of ten of all labels, if any.
     pub(crate) fn factor(&self) -> Option<Label> {
         match self.kind {
             ScaleKind::Linear { power } if power != 0 => Some(Label::power("×10", power)),
@@ -92,17 +93,18 @@ impl Scale {
         }
     }
 
-    /// Both ends in working coordinates.
+    /// Returns both ends in working coordinates.
     pub(crate) fn ends(&self) -> (f64, f64) {
         (self.lo, self.hi)
     }
 
-    /// Length of the axis in working coordinates: decades on a logarithmic axis.
+    /// Returns the length of the axis in working coordinates, which are decades on a logarithmic
+    /// axis.
     pub(crate) fn span(&self) -> f64 {
         self.hi - self.lo
     }
 
-    /// Position of a value: 0 at the low end, 1 at the high end.
+    /// Returns the position of a value: 0 at the low end, 1 at the high end.
     pub(crate) fn fraction(&self, value: f64) -> f64 {
         self.fraction_of_working(match self.kind {
             ScaleKind::Linear { power } => value / libm::pow(10.0, f64::from(power)),
@@ -110,7 +112,7 @@ impl Scale {
         })
     }
 
-    /// Position of a working coordinate.
+    /// Returns the position of a working coordinate: 0 at the low end, 1 at the high end.
     pub(crate) fn fraction_of_working(&self, working: f64) -> f64 {
         (working - self.lo) / self.span()
     }
@@ -123,7 +125,7 @@ fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-/// A number, or a power of ten with its factor.
+/// Label of a tick: a decimal number, or a power of ten with its factor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Label {
     base: String,
@@ -131,29 +133,29 @@ pub(crate) struct Label {
 }
 
 impl Label {
-    /// A decimal number with a typographic minus.
+    /// Creates a decimal number with a typographic minus.
     pub(crate) fn decimal(value: f64, decimals: usize) -> Self {
         Self { base: format!("{value:.decimals$}").replace('-', "\u{2212}"), exponent: None }
     }
 
-    /// `base` with a superscript. `base` is "10", a multiple of it, or "×10" for the common factor
-    /// of an axis.
+    /// Creates `base` with a superscript. `base` is "10", a multiple of 10, or "×10" for the common
+    /// factor of an axis.
     pub(crate) fn power(base: &str, exponent: i32) -> Self {
         Self { base: base.to_owned(), exponent: Some(exponent) }
     }
 
-    /// Estimated width in pixels.
+    /// Returns the estimated width in pixels.
     pub(crate) fn width(&self) -> f64 {
         text_width(&self.base, TEXT) + text_width(&self.superscript(), SUPERSCRIPT)
     }
 
-    /// The label, with its baseline anchored at `at`.
+    /// Draws the label with its baseline anchored at `at`.
     pub(crate) fn draw(&self, at: Pt, anchor: &str) -> SvgElement {
         if self.exponent.is_none() {
             return SvgElement::text(at, anchor, &self.base);
         }
-        // The label consists of two texts that meet at `joint`, because some converters anchor each
-        // part of a text with superscripts separately.
+        // The label consists of two texts that meet at `joint`, because some converters anchor
+        // superscripts separately from the text before them.
         let left_of_joint = text_width(&self.base, TEXT);
         let joint = match anchor {
             "start" => at.0 + left_of_joint,

@@ -1,6 +1,6 @@
 //! Sizes, colours and marks that distinguish series.
 
-/// Width of a figure (px). On a narrow screen texts then still have 9 pixels.
+/// Width of a figure (px). At this width, texts have at least 9 pixels on a narrow screen.
 pub(crate) const WIDTH: f64 = 440.0;
 /// Height of the frame around the data (px).
 pub(crate) const FRAME_HEIGHT: f64 = 256.0;
@@ -56,8 +56,8 @@ const SERIES: [(&str, &str); 7] = [
     ("#000000", "#ffffff"),
 ];
 
-/// Style sheet of the dark theme, for readers who prefer it. Elements have light colours as
-/// attributes, so that figures do not change in print and in programs without `light-dark()`.
+/// Returns the style sheet of the dark theme, for readers who prefer it. Elements have light
+/// colours as attributes, so figures do not change in print or in programs without `light-dark()`.
 /// Colours outside the palette, such as those of map fields, do not change.
 pub(crate) fn style_sheet() -> String {
     let rule = |(light, dark): &(&str, &str)| {
@@ -109,8 +109,8 @@ const SHAPES: [MarkerShape; 8] = [
 const DASHES: [&str; 8] =
     ["6 2.5", "1.5 2", "9 2.5 1.5 2.5", "3 2", "12 3", "6 2 1.5 2 1.5 2", "4 4", "1.5 4"];
 
-/// Style of the series at `index`. Colours and shapes have coprime periods, so their combinations
-/// repeat only after 56 series.
+/// Returns the style of the series at `index`. Colours and shapes have coprime periods, so their
+/// combinations repeat only after 56 series.
 pub(crate) fn look(index: usize) -> Look {
     Look {
         colour: SERIES[index % SERIES.len()].0,
@@ -119,7 +119,7 @@ pub(crate) fn look(index: usize) -> Look {
     }
 }
 
-/// Contrast ratio of two colours `#rrggbb` by WCAG 2.2, from 1 to 21.
+/// Returns the contrast ratio of two colours `#rrggbb` (WCAG 2.2), from 1 to 21.
 #[cfg(test)]
 pub(crate) fn contrast(a: &str, b: &str) -> f64 {
     let luminance = |colour: &str| {
@@ -164,7 +164,7 @@ mod tests {
         assert!((contrast(a, b) - ratio).abs() < 0.005, "{}", contrast(a, b));
     }
 
-    /// A palette colour in the light and in the dark theme.
+    /// Returns the light and the dark variant of a palette colour.
     fn schemes(light: &str) -> [&'static str; 2] {
         let mut all = PALETTE.iter().chain(&SERIES);
         all.find(|colour| colour.0 == light).map(|colour| [colour.0, colour.1]).expect(light)

@@ -17,12 +17,12 @@ pub(crate) struct Rect {
 }
 
 impl Rect {
-    /// Position of the right edge.
+    /// Returns the position of the right edge.
     pub(crate) fn right(&self) -> f64 {
         self.x + self.w
     }
 
-    /// Position of the lower edge.
+    /// Returns the position of the lower edge.
     pub(crate) fn bottom(&self) -> f64 {
         self.y + self.h
     }
@@ -37,23 +37,23 @@ pub(crate) struct SvgElement {
 }
 
 impl SvgElement {
-    /// An element without attributes or content.
+    /// Creates an element without attributes or content.
     pub(crate) fn new(name: &'static str) -> Self {
         Self { name, attributes: String::new(), content: String::new() }
     }
 
-    /// A group moved to `at`.
+    /// Creates a group moved to `at`.
     pub(crate) fn group_at(at: Pt) -> Self {
         let shift = format!("translate({} {})", number(at.0), number(at.1));
         Self::new("g").set("transform", &shift)
     }
 
-    /// A straight line.
+    /// Creates a straight line.
     pub(crate) fn line(from: Pt, to: Pt) -> Self {
         Self::new("line").at("x1", from.0).at("y1", from.1).at("x2", to.0).at("y2", to.1)
     }
 
-    /// A `polyline` or `polygon` through `points`.
+    /// Creates a `polyline` or `polygon` through `points`.
     pub(crate) fn through(name: &'static str, points: &[Pt]) -> Self {
         let mut list = String::new();
         for &(x, y) in points {
@@ -63,12 +63,12 @@ impl SvgElement {
         Self::new(name).set("points", &list)
     }
 
-    /// A text anchored at `at`; `anchor` is `start`, `middle` or `end`.
+    /// Creates a text anchored at `at`; `anchor` is `start`, `middle` or `end`.
     pub(crate) fn text(at: Pt, anchor: &str, text: &str) -> Self {
         Self::new("text").at("x", at.0).at("y", at.1).set("text-anchor", anchor).content(text)
     }
 
-    /// A style sheet. Its text is not escaped.
+    /// Creates a style sheet. Its text is not escaped.
     pub(crate) fn style(sheet: &str) -> Self {
         Self { content: sheet.to_owned(), ..Self::new("style") }
     }
@@ -97,7 +97,7 @@ impl SvgElement {
         self.content.push_str(&child.render());
     }
 
-    /// The element as SVG text.
+    /// Converts the element to SVG text.
     pub(crate) fn render(&self) -> String {
         let Self { name, attributes, content } = self;
         if content.is_empty() {
@@ -108,13 +108,14 @@ impl SvgElement {
     }
 }
 
-/// A coordinate with two decimals. Zero is never negative, so that equal figures have equal bytes.
+/// Formats a coordinate with two decimals. Zero has no sign, so that equal figures have equal
+/// bytes.
 pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     if text == "-0.00" { "0.00".to_owned() } else { text }
 }
 
-/// Escapes markup. Characters that XML 1.0 forbids become the replacement character.
+/// Escapes special characters. Characters that XML 1.0 forbids become the replacement character.
 fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

@@ -8,20 +8,20 @@ use super::scale::{Scale, ScaleKind};
 pub(crate) struct Tick {
     /// Position along the axis from 0 to 1.
     pub(crate) at: f64,
-    /// The number, for major ticks.
+    /// The number next to a major tick.
     pub(crate) label: Option<Label>,
 }
 
-/// Number of decades below which a logarithmic axis has labels between powers of ten.
+/// Minimum length (decades) of a logarithmic axis on which powers of ten are the only labels.
 const SHORT: f64 = 2.0;
 
 /// Range of exponents in which a short logarithmic axis has plain numbers as labels.
 const WRITTEN_OUT: (f64, f64) = (-3.0, 4.0);
 
-/// Digits with a tick within a decade.
+/// Digits at which a decade has ticks.
 const DIGITS: [i32; 9] = [1, 2, 3, 4, 5, 6, 7, 8, 9];
 
-/// Number of decades above which ticks within decades would merge.
+/// Number of decades above which ticks within decades would be too close together.
 const TICKED_DECADES: f64 = 8.0;
 
 /// Chooses the densest ticks whose labels do not touch on an axis of `length` pixels. `extent` is
@@ -45,7 +45,7 @@ pub(crate) fn choose(scale: &Scale, length: f64, extent: impl Fn(&Label) -> f64)
     choices.swap_remove(chosen.unwrap_or(choices.len() - 1))
 }
 
-/// Ticks at multiples of 1, 2 or 5 times a power of ten, with about `count` labels.
+/// Creates ticks at multiples of 1, 2 or 5 times a power of ten, with about `count` labels.
 fn linear(scale: &Scale, count: u32) -> Vec<Tick> {
     let (lo, hi) = scale.ends();
     let raw = (hi - lo) / f64::from(count);
@@ -76,7 +76,7 @@ fn linear(scale: &Scale, count: u32) -> Vec<Tick> {
         .collect()
 }
 
-/// Ticks at powers of ten, with a label at every `stride`-th one.
+/// Creates ticks at powers of ten and labels every `stride`-th one.
 fn decades(scale: &Scale, stride: i32) -> Vec<Tick> {
     let within = if stride == 1 && scale.span() <= TICKED_DECADES { &DIGITS } else { &DIGITS[..1] };
     log_ticks(scale, within, |digit, power| {
@@ -84,10 +84,10 @@ fn decades(scale: &Scale, stride: i32) -> Vec<Tick> {
     })
 }
 
-/// Ticks with labels at 1, 2 and 5 times a power of ten, or at more digits if there would be fewer
-/// than three labels.
+/// Creates ticks with labels at 1, 2 and 5 times a power of ten. If these are fewer than three
+/// labels, more digits get a label.
 fn short_log(scale: &Scale) -> Vec<Vec<Tick>> {
-    // The whole axis uses one notation.
+    // All labels of the axis have the same notation.
     let (lo, hi) = scale.ends();
     let written_out = lo >= WRITTEN_OUT.0 && hi <= WRITTEN_OUT.1;
     let labelled = |ticked: &[i32], shown: &[i32]| {
@@ -117,7 +117,7 @@ fn short_label(digit: i32, power: i32, written_out: bool) -> Label {
     }
 }
 
-/// Ticks at the given multiples of all powers of ten on the axis.
+/// Creates ticks at the given multiples of all powers of ten on the axis.
 fn log_ticks(
     scale: &Scale,
     digits: &[i32],

@@ -38,7 +38,7 @@ const SIDE: f64 = 44.0;
 const LONGEST: f64 = 52.0;
 /// Minimum length of a side (px). A shorter side would not be recognisable as a slope.
 const SHORTEST: f64 = 8.0;
-/// Maximum width of the row as a share of the frame.
+/// Maximum width of the row as a fraction of the frame width.
 const WIDEST: f64 = 0.85;
 /// Distance to the frame, and between a triangle and the caption of the previous one (px).
 const GAP: f64 = 12.0;
@@ -67,7 +67,7 @@ impl TriangleRow {
         Self { triangles, widest }
     }
 
-    /// Orders with triangles that would be too flat, too steep or too small to be readable.
+    /// Returns the orders whose triangles would be too flat, too steep or too small to be readable.
     pub(crate) fn left_out(&self) -> impl Iterator<Item = f64> {
         self.triangles.iter().filter(|triangle| !triangle.is_drawn()).map(|triangle| triangle.order)
     }
@@ -76,10 +76,10 @@ impl TriangleRow {
         self.triangles.iter().filter(|triangle| triangle.is_drawn())
     }
 
-    /// Share of the frame that must be free below the data, so that triangles do not touch `paths`
-    /// (px). `plot` is drawn with `pad` at the ends of its vertical axis.
+    /// Returns the fraction of the frame that must be empty below the data, so that triangles do
+    /// not touch `paths` (px). `plot` is drawn with `pad` at the ends of its vertical axis.
     ///
-    /// A wider strip compresses the data and makes the triangles lower. A triangle that is too
+    /// A taller strip compresses the data and makes the triangles flatter. A triangle that is too
     /// narrow at first may then be drawn, so the heights of all triangles count.
     pub(crate) fn strip(&self, plot: &Plot, paths: &[Vec<Pt>], pad: Pad) -> f64 {
         let highest = self.triangles.iter().map(|t| t.rise).fold(0.0, f64::max);
@@ -90,7 +90,7 @@ impl TriangleRow {
             return pad.lo;
         }
         let needed = (GAP + CAPTION + highest + CLEAR) / FRAME_HEIGHT;
-        // Height of the lowest data as a share of the range of all data.
+        // Height of the lowest data as a fraction of the range of all data.
         let height = (plot.frame.bottom() - lowest) / FRAME_HEIGHT;
         let share = (height - pad.lo) / (1.0 - pad.lo - pad.hi);
         let rest = 1.0 - share;
@@ -123,7 +123,7 @@ impl TriangleRow {
     }
 }
 
-/// Lowest pixel of a path to the right of `left`.
+/// Returns the lowest pixel of a path to the right of `left`.
 fn lowest_right_of(path: &[Pt], left: f64) -> Option<f64> {
     let points = path.iter().filter(|point| point.0 >= left).map(|point| point.1);
     let crossing = path.windows(2).filter(|ends| ends[0].0 < left && ends[1].0 >= left);
@@ -134,7 +134,7 @@ fn lowest_right_of(path: &[Pt], left: f64) -> Option<f64> {
     points.chain(crossing).max_by(f64::total_cmp)
 }
 
-/// An order in the usual notation: thirds as fractions, other values as short decimals.
+/// Formats an order in the usual notation: thirds as fractions, other values as short decimals.
 pub(crate) fn name(order: f64) -> String {
     const TOLERANCE: f64 = 0.005;
     let thirds = libm::round(3.0 * order);
