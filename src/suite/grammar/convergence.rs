@@ -68,7 +68,7 @@ pub(crate) struct ConvergenceSpec {
 }
 
 impl ConvergenceSpec {
-    /// Index of the first FEM entry in `methods`.
+    /// Returns the index of the first FEM entry in `methods`.
     pub(crate) fn fem_method(&self) -> Option<usize> {
         self.methods.iter().position(|method| matches!(method, MethodSpec::Fem { .. }))
     }
