@@ -14,7 +14,7 @@ use crate::exact::tensor::Tensor;
 pub struct JaumannLaw(Lame);
 
 impl JaumannLaw {
-    /// The law from Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(Lame::new(young, poisson))
     }

@@ -105,8 +105,7 @@ pub(crate) fn convergence_plan(
     Ok(plan)
 }
 
-/// Returns the acknowledged warnings of a suite. Refuses entries without a reason and repeated
-/// warnings.
+/// Returns the acknowledged warnings. Refuses entries without reason and repeated warnings.
 fn acknowledged(
     evaluator: &Evaluator<'_>,
     specs: &[AcknowledgeSpec],

@@ -18,8 +18,7 @@ use std::str::FromStr;
 /// Expectation of a case, and a second one for a full run if it differs.
 type CaseExpectation = (Expectation, Option<Expectation>);
 
-/// Returns the expectations of `cases`, in the order of the cases; all `None` if the suite states
-/// none.
+/// Returns the expectations in the order of `cases`; all `None` if the suite states none.
 pub(crate) fn expectations(
     evaluator: &Evaluator<'_>,
     spec: &[ExpectSpec],
@@ -45,8 +44,7 @@ pub(crate) fn expectations(
     Ok(owners.into_iter().map(|owner| Some(parsed[owner?].clone())).collect())
 }
 
-/// Returns, for each case, the index of the only matching entry of `expect`; all `None` without
-/// entries.
+/// Returns the index of the only matching entry of `expect` for each case, if there are entries.
 pub(crate) fn assign(
     evaluator: &Evaluator<'_>,
     selectors: &[Option<&OneOrMany<String>>],

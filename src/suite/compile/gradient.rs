@@ -269,8 +269,7 @@ fn differentiated(
 }
 
 /// Whether `value` equals the parameter in `scene`. An initial velocity must instead be
-/// proportional to the suite parameter, which means that the relative `growth` of the velocity is
-/// 1.
+/// proportional to the suite parameter: the relative `growth` of the velocity is then 1.
 fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) -> bool {
     let of_material = || {
         let parameters = scene.material.keyed_parameters();

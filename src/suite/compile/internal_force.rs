@@ -133,8 +133,7 @@ fn force(plan: &ForcePlan, basis: BasisName, position: f64) -> f64 {
     grid.force[node][0]
 }
 
-/// Returns the node with the largest weight for a particle at x = 0; the right one of two equal
-/// nodes.
+/// Returns the node with the largest weight for a particle at x = 0, or the right one of two.
 fn node_at(kernel: &dyn Kernel<1>, grid: &mut Grid<1>, h: f64) -> usize {
     let (from, to) = (Vector::<1>::new(-0.5 * h), Vector::<1>::new(0.5 * h));
     let alone = Particles::fill(&Block { from, to, density: 1.0 }, h, 1);

@@ -161,8 +161,7 @@ fn velocity(
     evaluator.formula(path, &text, &coordinates_and_time(1))
 }
 
-/// Compiles the cases: all combinations of the lists in `methods`, with closed forms and
-/// expectations.
+/// Compiles the cases (combinations of the lists in `methods`), closed forms and expectations.
 fn cases(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,

@@ -263,8 +263,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Returns a diagnostic about a part of the formula at `path`, or of a function that the
-    /// formula calls.
+    /// Returns a diagnostic about a part of the formula at `path`, or of a function that it calls.
     fn in_text(&self, path: &Path, error: &FormulaError) -> Diagnostic {
         let function = error.within.as_ref().and_then(|name| self.head_of(name));
         let path = function
@@ -352,8 +351,7 @@ impl Evaluator<'_> {
         self.diagnostic(path, &message).with_label(label).with_help(&places.join(", "))
     }
 
-    /// Returns names and values of the parameters that a formula uses, directly or through
-    /// functions.
+    /// Returns names and values of the parameters that a formula uses, also through functions.
     fn read_by(&self, text: &NumberText) -> Vec<(String, f64)> {
         let formula =
             Expr::parse(&text.to_string()).and_then(|expr| Formula::bind(&expr, &self.scope, &[]));

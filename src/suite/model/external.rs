@@ -134,8 +134,7 @@ impl ConvergencePlan {
     }
 
     /// Returns the smallest `error_below` among the suite's own expectations; `None` if one of them
-    /// has a verdict. Entries with `error_above` are ignored, because they describe methods that
-    /// fail.
+    /// has a verdict. Entries with `error_above` are ignored: they describe methods that fail.
     fn smallest_own_bound(&self) -> Option<f64> {
         let expectations = || self.cases.iter().filter_map(|case| case.expectation.as_ref());
         let bound = |expectation: &Expectation| {

@@ -101,8 +101,7 @@ impl Method {
         }
     }
 
-    /// Returns the method with this number of load steps; unchanged if the method has no load
-    /// steps.
+    /// Returns the method with this number of load steps; unchanged if it has no load steps.
     #[must_use]
     pub(crate) fn with_load_steps(self, steps: u64) -> Self {
         match self {

@@ -65,17 +65,15 @@ impl LevelPlan {
         }
     }
 
-    /// Returns the distance between neighbouring particles (m), or between nodes if there are no
-    /// particles.
+    /// Returns the distance between neighbouring particles (m), or between nodes without particles.
     pub fn particle_spacing(self, dimension: usize) -> f64 {
         let per_cell = self.ppc.unwrap_or(1) as f64;
         self.h / libm::pow(per_cell, 1.0 / dimension as f64)
     }
 }
 
-/// Minimum ratio of the number of cells of a reference run on a fine grid to that of the finest
-/// level. For a second-order method, the error of the reference run is then 1/16 of that on the
-/// finest level.
+/// Minimum ratio of the cells of a fine-grid reference run to the cells of the finest level. For a
+/// second-order method, the error of the reference run is then 1/16 of that on the finest level.
 pub(crate) const FINE_GRID: u64 = 4;
 
 /// The spacing that a same-method reference run reduces.

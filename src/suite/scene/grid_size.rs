@@ -40,23 +40,20 @@ impl Scene {
         self.each().iter().map(Self::wave_speed).fold(0.0, f64::max)
     }
 
-    /// Returns the length along `axis` of the stated grid, or of the body without a stated grid
-    /// (m).
+    /// Returns the length along `axis` (m) of the stated grid, or of the body without stated grid.
     pub fn period(&self, axis: usize) -> f64 {
         let (from, to) = self.grid.as_ref().map_or((&self.from, &self.to), |(from, to)| (from, to));
         to[axis] - from[axis]
     }
 }
 
-/// Returns the cell size (m) for `cells` cells along the first axis of the stated grid, otherwise
-/// of the body.
+/// Returns the cell size (m) for `cells` cells along the first axis of the stated grid or body.
 pub(crate) fn cell_size(scene: &Scene, cells: u64) -> f64 {
     let (from, to) = scene.grid.as_ref().map_or((&scene.from, &scene.to), |(from, to)| (from, to));
     (to[0] - from[0]) / cells as f64
 }
 
-/// Returns the number of particles along each axis of a cell; `None` if `ppc` is not a power of an
-/// integer.
+/// Returns the particles along each axis of a cell; `None` if `ppc` is not a power of an integer.
 pub(crate) fn per_axis(ppc: u64, dimension: usize) -> Option<usize> {
     let root = libm::round(libm::pow(ppc as f64, 1.0 / dimension as f64)) as u64;
     (root > 0 && root.checked_pow(dimension as u32) == Some(ppc)).then_some(root as usize)

@@ -60,14 +60,12 @@ impl Path {
 }
 
 impl Source {
-    /// Returns the position of a value. For a list or a map, this is the position of its first
-    /// character.
+    /// Returns the position of a value; for a list or a map, the position of its first character.
     pub fn value_at(&self, path: &[Step]) -> Option<Place> {
         self.find(path, Sought::Value).map(|at| Place::of(self.text(), self.token_at(at)))
     }
 
-    /// Returns a diagnostic about the value at `path`, or about the whole file if there is no such
-    /// value.
+    /// Returns a diagnostic about the value at `path`; about the file if there is no such value.
     pub fn diagnostic_at(&self, path: &[Step], message: &str) -> Diagnostic {
         match self.value_at(path) {
             Some(place) => self.diagnostic(place, message),

@@ -198,8 +198,7 @@ impl<'a> Fault<'a> {
         })
     }
 
-    /// Returns the error for a named choice with unexpected or missing settings, or for several
-    /// choices.
+    /// Returns the error for unexpected or missing settings of a choice, or for several choices.
     fn wrong_settings(self, unexpected: &str, wanted: &str) -> Option<Diagnostic> {
         let (fault, name) = self.at_first_name();
         match (unexpected, wanted) {

@@ -305,8 +305,7 @@ impl Scanner<'_> {
             .with_label(&format!("no matching `{closing}`")))
     }
 
-    /// Returns the error for a bracket that is closed by a bracket of another kind, at the opening
-    /// bracket.
+    /// Returns the error, at the opening bracket, for a closing bracket of another kind.
     pub(crate) fn crossed(&self, start: usize, byte: u8) -> Diagnostic {
         let (bracket, byte) = (&self.text[start..=start], byte as char);
         let closing = Place::of(self.text, self.here());

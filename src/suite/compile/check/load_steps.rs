@@ -9,8 +9,7 @@ use crate::suite::scene::EffectName;
 use crate::suite::scene::load::ListedLoad;
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Refuses load steps together with keys that need a time, and quasi-static methods without load
-/// steps.
+/// Refuses load steps with keys that need a time, and quasi-static methods without load steps.
 ///
 /// # Errors
 /// A diagnostic at the key, with the reason.

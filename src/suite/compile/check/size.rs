@@ -91,8 +91,7 @@ fn vacant(
     Err(evaluator.diagnostic(path, &message).with_label(label))
 }
 
-/// Returns name and amount of the quantity that exceeds its limit; `None` if both are within the
-/// limit.
+/// Returns name and amount of a quantity that exceeds its limit; `None` if there is none.
 pub(crate) fn too_large(scene: &Scene, level: LevelPlan) -> Option<(&'static str, f64)> {
     let amounts = [("nodes", nodes(scene, level.h)), ("particles", particles(scene, level))];
     amounts.into_iter().find(|(_, amount)| *amount > MOST || amount.is_nan())
@@ -177,8 +176,7 @@ fn sets(
     Ok(())
 }
 
-/// Refuses an FEM reference that needs too much memory, because it stores its state at every
-/// instant.
+/// Refuses an FEM reference whose states at all instants need too much memory.
 fn reference(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
     let Some(fine) = &plan.reference else { return Ok(()) };
     let stored = fine.cells as f64 * plan.instants as f64;

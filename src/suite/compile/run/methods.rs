@@ -38,8 +38,7 @@ impl MethodDraft {
     }
 }
 
-/// Returns the first part of the method's name, and all settings in the order in which names list
-/// them.
+/// Returns the first part of the method's name, and its settings in the order of the name.
 fn settings(method: &Method) -> (&'static str, Vec<String>) {
     match *method {
         Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
@@ -166,8 +165,7 @@ pub(crate) fn methods(
     Ok(drafts)
 }
 
-/// Refuses an entry that combines `scheme: quasi_static` with keys of dynamics or with other
-/// schemes.
+/// Refuses an entry that combines `scheme: quasi_static` with keys or schemes of dynamics.
 fn refuse_keys_of_dynamics(
     evaluator: &Evaluator<'_>,
     entry: usize,

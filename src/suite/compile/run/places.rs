@@ -7,8 +7,7 @@ use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Maximum displacement of a particle as a share of the spacing, which is halfway to the next
-/// particle.
+/// Maximum displacement of a particle, as a share of the spacing: halfway to the next particle.
 const MOST: f64 = 0.5;
 
 /// Maximum random displacement as a share of the spacing if a face carries a load. With this limit,

@@ -156,8 +156,7 @@ fn with_step(
     Ok(LevelPlan { h, dt, ..level })
 }
 
-/// Refuses bodies whose particles form no lattice, because the reference is interpolated on a
-/// lattice.
+/// Refuses bodies whose particles form no lattice, because only lattices are interpolated.
 fn one_lattice(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -29,8 +29,7 @@ pub(crate) fn uniform(
     }
 }
 
-/// Whether a diagnostic states that a number cannot be computed because its formula contains a
-/// coordinate.
+/// Whether a diagnostic refuses the formula of a number because the formula has a coordinate.
 pub(crate) fn names_coordinate(diagnostic: &Diagnostic) -> bool {
     let names = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
     COORDINATES.iter().any(names)
@@ -78,8 +77,7 @@ fn not_positive(
     evaluator.unusable(path, text, &message, label)
 }
 
-/// Returns the reason why a part of the scene does not support a varying density; `None` if all
-/// parts do.
+/// Returns why a part of the scene does not support a varying density; `None` if all parts do.
 fn unsupported(scene: &Scene) -> Option<&'static str> {
     if scene.mapped.is_some() || scene.outline.as_ref().is_some_and(|o| o.ball().is_none()) {
         return Some("masses are integrated in a box or a round body only");

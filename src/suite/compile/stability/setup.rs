@@ -240,8 +240,7 @@ fn scales(
     Ok(Scales { speed, modulus, stable_below, unstable_above, centred, null_space })
 }
 
-/// Whether a requested quantity needs the null space of the grid, which is implemented for one body
-/// only.
+/// Whether a requested quantity needs the grid's null space, implemented for one body only.
 fn of_null_space(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

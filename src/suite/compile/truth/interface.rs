@@ -31,8 +31,7 @@ pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Resul
     Err(diagnostic.with_help("state a solution under `exact`, or bound what the run keeps"))
 }
 
-/// Checks the `problems` of all bodies with `check`, and the conditions on the faces between the
-/// bodies.
+/// Checks the `problems` of all bodies with `check`, and the conditions on their common faces.
 ///
 /// # Errors
 /// A diagnostic from `check`, a diagnostic about a violation (from `diagnostic`), or a diagnostic

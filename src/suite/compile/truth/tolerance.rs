@@ -5,8 +5,7 @@ use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::LinearisedSpec;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Default tolerance of an exact solution (relative residual), for rounding errors of second
-/// derivatives.
+/// Default tolerance of an exact solution (relative residual): rounding of second derivatives.
 pub(crate) const TOLERANCE: f64 = 1e-8;
 
 /// Maximum tolerance that a suite may state.

@@ -82,8 +82,7 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
     /// Returns the name in suites.
     fn name(&self) -> &'static str;
 
-    /// Returns the numbers for external solvers; empty if the name describes the condition
-    /// completely.
+    /// Returns the numbers for external solvers; empty if the name describes the condition fully.
     fn numbers(&self) -> LoadNumbers {
         LoadNumbers::default()
     }
@@ -137,8 +136,7 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         false
     }
 
-    /// Returns the reason why the condition cannot be combined with several bodies; `None` if it
-    /// can.
+    /// Returns why the condition cannot be combined with several bodies; `None` if it can.
     fn against_several_bodies(&self) -> Option<&'static str> {
         None
     }

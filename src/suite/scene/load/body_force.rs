@@ -9,8 +9,7 @@ use crate::suite::scene::numbers::{LoadNumbers, of_displacement, of_place_and_ti
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Maximum number of operations (with unrolled sums) of a formula that is precomputed for each
-/// position.
+/// Maximum number of operations, with unrolled sums, of a formula precomputed per position.
 const MOST_OPERATIONS: u64 = 5000;
 
 /// Force per unit mass (m/s2), formulas of the coordinates, t and the displacement.

@@ -33,8 +33,7 @@ macro_rules! loads {
 
         impl EffectName {
             /// Returns an example entry of `loads` with this effect and strength `s`, in
-            /// `dimension` dimensions. The load acts on the whole body, the face `right` or the set
-            /// `some`.
+            /// `dimension` dimensions. The load acts on the body, face `right` or set `some`.
             pub fn example(self, dimension: usize) -> String {
                 let vector = vec!["s*(1 + t)"; dimension].join(", ");
                 let vector = format!("[{vector}]");
