@@ -9,9 +9,9 @@ use super::number::Number;
 use super::program::{Instruction, Operand, read, run};
 use super::scope::Scope;
 
-/// Numbers of registers that fit on the stack. The small number is for short formulas, which then
-/// clear fewer registers. Formulas with more than the large number allocate.
+/// Number of stack registers of a short formula, which then need not clear many registers.
 const FEW: usize = 8;
+/// Number of stack registers of a longer formula. Formulas with even more registers allocate.
 const MANY: usize = 32;
 
 /// A formula with resolved names, ready for evaluation.

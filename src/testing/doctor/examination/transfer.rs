@@ -157,7 +157,7 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
     Ok(Examined::new(measured, Vec::new()))
 }
 
-/// A soft body that moves about its centre.
+/// Creates a soft body that moves about its centre.
 fn scene(kind: Kind, motion: SlowMotion) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.271, 0.391, 0.141], 4.0, 3.0);
     let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
@@ -191,8 +191,8 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
     Losses { first: share(0, 1), later: share(1, last) / (last - 1) as f64, unit }
 }
 
-/// Finding on the losses of a stretch, of a rotation, and of a stretched body an eighth of the
-/// size, compared with the averaging losses of each basis.
+/// Compares the losses of a stretch, of a rotation, and of a stretched body an eighth of the size
+/// with the averaging losses of each basis.
 fn cause(
     stretch: Losses,
     rotation: Losses,
@@ -278,7 +278,7 @@ fn cause(
     ))
 }
 
-/// Remark on averaging in the first step only.
+/// Returns a remark if the transfer averages in the first step only.
 fn first_step(stretch: Losses, rotation: Losses) -> Option<SolverFinding> {
     let first = stretch.first.max(rotation.first);
     (first > 10.0 * KEPT).then(|| {
