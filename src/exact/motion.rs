@@ -11,8 +11,7 @@ pub struct Motion {
     components: Vec<Formula>,
 }
 
-/// Derivatives of a motion at one point and time. Components and axes beyond the dimension are
-/// zero.
+/// Derivatives of a motion at one point and time; zero for components on missing axes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Derivatives {
     /// u (m).
@@ -109,8 +108,7 @@ pub trait Places: Send {
     fn set_time(&mut self, t: f64);
 
     /// Writes the derivatives at the position with this index in `labels`, bit-identical to those
-    /// of [`Motion::derivatives`]. Components and axes beyond the dimension are not written. Does
-    /// not allocate.
+    /// of [`Motion::derivatives`]. Components on missing axes are not written. Does not allocate.
     fn derivatives(&mut self, place: usize, into: &mut Derivatives);
 }
 

@@ -2,8 +2,8 @@
 //!
 //! The stress is the sum of the law's stress (with thermal expansion) and the initial stress.
 //!
-//! Runs share manufactured forces. The cases of a study differ in their methods, but most of them
-//! have the same particle positions and time steps.
+//! Runs share manufactured forces, because most cases of a study have the same particle positions
+//! and time steps.
 
 use super::condition::Face;
 use super::density::Density;

@@ -170,7 +170,7 @@ impl BodySum {
         self.size
     }
 
-    /// Computes the sum at time `t` (s); components beyond the dimension are zero.
+    /// Computes the sum at time `t` (s); components on missing axes are zero.
     pub fn at(&self, t: f64) -> [f64; 3] {
         self.with_sizes(&[t])[0].0
     }

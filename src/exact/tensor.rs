@@ -2,8 +2,8 @@
 
 use super::formula::Number;
 
-/// Stress or gradient. Components beyond the dimension D are zero, which means plane or uniaxial
-/// strain in fewer than three dimensions.
+/// Stress or gradient in D dimensions. Components on missing axes are zero, which means plane or
+/// uniaxial strain.
 pub(super) type Tensor<T, const D: usize = 3> = [[T; D]; D];
 
 /// Maximum number of terms in [`log_strain`] and of iterations in [`rotation`]. Sufficient for

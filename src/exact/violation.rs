@@ -21,7 +21,7 @@ pub struct Violation {
     pub unit: &'static str,
 }
 
-/// The largest violation relative to its tolerance. Among similar violations, the first one.
+/// The violation that is largest relative to its tolerance; the first of similar violations.
 #[derive(Debug, Default)]
 pub(super) struct LargestViolation(Option<Violation>);
 
@@ -39,8 +39,10 @@ impl LargestViolation {
         }
     }
 
+    /// Returns success if no condition is violated.
+    ///
     /// # Errors
-    /// The largest violation, if there is one.
+    /// The largest violation.
     pub(super) fn into_result(self) -> Result<(), Violation> {
         self.0.map_or(Ok(()), Err)
     }

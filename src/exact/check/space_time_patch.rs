@@ -23,7 +23,7 @@ pub(crate) struct SpaceTimePatch {
 }
 
 impl SpaceTimePatch {
-    /// Number of space dimensions.
+    /// Returns the number of space dimensions.
     pub(super) fn dimension(&self) -> usize {
         self.centre.len() - 1
     }

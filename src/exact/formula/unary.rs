@@ -92,7 +92,7 @@ fn cube(x: f64) -> f64 {
     x * x * x
 }
 
-/// Computes sqrt(1 - x^2), accurately also near 1 and -1.
+/// Computes sqrt(1 - x^2) without loss of accuracy near 1 and -1.
 fn root(x: f64) -> f64 {
     sqrt((1.0 - x) * (1.0 + x))
 }

@@ -18,7 +18,7 @@ pub struct Temperature {
     dimension: usize,
 }
 
-/// Temperature and its derivatives at one point and time; axes beyond the dimension are zero.
+/// Temperature and its derivatives at one point and time; zero along missing axes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TemperatureDerivatives {
     /// T (K).

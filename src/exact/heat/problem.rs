@@ -99,7 +99,7 @@ impl Conduction {
     }
 }
 
-/// The solution consists of temperature and displacement; the latter is zero for a body at rest.
+/// The solution is temperature and displacement. The displacement of a body at rest is zero.
 impl Truth for Conduction {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
         match &self.motion {

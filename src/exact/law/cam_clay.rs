@@ -24,8 +24,9 @@ use crate::exact::tensor::{Tensor, tensor};
 pub struct CamClayLaw {
     /// Slope M of the critical-state line.
     slope: f64,
-    /// Slopes of the swelling line (kappa) and the compression line (lambda).
+    /// Slope kappa of the swelling line.
     swelling: f64,
+    /// Slope lambda of the compression line.
     compression: f64,
     /// Ratio of moduli `G/K`.
     ratio: f64,

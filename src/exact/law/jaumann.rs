@@ -1,6 +1,6 @@
 //! Linear elasticity with the Jaumann rate in simple shear.
 //!
-//! In simple shear by gamma the spin is constant in gamma. The rate integrates to
+//! In simple shear by gamma, the spin per unit gamma is constant. The rate integrates to
 //! `tau12 = mu sin(gamma)`, `tau11 = -tau22 = mu (1 - cos(gamma))` (Dienes 1979): the shear stress
 //! oscillates.
 

@@ -185,7 +185,7 @@ impl Outline for Round {
         vec![all[..self.centre.len()].to_vec()]
     }
 
-    /// The volume per unit of the coordinates is r in the plane and r^2 in space.
+    /// Returns the point, and the volume per unit of the coordinates: r in the plane, r^2 in space.
     fn place(&self, _: usize, coordinates: &[f64]) -> (Vec<f64>, f64) {
         let (radius, height) = (coordinates[0], coordinates.get(2).copied().unwrap_or(0.0));
         let direction = direction(coordinates[1], height);

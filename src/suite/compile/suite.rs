@@ -30,8 +30,8 @@ impl Suite {
         Ok(Self { group: source.group(), fingerprint, ..suite? })
     }
 
-    /// The scene of the convergence study in `source`, without exact solution. Used to run solvers
-    /// with deliberate defects.
+    /// Compiles the scene of the convergence study in `source`, without exact solution. Used to run
+    /// solvers with deliberate defects.
     ///
     /// # Errors
     /// A [`Diagnostic`] with the position of the first error.

@@ -70,7 +70,7 @@ pub(crate) struct AnyMethodSpec {
     pub(crate) because: String,
 }
 
-/// The names of verdicts in suites.
+/// Returns the JSON schema of the verdict names in suites.
 #[cfg(feature = "schemas")]
 fn verdicts(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     let names = Verdict::ALL.map(|verdict| verdict.name().replace([' ', '-'], "_"));

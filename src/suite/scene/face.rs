@@ -15,7 +15,7 @@ pub struct SceneFace {
     pub name: &'static str,
     /// Axis of the face normal.
     pub axis: usize,
-    /// Whether the face is the one with the larger coordinate.
+    /// Whether this is the face with the larger coordinate.
     pub high: bool,
     /// Condition on the motion of the face.
     pub(crate) hold: Arc<dyn BoundaryCondition>,

@@ -67,8 +67,7 @@ impl<'a> ProgramBuilder<'a> {
             .help(format!("write `{name}*(...)` to multiply"))
     }
 
-    /// Returns suggestions for `name`: the closest known name, otherwise all variables and
-    /// constants.
+    /// Returns suggestions for `name`: the closest known name, or all variables and constants.
     fn instead(&self, frame: &Frame, name: &str) -> String {
         let known = frame.locals.iter().map(|(local, _)| *local);
         match (meant(name, known.chain(self.declared())), self.constants(name)) {

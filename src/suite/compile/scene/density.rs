@@ -29,7 +29,7 @@ pub(crate) fn uniform(
     }
 }
 
-/// Whether a diagnostic refuses the formula of a number because the formula has a coordinate.
+/// Whether `diagnostic` reports that a coordinate is an unknown name in the formula of a number.
 pub(crate) fn names_coordinate(diagnostic: &Diagnostic) -> bool {
     let names = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
     COORDINATES.iter().any(names)

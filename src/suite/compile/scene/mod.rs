@@ -67,7 +67,7 @@ fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), 
     Ok(())
 }
 
-/// Combines all `bodies` to a scene. A single body is the scene itself.
+/// Combines all `bodies` into one scene. A single body is the scene itself.
 fn together(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -73,7 +73,7 @@ pub(crate) trait BuildBoundary<const D: usize> {
 }
 
 in_every_dimension! {
-    /// [`BuildBoundary`] in every dimension.
+    /// Implementation of [`BuildBoundary`] in every dimension.
     BuildBoundaries: BuildBoundary
 }
 

@@ -117,7 +117,7 @@ pub(crate) trait BuildEffect<const D: usize> {
 }
 
 in_every_dimension! {
-    /// [`BuildEffect`] in every dimension.
+    /// Implementation of [`BuildEffect`] in every dimension.
     BuildEffects: BuildEffect
 }
 

@@ -218,9 +218,8 @@ fn cause(
     let defect = |name, cause| Some(SolverFinding::defect(name, seen.clone(), cause, look_at));
     let is_alike = |a: f64, b: f64| (a - b).abs() <= KEPT + NEAR * a.abs().max(b.abs());
     if stretch.later.abs() <= KEPT && rotation.later > KEPT {
-        // A transposed matrix loses twice as much as averaging. It does so from the second step on
-        // if the matrix starts at zero, and also in the first step if it starts with the velocity
-        // gradient.
+        // A transposed matrix loses twice as much as averaging: in every step if the matrix starts
+        // with the velocity gradient, and in every step except the first if it starts at zero.
         let averaged = averaging.iter().map(|l| l.first).fold(0.0, f64::max);
         let is_twice = rotation.later > 1.2 * rotation.first || rotation.first > 1.15 * averaged;
         return if is_twice {

@@ -65,7 +65,7 @@ pub(crate) trait BuildThermal<const D: usize> {
 }
 
 in_every_dimension! {
-    /// [`BuildThermal`] in every dimension.
+    /// Implementation of [`BuildThermal`] in every dimension.
     BuildThermals: BuildThermal
 }
 
