@@ -14,19 +14,20 @@ pub trait Condition: Debug + Send + Sync {
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation>;
 }
 
-/// A point of a face at one time, with the elementary requirements that make up conditions. Their
-/// number is small, because each residual needs a scale from the whole motion.
+/// A point of a face at one time, with the elementary requirements that make up conditions. There
+/// are only a few requirements, because each residual needs a scale from the whole motion.
 pub trait FacePoint {
-    /// Number of space dimensions.
+    /// Returns the number of space dimensions.
     fn dimension(&self) -> usize;
 
-    /// Axis of the face normal.
+    /// Returns the axis of the face normal.
     fn axis(&self) -> usize;
 
-    /// Value of a formula of the coordinates and t at this point and time.
+    /// Evaluates a formula of the coordinates and t at this point and time.
     fn value(&self, formula: &Formula) -> f64;
 
-    /// `J F^-T n`, the current area vector per reference area. In small-strain theory, this is n.
+    /// Returns `J F^-T n`, the current area vector per reference area, which is n for small
+    /// strains.
     fn present_area(&self) -> [f64; 3];
 
     /// Requires `u_i = 0`; `what` describes the face in messages.
@@ -48,8 +49,8 @@ pub trait FacePoint {
     fn traction(&self, i: usize, what: &str, given: f64) -> Result<(), Violation>;
 
     /// Requires u . n = 0 and no tension. The tangential traction must be `coefficient` times the
-    /// pressure, opposite to the velocity. If the face does not move, the traction must not exceed
-    /// this value.
+    /// pressure, opposite to the velocity. If the face does not move, the tangential traction must
+    /// be at most `coefficient` times the pressure.
     ///
     /// # Errors
     /// The first violation.

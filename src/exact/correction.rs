@@ -132,7 +132,7 @@ impl<'a> Line<'a> {
         self.problem.complete(&self.labels[node], now);
     }
 
-    /// Residual force (N/m3) at a node, where `now` is the motion at the time `t`.
+    /// Returns the residual force (N/m3) at a node, where `now` is the motion at the time `t`.
     fn residual(&self, node: usize, t: f64, now: &Derivatives) -> f64 {
         let (problem, label, i) = (self.problem, &self.labels[node], self.axis);
         let force = problem.force(label, problem.loaded(t), now)[i];
@@ -140,7 +140,7 @@ impl<'a> Line<'a> {
             + problem.density.at(label) * (force - now.acceleration[i])
     }
 
-    /// Requirement at an end of the line, where `now` is the motion at the time `t`.
+    /// Returns the requirement at an end of the line, where `now` is the motion at the time `t`.
     fn demand(&self, high: bool, t: f64, now: Derivatives) -> Demand {
         let face = |face: &&Face| face.axis == self.axis && face.high == high;
         let Some(face) = self.problem.faces.iter().find(face) else { return Demand::Other };
@@ -154,7 +154,7 @@ impl<'a> Line<'a> {
         point.demand.get()
     }
 
-    /// Nodal forces (Pa) of the residual at time `t`, and whether each end is held.
+    /// Computes the nodal forces (Pa) of the residual at time `t`, and whether each end is held.
     fn forces(&mut self, t: f64) -> Option<(Vec<f64>, [bool; 2])> {
         let last = self.elements;
         let weight = |node: usize| if node == 0 || node == last { 0.5 } else { 1.0 };
@@ -177,7 +177,7 @@ impl<'a> Line<'a> {
         Some((forces, held))
     }
 
-    /// The correction (m) of a state of rest, from equilibrium of the nodal forces.
+    /// Computes the correction (m) of a state of rest, from equilibrium of the nodal forces.
     fn at_rest(&mut self, t: f64) -> Option<Vec<f64>> {
         let (forces, held) = self.forces(t)?;
         // Without the reaction at the low end, the force in an element is minus the sum of all
@@ -203,7 +203,7 @@ impl<'a> Line<'a> {
         Some(d.into_iter().map(|d| d - shift).collect())
     }
 
-    /// The correction at time `until`, starting from zero.
+    /// Computes the correction at time `until`, starting from zero.
     fn in_motion(&mut self, until: f64, steps: usize) -> Option<FirstCorrection> {
         let (problem, last) = (self.problem, self.elements);
         let (dt, stiffness) = (until / steps as f64, problem.modulus() / self.h);
@@ -238,7 +238,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Root mean square over the body of a linearised motion's first correction (m).
+/// Root mean square (m), over the body, of the first correction of a linearised motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstCorrection {
     /// Value at the end of the run.
@@ -253,8 +253,8 @@ fn root_mean_square(values: &[f64]) -> f64 {
 }
 
 impl Problem {
-    /// The first correction of a linearised motion in a run until `t` (s). `None` for motions that
-    /// vary along several axes, for bodies with a rim and for several bodies.
+    /// Computes the first correction of a linearised motion in a run until `t` (s). Returns `None`
+    /// for motions that vary along several axes, for bodies with a rim and for several bodies.
     pub fn first_correction(&self, t: f64) -> Option<FirstCorrection> {
         let d = self.dimension();
         let varying: Vec<usize> = (0..d).filter(|axis| self.motion.varies_along(*axis)).collect();

@@ -14,10 +14,10 @@ pub struct Density {
     largest: f64,
 }
 
-/// Sampling points of a density along each axis, including ends and middle.
+/// Number of sampling points of a density along each axis, including ends and middle.
 const NODES: usize = 33;
 
-/// Quadrature panels along each axis, at whose points the density must be positive.
+/// Number of quadrature panels along each axis. The density must be positive at their points.
 const PANELS: usize = 4;
 
 /// Densities below this share of the largest density count as zero, because 1 - X^2 - Y^2 is not
@@ -40,8 +40,8 @@ impl From<f64> for Density {
 }
 
 impl Density {
-    /// The density given by `formula`, a formula of the coordinates. The body is the box from
-    /// `from` to `to`, or its part inside `outline`.
+    /// Creates a density from a `formula` of the coordinates. The body is the box from `from` to
+    /// `to`, or its part inside `outline`.
     ///
     /// # Errors
     /// A position inside the body where the density is not positive. On the rim it may be zero.
@@ -82,27 +82,27 @@ impl Density {
         Ok(Self { formula: Some(formula), smallest, largest })
     }
 
-    /// The density (kg/m3) if it is uniform.
+    /// Returns the density (kg/m3) if it is uniform.
     pub fn uniform(&self) -> Option<f64> {
         self.formula.is_none().then_some(self.largest)
     }
 
-    /// The formula of a varying density.
+    /// Returns the formula of a varying density.
     pub fn formula(&self) -> Option<&Formula> {
         self.formula.as_ref()
     }
 
-    /// Smallest density in the body or on its rim (kg/m3); it may be zero on the rim.
+    /// Returns the smallest density in the body or on its rim (kg/m3); it may be zero on the rim.
     pub fn smallest(&self) -> f64 {
         self.smallest
     }
 
-    /// Largest density in the body (kg/m3).
+    /// Returns the largest density in the body (kg/m3).
     pub fn largest(&self) -> f64 {
         self.largest
     }
 
-    /// The density (kg/m3) at `label`. Negative values, rounding on the rim, become zero.
+    /// Returns the density (kg/m3) at `label`; negative rounding errors on the rim become zero.
     pub fn at(&self, label: &[f64]) -> f64 {
         self.over(label)
     }
@@ -112,7 +112,7 @@ impl Density {
         Number::max(formula.eval(label), T::from(0.0))
     }
 
-    /// The density (kg/m3) at `label` and its gradient (kg/m4).
+    /// Returns the density (kg/m3) at `label` and its gradient (kg/m4).
     pub(super) fn with_slopes(&self, label: &[f64]) -> Slope<3> {
         let place: [Slope<3>; 3] = std::array::from_fn(|axis| {
             let value = label.get(axis).copied().unwrap_or(0.0);
@@ -121,8 +121,8 @@ impl Density {
         self.over(&place[..label.len()])
     }
 
-    /// Mass (kg) of the part of a body inside a box with the given centre and half-lengths (m).
-    /// Computed by quadrature over the points of the box for which `holds` returns true.
+    /// Computes the mass (kg) of the part of a body inside a box with the given centre and
+    /// half-lengths (m), by quadrature over the points of the box for which `holds` returns true.
     pub fn mass(&self, centre: &[f64], half: &[f64], holds: impl Fn(&[f64]) -> bool) -> f64 {
         let axes: Vec<(f64, f64)> = centre.iter().zip(half).map(|(x, h)| (x - h, x + h)).collect();
         let all = points(&axes, 1).into_iter().filter(|(label, _)| holds(label));
@@ -144,7 +144,7 @@ pub(super) mod tests {
         Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "Z"][..d]).unwrap()
     }
 
-    /// A density in the box from -1 to 1 along each of `d` axes.
+    /// Creates a density in the box from -1 to 1 along each of `d` axes.
     pub(crate) fn in_box(text: &str, d: usize) -> Result<Density, NoDensity> {
         Density::of_place(formula(text, d), &vec![-1.0; d], &vec![1.0; d], None)
     }
@@ -171,7 +171,7 @@ pub(super) mod tests {
         assert!(Density::of_place(cloud, &from, &to, Some(&disk)).is_ok());
     }
 
-    /// The integrals of 1 + 2 X Y^2 over the box from (0, 1) to (1, 3), and over its half X < 1/2.
+    /// Checks the integrals of 1 + 2 X Y^2 over the box from (0, 1) to (1, 3), and its left half.
     #[test]
     fn mass_is_the_integral_over_the_part_inside() {
         let density = Density { formula: Some(formula("1 + 2*X*Y^2", 2)), ..Density::from(1.0) };
@@ -181,7 +181,7 @@ pub(super) mod tests {
         assert!(half > 1.0 && half < 0.5 * mass);
     }
 
-    /// A one-dimensional gas cloud with p = rho^3/4, rho0^2 = 1 - X^2 and the motion x = a X.
+    /// Creates a 1-D gas cloud with p = rho^3/4, rho0^2 = 1 - X^2 and the motion x = a X.
     fn cloud(a: &str, density: &str) -> Problem {
         let mut problem = bar(&format!("({a} - 1)*X"), free());
         problem.faces[0].condition = free();
@@ -212,7 +212,7 @@ pub(super) mod tests {
     }
 
     /// In a solid, the density enters only the inertia, `b = u_tt - Div P/rho0`. The force at fixed
-    /// positions equals that at single points, and passes the check in weak form.
+    /// positions equals the force at single points, and passes the check in weak form.
     #[test]
     fn manufactured_force_has_the_density_of_the_place() {
         let density = Density::of_place(formula("2 + X*Y", 2), &[0.0; 2], &[1.0; 2], None).unwrap();
@@ -230,8 +230,8 @@ pub(super) mod tests {
         assert_relative_eq!(force[0] - uniform[0], change, max_relative = 1e-10);
     }
 
-    /// Kinetic and stored energy of a cloud with K = 1/4 and A = 1 in the plane: I a'^2/2 and C
-    /// I/(2 a^2), where C = 1 and I = pi/6.
+    /// Checks kinetic and stored energy of a cloud with K = 1/4 and A = 1 in the plane: I a'^2/2
+    /// and C I/(2 a^2), where C = 1 and I = pi/6.
     #[test]
     fn energies_of_a_round_cloud_have_their_closed_forms() {
         let plane = |text: &str| {
@@ -267,7 +267,7 @@ pub(super) mod tests {
         assert_relative_eq!(kinetic + stored, 0.261_799_388, max_relative = 1e-8);
     }
 
-    /// d/dX and d/dY of X^2 Y. On the rim, a negative density has zero value and slope.
+    /// Checks d/dX and d/dY of X^2 Y. On the rim, a negative density has zero value and slope.
     #[test]
     fn slopes_are_those_of_the_formula() {
         let density = Density { formula: Some(formula("X^2*Y", 2)), ..Density::from(1.0) };

@@ -13,7 +13,7 @@ impl Equation {
         self.small_strain_modulus().is_none()
     }
 
-    /// Cauchy stress (Pa), `sigma = P F^T / J`. In small-strain theory, this is P.
+    /// Returns the Cauchy stress (Pa), `sigma = P F^T / J`. In small-strain theory, this is P.
     pub fn cauchy(&self, grad: &Tensor<f64>) -> Tensor<f64> {
         let piola = self.piola(grad);
         if !self.is_finite() {
@@ -22,8 +22,8 @@ impl Equation {
         pushed_forward(&piola, grad)
     }
 
-    /// Current area vector of a unit area on a reference face with its normal along `axis`,
-    /// pointing outwards from the `high` or low side: `J F^-T N` (Nanson's formula). In
+    /// Returns the current area vector of a unit area on a reference face with its normal along
+    /// `axis`, pointing outwards from the `high` or low side: `J F^-T N` (Nanson's formula). In
     /// small-strain theory, this is N.
     pub fn present_area(&self, grad: &Tensor<f64>, axis: usize, high: bool) -> [f64; 3] {
         let outwards = if high { 1.0 } else { -1.0 };
@@ -35,7 +35,7 @@ impl Equation {
         std::array::from_fn(|i| outwards * cofactor(&f, i, axis))
     }
 
-    /// Div P (N/m3) from the displacement gradient and its derivatives,
+    /// Computes Div P (N/m3) from the displacement gradient and its derivatives,
     /// `second[k][a][b] = d2 u_k/dX_a dX_b`. The motion must vary only along the first `dimension`
     /// axes.
     pub fn divergence(
@@ -57,7 +57,7 @@ impl Equation {
         }
     }
 
-    /// Div P in D dimensions, from one evaluation of P with derivatives along all axes.
+    /// Computes Div P in D dimensions, from one evaluation of P with derivatives along all axes.
     fn divergence_in<const D: usize>(
         &self,
         grad: &Tensor<f64>,

@@ -9,7 +9,7 @@ use super::heat::TemperatureDerivatives;
 use super::law::Equation;
 use super::tensor::{Tensor, sum, tensor, unit};
 
-/// Thermal expansion.
+/// Thermal expansion, linear in the temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expansion {
     /// alpha (1/K).
@@ -18,7 +18,7 @@ pub struct Expansion {
     pub reference: f64,
 }
 
-/// theta and its gradient (1/m).
+/// Thermal stretch theta and its gradient (1/m).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Swelling {
     pub(super) theta: f64,
@@ -26,7 +26,7 @@ pub(super) struct Swelling {
 }
 
 impl Expansion {
-    /// The stretch at a temperature, and its gradient.
+    /// Returns the thermal stretch at a temperature, and its gradient.
     pub(super) fn swelling(&self, now: &TemperatureDerivatives) -> Swelling {
         Swelling {
             theta: 1.0 + self.coefficient * (now.value - self.reference),
@@ -35,7 +35,7 @@ impl Expansion {
     }
 }
 
-/// P (Pa) in D dimensions.
+/// Computes P (Pa) in D dimensions.
 fn piola<T: Number, const D: usize>(
     equation: &Equation,
     grad: &Tensor<T, D>,
@@ -52,7 +52,7 @@ fn piola<T: Number, const D: usize>(
     tensor(|i, j| area * stress[i][j])
 }
 
-/// P (Pa) of a body in `dimension` dimensions; the other components are zero.
+/// Computes P (Pa) of a body in `dimension` dimensions; the other components are zero.
 pub(super) fn swollen_piola(
     equation: &Equation,
     dimension: usize,
@@ -72,7 +72,7 @@ pub(super) fn swollen_piola(
     }
 }
 
-/// Cauchy stress (Pa) at F/theta. For small strains, this is P.
+/// Computes the Cauchy stress (Pa) at F/theta. For small strains, this is P.
 pub(super) fn swollen_cauchy(
     equation: &Equation,
     dimension: usize,
@@ -93,7 +93,7 @@ pub(super) fn swollen_cauchy(
     equation.cauchy(&elastic)
 }
 
-/// Div P (N/m3), like [`Equation::divergence`] but with thermal expansion.
+/// Computes Div P (N/m3), like [`Equation::divergence`] but with thermal expansion.
 pub(super) fn swollen_divergence(
     equation: &Equation,
     dimension: usize,

@@ -3,9 +3,9 @@
 /// Number of points per panel and axis; exact for polynomials of degree 15.
 const POINTS: usize = 8;
 
-/// Points in `-1 <= xi <= 1` and weights, whose sum is 2. The points are roots of the Legendre
-/// polynomial, found by Newton's method (sufficient for eight roots; an alternative is Golub &
-/// Welsch 1969).
+/// Returns points in `-1 <= xi <= 1` and weights, whose sum is 2. The points are roots of the
+/// Legendre polynomial, computed by Newton's method (sufficient for eight roots; an alternative is
+/// Golub & Welsch 1969).
 fn rule() -> [(f64, f64); POINTS] {
     let n = POINTS as f64;
     std::array::from_fn(|k| {
@@ -24,8 +24,8 @@ fn rule() -> [(f64, f64); POINTS] {
     })
 }
 
-/// Points and weights on the box with the intervals `axes`, each divided into `panels`. Without
-/// axes, a single point of weight 1.
+/// Returns points and weights on the box with the intervals `axes`, each divided into `panels`.
+/// Without axes, a single point of weight 1.
 pub(crate) fn points(axes: &[(f64, f64)], panels: usize) -> Vec<(Vec<f64>, f64)> {
     let rule = rule();
     let mut all = vec![(Vec::new(), 1.0)];

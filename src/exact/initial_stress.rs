@@ -1,11 +1,11 @@
 //! Initial stress in the reference configuration.
 //!
-//! For a finite-strain law, this is a second Piola-Kirchhoff stress S0, with `P = P_law(F) + F S0`.
-//! P is then the derivative of the energy `W_law(F) + S0 : E`, `E = (F^T F - I)/2`, which is
-//! invariant under rotation (Merodio, Ogden & Rodriguez 2013, Int. J. Non-Linear Mech. 56). Small
-//! waves along S0 satisfy `rho0 c^2 = M + S0`. For a small-strain law, `P = C : eps + S0`, which
-//! neglects `grad u S0` against `C : eps`. S0 must therefore be much smaller than the moduli, just
-//! as strains must be much smaller than 1.
+//! For a finite-strain law, the initial stress is a second Piola-Kirchhoff stress S0, with
+//! `P = P_law(F) + F S0`. P is then the derivative of the energy `W_law(F) + S0 : E`,
+//! `E = (F^T F - I)/2`, which is invariant under rotation (Merodio, Ogden & Rodriguez 2013, Int. J.
+//! Non-Linear Mech. 56). Small waves along S0 satisfy `rho0 c^2 = M + S0`. For a small-strain law,
+//! `P = C : eps + S0`, which neglects `grad u S0` compared with `C : eps`. S0 must therefore be
+//! much smaller than the moduli, just as strains must be much smaller than 1.
 
 use super::formula::{Formula, Number, Slope};
 use super::tensor::{Tensor, pushed_forward, sum, tensor, unit};
@@ -19,8 +19,8 @@ pub struct InitialStress {
 }
 
 impl InitialStress {
-    /// The field with these components: row, column and formula of the coordinates. Each component
-    /// is given on one side of the diagonal only.
+    /// Creates a field from its components: row, column and formula of the coordinates. Each
+    /// component is given on one side of the diagonal only.
     pub fn new(components: Vec<(usize, usize, Formula)>) -> Self {
         Self { components }
     }
@@ -30,12 +30,12 @@ impl InitialStress {
         self.components.is_empty()
     }
 
-    /// Row, column and formula of each stated component.
+    /// Returns row, column and formula of each stated component.
     pub fn components(&self) -> &[(usize, usize, Formula)] {
         &self.components
     }
 
-    /// S0 (Pa) at `label`.
+    /// Returns S0 (Pa) at `label`.
     pub fn at(&self, label: &[f64]) -> [[f64; 3]; 3] {
         self.over(label)
     }
@@ -49,13 +49,13 @@ impl InitialStress {
         stress
     }
 
-    /// Contribution to P (Pa), for finite or small strains.
+    /// Computes the contribution to P (Pa), for finite or small strains.
     pub(super) fn piola(&self, label: &[f64], grad: &Tensor<f64>, is_finite: bool) -> Tensor<f64> {
         let stress = self.at(label);
         if is_finite { pulled(grad, &stress) } else { stress }
     }
 
-    /// Contribution to the Cauchy stress (Pa), `F S0 F^T/J`.
+    /// Computes the contribution to the Cauchy stress (Pa), `F S0 F^T/J`.
     pub(crate) fn cauchy(
         &self,
         label: &[f64],
@@ -69,7 +69,7 @@ impl InitialStress {
         pushed_forward(&piola, grad)
     }
 
-    /// Contribution to Div P (N/m3), with `second[k][a][b] = d2 u_k/dX_a dX_b`.
+    /// Computes the contribution to Div P (N/m3), with `second[k][a][b] = d2 u_k/dX_a dX_b`.
     pub(super) fn divergence(
         &self,
         label: &[f64],
@@ -92,7 +92,7 @@ impl InitialStress {
     }
 }
 
-/// `F S0`.
+/// Computes `F S0`.
 fn pulled<T: Number>(grad: &Tensor<T>, stress: &Tensor<T>) -> Tensor<T> {
     tensor(|i, j| stress[i][j] + sum::<T, 3>(|k| grad[i][k] * stress[k][j]))
 }
@@ -120,7 +120,7 @@ mod tests {
         stress(&[(0, 0, "2*X"), (1, 1, "3 + Y"), (0, 1, "X*Y")], &["X", "Y"])
     }
 
-    /// At (2, 5): S0 = ((4, 10), (10, 8)), Div S0 = (2 + 2, 5 + 1).
+    /// The initial stress at (2, 5) is S0 = ((4, 10), (10, 8)), with Div S0 = (2 + 2, 5 + 1).
     #[test]
     fn its_part_of_the_force_agrees_with_a_hand_calculation() {
         let (s0, mut second) = (plane(), [[[0.0; 3]; 3]; 3]);
@@ -150,7 +150,7 @@ mod tests {
         assert_eq!(s0.cauchy(&[2.0, 5.0], &GRAD, false), s0.at(&[2.0, 5.0]));
     }
 
-    /// A problem with a varying initial stress, a manufactured motion and gravity.
+    /// Creates a problem with a varying initial stress, a manufactured motion and gravity.
     fn prestressed(dimension: usize) -> Problem {
         let components = [(0, 0, "3*sin(X)"), (1, 1, "X - Y"), (0, 1, "Y^2"), (2, 2, "X*Z")];
         let inside = components.into_iter().filter(|(_, j, _)| *j < dimension);
@@ -172,7 +172,7 @@ mod tests {
         assert_eq!(found[0], force);
     }
 
-    /// A stress without a balancing force is refused.
+    /// An initial stress without a balancing force is refused.
     #[test]
     fn a_truth_without_its_force_is_none() {
         let equation = SmallStrainLaw::new(10.0, 0.3).into();

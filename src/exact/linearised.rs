@@ -11,7 +11,7 @@ pub struct Linearised {
     pub because: String,
 }
 
-/// A residual `left` relative to `size`, in the same unit; 0 if the residual is 0.
+/// Returns a residual `left` divided by `size`, in the same unit; 0 if the residual is 0.
 pub(super) fn share(left: f64, size: f64) -> f64 {
     if left == 0.0 { 0.0 } else { left.abs() / size }
 }

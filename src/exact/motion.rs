@@ -11,8 +11,7 @@ pub struct Motion {
     components: Vec<Formula>,
 }
 
-/// Derivatives of a motion at one point and time. Components and axes beyond the dimension are
-/// zero.
+/// Derivatives of a motion at one point and time; zero for components on missing axes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Derivatives {
     /// u (m).
@@ -30,12 +29,12 @@ pub struct Derivatives {
 }
 
 impl Motion {
-    /// A motion with these components.
+    /// Creates a motion from its components.
     pub fn new(components: Vec<Formula>) -> Self {
         Self { components }
     }
 
-    /// The text of the formulas.
+    /// Returns the text of the formulas.
     pub fn source(&self) -> String {
         self.components.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
     }
@@ -50,22 +49,22 @@ impl Motion {
         self.components.iter().any(|component| component.reads(axis))
     }
 
-    /// Number of space dimensions.
+    /// Returns the number of space dimensions.
     pub fn dimension(&self) -> usize {
         self.components.len()
     }
 
-    /// Component i of the displacement.
+    /// Evaluates component i of the displacement.
     pub fn component(&self, i: usize, label: &[f64], t: f64) -> f64 {
         self.components[i].eval(&variables(label, t)[..=label.len()])
     }
 
-    /// The motion and its derivatives, by automatic differentiation in all coordinates and t.
+    /// Computes the motion and its derivatives, by automatic differentiation.
     pub fn derivatives(&self, label: &[f64], t: f64) -> Derivatives {
         with_dimension!(self.dimension(), D => self.over_jets::<{ D + 1 }>(label, t))
     }
 
-    /// The motion at `labels`. Terms that do not depend on time are computed in this call.
+    /// Prepares the motion at `labels`. Terms that do not depend on time are computed in this call.
     pub fn at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Jet<{ D + 1 }>>(labels, Jet::variable))
@@ -80,7 +79,7 @@ impl Motion {
         })
     }
 
-    /// The derivatives from jets of N variables: N - 1 coordinates, then time.
+    /// Computes the derivatives with jets of N variables: N - 1 coordinates, then time.
     fn over_jets<const N: usize>(&self, label: &[f64], t: f64) -> Derivatives {
         let seeds: [Jet<N>; N] =
             std::array::from_fn(|a| Jet::variable(if a + 1 == N { t } else { label[a] }, a));
@@ -103,14 +102,13 @@ impl Motion {
     }
 }
 
-/// A motion at fixed positions, for one time after another.
+/// A motion at fixed positions, evaluated at one time after another.
 pub trait Places: Send {
     /// Sets the time to `t` (s).
     fn set_time(&mut self, t: f64);
 
-    /// Writes the derivatives at the position with this index in `labels`. They are bit-identical
-    /// to those of [`Motion::derivatives`]. Components and axes beyond the dimension are not
-    /// written. Does not allocate.
+    /// Writes the derivatives at the position with this index in `labels`, bit-identical to those
+    /// of [`Motion::derivatives`]. Components on missing axes are not written. Does not allocate.
     fn derivatives(&mut self, place: usize, into: &mut Derivatives);
 }
 
@@ -140,7 +138,7 @@ impl<const N: usize> Places for Hoisted<Slope<N>> {
     }
 }
 
-/// The derivatives from the jets of all components; the last jet variable is time.
+/// Collects the derivatives from the jets of all components; the last jet variable is time.
 #[inline]
 fn gather<const N: usize>(components: impl Iterator<Item = Jet<N>>, all: &mut Derivatives) {
     let time = N - 1;
@@ -158,7 +156,7 @@ fn gather<const N: usize>(components: impl Iterator<Item = Jet<N>>, all: &mut De
     }
 }
 
-/// The coordinates followed by the time. Formulas use the first D + 1 numbers.
+/// Returns the coordinates followed by the time. Formulas use the first D + 1 numbers.
 pub fn variables(label: &[f64], t: f64) -> [f64; 4] {
     let mut all = [0.0; 4];
     all[..label.len()].copy_from_slice(label);
@@ -173,7 +171,7 @@ impl Truth for Motion {
         }
     }
 
-    /// Displacements at all `labels`, computed in batches of points.
+    /// Computes the displacements at all `labels` in batches of points.
     fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
         for (labels, into) in
             labels.chunks(d * NumberBatch::LEN).zip(into.chunks_mut(d * NumberBatch::LEN))
@@ -195,7 +193,7 @@ impl Truth for Motion {
         into.copy_from_slice(&self.derivatives(label, t).velocity[..self.dimension()]);
     }
 
-    /// `F = I + grad u`.
+    /// Writes `F = I + grad u`.
     fn deformation_gradient(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
         let mut f = self.derivatives(label, t).grad;
         (0..3).for_each(|i| f[i][i] += 1.0);

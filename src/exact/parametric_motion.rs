@@ -3,7 +3,7 @@
 use super::formula::{Formula, Jet};
 use super::gauss::points;
 
-/// Quadrature panels along each axis, by dimension.
+/// Number of quadrature panels along each axis, by dimension.
 const PANELS: [usize; 3] = [16, 8, 3];
 
 /// A displacement whose formulas contain a parameter as a variable.
@@ -34,8 +34,8 @@ pub struct ParametricState {
 }
 
 impl ParametricMotion {
-    /// The state at the reference position `label` (m) and time `t` (s), by differentiation of the
-    /// formulas.
+    /// Computes the state at the reference position `label` (m) and time `t` (s), by
+    /// differentiation of the formulas.
     pub fn at(&self, label: &[f64], t: f64) -> ParametricState {
         let mut variables: Vec<Jet<2>> = label.iter().map(|x| Jet::from(*x)).collect();
         variables.extend([Jet::variable(t, 0), Jet::variable(self.value, 1)]);
@@ -50,13 +50,13 @@ impl ParametricMotion {
         }
     }
 
-    /// States at time `t` (s) at the points of a quadrature over the body, with weights (m^D).
+    /// Computes states at time `t` (s) at quadrature points of the body, with weights (m^D).
     pub fn states(&self, t: f64) -> Vec<(ParametricState, f64)> {
         self.places().iter().map(|(label, weight)| (self.at(label, t), *weight)).collect()
     }
 
-    /// The factor c in `dv/dq = c v`, where v is the velocity at t = 0 and q the parameter. `None`
-    /// if the derivative is not such a multiple of v.
+    /// Returns the factor c in `dv/dq = c v`, where v is the velocity at t = 0 and q the parameter.
+    /// `None` if the derivative is not such a multiple of v.
     pub fn velocity_factor(&self) -> Option<f64> {
         let states = self.states(0.0);
         let sum = |product: &dyn Fn(&ParametricState) -> f64| -> f64 {

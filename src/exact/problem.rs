@@ -2,8 +2,8 @@
 //!
 //! The stress is the sum of the law's stress (with thermal expansion) and the initial stress.
 //!
-//! Runs share manufactured forces. The cases of a study differ in their methods, but most of them
-//! have the same particle positions and time steps.
+//! Runs share manufactured forces, because most cases of a study have the same particle positions
+//! and time steps.
 
 use super::condition::Face;
 use super::density::Density;
@@ -28,9 +28,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub struct Problem {
     /// Lowest corner of the body or its bounding box (m).
     pub from: Vec<f64>,
-    /// Highest corner (m).
+    /// Highest corner of the body or its bounding box (m).
     pub to: Vec<f64>,
-    /// Shape of the body, unless it is a box. Such a body has no faces.
+    /// Shape of the body, unless it is a box. Only boxes have faces.
     pub outline: Option<Arc<dyn Outline>>,
     /// Problems of the individual bodies, which are boxes; empty if there is one body.
     pub bodies: Vec<Self>,
@@ -52,8 +52,8 @@ pub struct Problem {
     pub heat: Option<Conduction>,
     /// All faces of the body.
     pub faces: Vec<Face>,
-    /// Default of initial conditions that are not stated: the initial state of the motion if true,
-    /// zero if false.
+    /// Whether initial conditions that are not stated are those of the motion; otherwise they are
+    /// zero.
     pub follows_motion: bool,
     /// Initial stress of the reference configuration.
     pub initial_stress: InitialStress,
@@ -65,7 +65,7 @@ pub struct Problem {
     pub until: f64,
     /// The stated solution, which must be checked.
     pub motion: Motion,
-    /// Maximum residual, relative to the terms of the condition.
+    /// Maximum residual of a condition, relative to its terms.
     pub tolerance: f64,
     /// The allowed residual of the law, if the motion solves only the linearised problem.
     pub linearised: Option<Linearised>,
@@ -74,12 +74,12 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Number of space dimensions.
+    /// Returns the number of space dimensions.
     pub fn dimension(&self) -> usize {
         self.from.len()
     }
 
-    /// Maximum residual of a condition that involves the law, relative to its terms.
+    /// Returns the maximum residual of a condition that involves the law, relative to its terms.
     pub(super) fn law_tolerance(&self) -> f64 {
         self.linearised.as_ref().map_or(self.tolerance, |linearised| linearised.tolerance)
     }
@@ -89,7 +89,7 @@ impl Problem {
         self.outline.as_ref().is_none_or(|outline| outline.holds(label))
     }
 
-    /// The problem of the body that contains `label`.
+    /// Returns the problem of the body that contains `label`.
     fn body_at(&self, label: &[f64]) -> &Self {
         let inside = |body: &&Self| {
             let ends = body.from.iter().zip(&body.to);
@@ -98,13 +98,15 @@ impl Problem {
         self.bodies.iter().find(inside).unwrap_or(self)
     }
 
-    /// Largest modulus at rest in the body (Pa), which bounds the stress for a given strain.
+    /// Returns the largest modulus at rest in the body (Pa): a bound on the stress for a given
+    /// strain.
     pub fn modulus(&self) -> f64 {
         self.equation.modulus() * self.equation.density_factor(self.density.largest())
     }
 
-    /// Largest speed of a small-strain wave in the body (m/s): `sqrt((lambda + 2 mu)/rho0)` for a
-    /// solid. A zero density on the rim gives infinity, unless the law depends on the density.
+    /// Returns the largest speed of a small-strain wave in the body (m/s):
+    /// `sqrt((lambda + 2 mu)/rho0)` for a solid. A zero density on the rim gives infinity, unless
+    /// the law depends on the density.
     pub fn wave_speed(&self) -> f64 {
         let speed = |density: f64| {
             let modulus = self.equation.modulus() * self.equation.density_factor(density);
@@ -114,12 +116,12 @@ impl Problem {
         speed(self.density.largest()).max(speed(self.density.smallest()))
     }
 
-    /// The time (s) of the loads that belong to the motion at time `t`.
+    /// Returns the time (s) of the loads that belong to the motion at time `t`.
     pub(super) fn loaded(&self, t: f64) -> f64 {
         if self.at_rest { self.until } else { t }
     }
 
-    /// The motion and its derivatives, including out-of-plane derivatives.
+    /// Computes the motion and its derivatives, including out-of-plane derivatives.
     pub fn derivatives(&self, label: &[f64], t: f64) -> Derivatives {
         let mut now = self.motion.derivatives(label, t);
         self.complete(label, &mut now);
@@ -131,7 +133,8 @@ impl Problem {
         complete_in_plane(self.plane, &self.equation, label, now);
     }
 
-    /// The manufactured body force (m/s2): `b = u_tt - Div P / rho0` minus the terms of the loads.
+    /// Computes the manufactured force (m/s2): `b = u_tt - Div P / rho0` minus the terms of the
+    /// loads.
     pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
         let now = self.derivatives(label, t);
         let balance = self.balance(label, t, &now);
@@ -141,7 +144,7 @@ impl Problem {
         })
     }
 
-    /// The total body force (m/s2) at `label` and `t`, where `now` are the motion's derivatives.
+    /// Computes the total body force (m/s2), where `now` contains the motion's derivatives.
     pub(super) fn force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         if self.manufactured {
             return self.balance(label, t, now);
@@ -152,7 +155,7 @@ impl Problem {
         })
     }
 
-    /// The body force that the motion requires, `u_tt - Div P / rho0`.
+    /// Computes the body force that the motion requires, `u_tt - Div P / rho0`.
     pub(super) fn balance(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         let (stress, density) = (self.divergence(label, t, now), self.density.at(label));
         std::array::from_fn(|i| now.acceleration[i] - stress[i] / density)
@@ -163,26 +166,26 @@ impl Problem {
         self.manufactured || self.terms.iter().any(|term| term.resists_imbalance())
     }
 
-    /// Component i of the stated forces (m/s2).
+    /// Returns component i of the stated forces (m/s2).
     fn stated(&self, i: usize, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
         self.uniform(i, t) + self.placed(i, label, t, u)
     }
 
-    /// Component i of the stated forces that are uniform in space (m/s2).
+    /// Returns component i of the stated forces that are uniform in space (m/s2).
     pub(super) fn uniform(&self, i: usize, t: f64) -> f64 {
         let uniform = self.terms.iter().filter(|term| term.is_uniform());
         uniform.fold(0.0, |sum, term| sum + term.stated(i, &[], t, &[0.0; 3]))
     }
 
-    /// Component i of the stated forces (m/s2) that depend on position or on the displacement `u`
-    /// (m).
+    /// Returns component i of the stated forces (m/s2) that depend on position or on the
+    /// displacement `u` (m).
     pub(super) fn placed(&self, i: usize, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
         let placed = self.terms.iter().filter(|term| !term.is_uniform());
         placed.fold(0.0, |sum, term| sum + term.stated(i, label, t, u))
     }
 
-    /// Component i of the forces that oppose the motion (m/s2); `stated` is the stated force
-    /// (m/s2).
+    /// Returns component i of the forces that oppose the motion (m/s2); `stated` is the stated
+    /// force (m/s2).
     pub(super) fn resistance(
         &self,
         i: usize,
@@ -197,7 +200,7 @@ impl Problem {
     }
 }
 
-/// The motion, with the stress from the law of the body at each position.
+/// The solution is the motion, with the stress from the law of the body at each position.
 impl Truth for Problem {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
         self.motion.displacement(label, t, into);
@@ -234,14 +237,14 @@ impl Truth for Problem {
 }
 
 impl Problem {
-    /// Thermal stretch at one point and time.
+    /// Returns the thermal stretch at one point and time.
     pub(super) fn swelling(&self, label: &[f64], t: f64) -> Option<Swelling> {
         let heat = self.heat.as_ref()?;
         let expansion = self.terms.iter().find_map(|term| term.expansion())?;
         Some(expansion.swelling(&heat.temperature.derivatives(label, t)))
     }
 
-    /// P (Pa), where `now` are the motion's derivatives.
+    /// Computes P (Pa), where `now` contains the motion's derivatives.
     pub(super) fn piola(&self, label: &[f64], t: f64, now: &Derivatives) -> Tensor<f64> {
         let piola = match self.swelling(label, t) {
             None => {
@@ -259,8 +262,8 @@ impl Problem {
         tensor(|i, j| piola[i][j] + initial[i][j])
     }
 
-    /// Cauchy stress (Pa) at the position `label` of this body, for the displacement gradient
-    /// `grad`.
+    /// Computes the Cauchy stress (Pa) at the position `label` of this body, for the displacement
+    /// gradient `grad`.
     pub(super) fn cauchy(&self, label: &[f64], grad: &Tensor<f64>) -> Tensor<f64> {
         let (sigma, factor) = (self.equation.cauchy(grad), self.factor_at(label));
         let sigma = tensor(|i, j| factor * sigma[i][j]);
@@ -271,7 +274,7 @@ impl Problem {
         tensor(|i, j| sigma[i][j] + initial[i][j])
     }
 
-    /// Div P (N/m3), where `now` are the motion's derivatives.
+    /// Computes Div P (N/m3), where `now` contains the motion's derivatives.
     pub(super) fn divergence(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         let slopes = (&now.grad, &now.second);
         let axes = if self.plane == PlaneState::Strain { self.dimension() } else { 3 };
@@ -291,8 +294,8 @@ impl Problem {
         std::array::from_fn(|i| force[i] + initial[i])
     }
 
-    /// Contribution of the law to Div P (N/m3), `f Div P1 + P1 grad f`, where P1 is the stress for
-    /// unit density and f the density factor.
+    /// Computes the contribution of the law to Div P (N/m3), `f Div P1 + P1 grad f`, where P1 is
+    /// the stress for unit density and f the density factor.
     fn divergence_of_law(
         &self,
         axes: usize,
@@ -312,12 +315,12 @@ impl Problem {
         })
     }
 
-    /// Density factor of the law's stresses and energies at `label`.
+    /// Returns the density factor of the law's stresses and energies at `label`.
     pub(super) fn factor_at(&self, label: &[f64]) -> f64 {
         self.equation.density_factor(self.density.at(label))
     }
 
-    /// Terms of Div P (N/m3) without derivatives in a body of revolution:
+    /// Computes the terms of Div P (N/m3) without derivatives in a body of revolution:
     /// `((P_rR - P_tT)/R, P_zR/R)` at the radius R (Malvern 1969, appendix II). Zero for other
     /// bodies.
     pub(super) fn hoop_force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
@@ -328,8 +331,8 @@ impl Problem {
         [(piola[0][0] - piola[2][2]) / radius, piola[1][0] / radius, 0.0]
     }
 
-    /// Ring length (m/rad) at `label`, which is 1 unless the body is one of revolution. Also the
-    /// hoop stress (Pa) that opposes each displacement component.
+    /// Returns the ring length (m/rad) at `label`, which is 1 unless the body is one of revolution.
+    /// Also returns the hoop stress (Pa) that opposes each displacement component.
     pub(super) fn ring(&self, label: &[f64], piola: &Tensor<f64>) -> (f64, [f64; 3]) {
         match self.plane {
             PlaneState::Axisymmetric => (label[0], [piola[2][2], 0.0, 0.0]),
@@ -338,7 +341,7 @@ impl Problem {
     }
 }
 
-/// Maximum number of stored `f64` (32 MiB). The largest built-in suite needs three quarters of it.
+/// Maximum number of stored `f64` (32 MiB); the largest built-in suite stores three quarters.
 const MOST: usize = 1 << 22;
 
 /// Cache of forces by positions and time, filled by the first run that needs them. If the cache is
@@ -357,7 +360,7 @@ struct Tables {
 }
 
 impl SharedForces {
-    /// Index of the set `places`; bit-identical sets have the same index.
+    /// Returns the index of the set `places`; bit-identical sets have the same index.
     pub(in crate::exact) fn number_of(&self, places: Vec<f64>) -> usize {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let bits = f64::to_bits;
@@ -371,7 +374,7 @@ impl SharedForces {
         })
     }
 
-    /// The stored forces at time `t` (s), if any.
+    /// Returns the stored forces at time `t` (s), if any.
     pub(in crate::exact) fn get(&self, places: usize, t: f64) -> Option<Arc<[f64]>> {
         let tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         tables.forces.get(&(places, t.to_bits())).cloned()
@@ -409,7 +412,7 @@ pub struct Forcing {
 }
 
 impl Forcing {
-    /// The force of `problem` at `labels` (m), with D numbers each.
+    /// Prepares the force of `problem` at `labels` (m), with D numbers each.
     pub fn new<'a>(problem: &Problem, labels: impl Iterator<Item = &'a [f64]>) -> Self {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let places = problem.motion.at_places(labels.iter().map(Vec::as_slice));

@@ -5,12 +5,12 @@
 pub struct Random(u64);
 
 impl Random {
-    /// The sequence for `seed`.
+    /// Creates the sequence for `seed`.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// A uniform number in (0, 1), excluding both ends.
+    /// Returns a uniform number in (0, 1), excluding both ends.
     pub fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -19,17 +19,17 @@ impl Random {
         (((z ^ (z >> 31)) >> 12) as f64 + 0.5) / (1u64 << 52) as f64
     }
 
-    /// A uniform number in (low, high).
+    /// Returns a uniform number in (low, high).
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// A random point in a box.
+    /// Returns a random point in a box.
     pub fn point(&mut self, from: &[f64], to: &[f64]) -> Vec<f64> {
         from.iter().zip(to).map(|(a, b)| self.between(*a, *b)).collect()
     }
 
-    /// A random point on the face of a box at the low or `high` end of `axis`.
+    /// Returns a random point on the face of a box at the low or `high` end of `axis`.
     pub fn on_face(&mut self, from: &[f64], to: &[f64], axis: usize, high: bool) -> Vec<f64> {
         let mut point = self.point(from, to);
         point[axis] = if high { to[axis] } else { from[axis] };

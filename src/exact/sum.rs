@@ -5,7 +5,7 @@ use super::gauss::points;
 use super::motion::Derivatives;
 use super::problem::Problem;
 
-/// Up to three components, and the size relative to which an error of their sum is measured.
+/// Up to three components of a sum, and the size to which an error of the sum is relative.
 type ValueAndSize = ([f64; 3], f64);
 
 /// A quantity and its size, per unit of reference volume or face area.
@@ -21,48 +21,48 @@ pub struct SumPoint<'a> {
 }
 
 impl SumPoint<'_> {
-    /// `rho0 |v|^2 / 2` (J/m3).
+    /// Returns `rho0 |v|^2 / 2` (J/m3).
     pub fn kinetic_energy(&self) -> f64 {
         let square: f64 = self.now.velocity.iter().map(|v| v * v).sum();
         0.5 * self.problem.density.at(self.label) * square
     }
 
-    /// Energy W with derivative P (J/m3); NaN for a law without energy.
+    /// Returns the energy W with derivative P (J/m3); NaN for a law without energy.
     pub fn stored_energy(&self) -> f64 {
         let energy = self.problem.equation.energy(&self.now.grad).unwrap_or(f64::NAN);
         self.problem.factor_at(self.label) * energy
     }
 
-    /// `rho0 v` (kg/(m2 s)).
+    /// Returns `rho0 v` (kg/(m2 s)).
     pub fn momentum(&self) -> [f64; 3] {
         let density = self.problem.density.at(self.label);
         self.now.velocity.map(|v| density * v)
     }
 
-    /// `rho0 x^2` about the origin, for each axis (kg/m).
+    /// Returns `rho0 x^2` about the origin, for each axis (kg/m).
     pub fn second_moment(&self) -> [f64; 3] {
         let density = self.problem.density.at(self.label);
         self.position().map(|x| density * x * x)
     }
 
-    /// `rho0 X^2` about the origin, for each axis (kg/m).
+    /// Returns `rho0 X^2` about the origin, for each axis (kg/m).
     pub fn reference_second_moment(&self) -> [f64; 3] {
         let density = self.problem.density.at(self.label);
         std::array::from_fn(|i| self.label.get(i).map_or(0.0, |x| density * x * x))
     }
 
-    /// Current position x (m); zero on missing axes.
+    /// Returns the current position x (m); zero on missing axes.
     fn position(&self) -> [f64; 3] {
         std::array::from_fn(|i| self.label.get(i).map_or(0.0, |x| x + self.now.u[i]))
     }
 
-    /// `x cross rho0 v` about the origin (kg/(m s)).
+    /// Returns `x cross rho0 v` about the origin (kg/(m s)).
     pub fn angular_momentum(&self) -> [f64; 3] {
         let (x, p) = (self.position(), self.momentum());
         [x[1] * p[2] - x[2] * p[1], x[2] * p[0] - x[0] * p[2], x[0] * p[1] - x[1] * p[0]]
     }
 
-    /// `P N` on a face (Pa); zero inside the body.
+    /// Returns `P N` on a face (Pa); zero inside the body.
     pub fn traction(&self) -> [f64; 3] {
         let Some(face) = self.face else { return [0.0; 3] };
         let outwards = if face.high { 1.0 } else { -1.0 };
@@ -108,8 +108,8 @@ struct SumSite {
     weight: f64,
 }
 
-/// Why a sum over a body has no exact value for comparison. Each message continues a sentence that
-/// starts with the name of the sum.
+/// Reason why a sum over a body has no exact value for comparison. Each message continues a
+/// sentence that starts with the name of the sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum SumError {
     /// The sum is zero at all times, so relative errors are undefined.
@@ -124,8 +124,8 @@ pub enum SumError {
 }
 
 impl BodySum {
-    /// The sum of `density` over a `region` of the body of `problem`, with enough quadrature points
-    /// for the whole run.
+    /// Creates the sum of `density` over a `region` of the body of `problem`, with enough
+    /// quadrature points for the whole run.
     ///
     /// # Errors
     /// If the sum is zero throughout the run, or if the quadrature does not converge.
@@ -165,18 +165,18 @@ impl BodySum {
         Err(SumError::NotConverged)
     }
 
-    /// Largest size of the sum during the run.
+    /// Returns the largest size of the sum during the run.
     pub fn size(&self) -> f64 {
         self.size
     }
 
-    /// The sum at time `t` (s); components beyond the dimension are zero.
+    /// Computes the sum at time `t` (s); components on missing axes are zero.
     pub fn at(&self, t: f64) -> [f64; 3] {
         self.with_sizes(&[t])[0].0
     }
 
-    /// The sum and its size at each of `times` (s). Terms that do not depend on time are computed
-    /// once for all of them.
+    /// Computes the sum and its size at each of `times` (s). Terms that do not depend on time are
+    /// computed once for all `times`.
     fn with_sizes(&self, times: &[f64]) -> Vec<ValueAndSize> {
         let mut sums = vec![([0.0; 3], 0.0); times.len()];
         for sites in self.sites.chunk_by(|a, b| a.body == b.body) {
@@ -202,7 +202,7 @@ impl BodySum {
     }
 }
 
-/// Quadrature points with `panels` on each axis of each body.
+/// Returns the quadrature points with `panels` on each axis of each body.
 fn sites(bodies: &[Problem], region: &SumRegion, panels: usize) -> Vec<SumSite> {
     let of_body = |(body, problem): (usize, &Problem)| match region {
         SumRegion::Body => inside(problem, panels)
@@ -225,7 +225,7 @@ fn intervals(problem: &Problem) -> Vec<(f64, f64)> {
     problem.from.iter().copied().zip(problem.to.iter().copied()).collect()
 }
 
-/// Positions and weights in the body.
+/// Returns the positions and weights in the body.
 fn inside(problem: &Problem, panels: usize) -> Vec<(Vec<f64>, f64)> {
     let Some(outline) = &problem.outline else { return points(&intervals(problem), panels) };
     let charts = outline.charts().into_iter().enumerate();
@@ -239,7 +239,7 @@ fn inside(problem: &Problem, panels: usize) -> Vec<(Vec<f64>, f64)> {
     charts.flat_map(on_chart).collect()
 }
 
-/// Positions and weights on a face of a box.
+/// Returns the positions and weights on a face of a box.
 fn on_face(problem: &Problem, face: &Face, panels: usize) -> Vec<(Vec<f64>, f64)> {
     let mut axes = intervals(problem);
     let (low, high) = axes.remove(face.axis);
@@ -269,7 +269,7 @@ mod tests {
         (value, value.iter().map(|component| component.abs()).sum())
     }
 
-    /// A bar with E = rho = 2 that oscillates between two walls.
+    /// Creates a bar with E = rho = 2 that oscillates between two walls.
     fn swinging() -> Problem {
         bar("sin(pi*X)*sin(pi*t)/100", fixed())
     }

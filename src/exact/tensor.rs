@@ -2,11 +2,12 @@
 
 use super::formula::Number;
 
-/// Stress or gradient. Components beyond the dimension D are zero, which means plane or uniaxial
-/// strain in fewer than three dimensions.
+/// Stress or gradient in D dimensions. Components on missing axes are zero, which means plane or
+/// uniaxial strain.
 pub(super) type Tensor<T, const D: usize = 3> = [[T; D]; D];
 
-/// Maximum number of terms of the series below, sufficient for stretches up to about ten.
+/// Maximum number of terms in [`log_strain`] and of iterations in [`rotation`]. Sufficient for
+/// stretches up to about ten.
 const MOST_TERMS: i32 = 1000;
 
 #[inline]
@@ -22,20 +23,20 @@ pub(super) fn tensor<T: Number, const D: usize>(
     tensor
 }
 
-/// The sum over all axes.
+/// Returns the sum of `term` over all axes.
 #[inline]
 pub(super) fn sum<T: Number, const D: usize>(term: impl Fn(usize) -> T) -> T {
     (1..D).fold(term(0), |sum, i| sum + term(i))
 }
 
-/// 1 on the diagonal, 0 elsewhere.
+/// Returns 1 on the diagonal, 0 elsewhere.
 #[inline]
 pub(super) fn unit<T: Number>(i: usize, j: usize) -> T {
     T::from(f64::from(u8::from(i == j)))
 }
 
-/// Cofactor of f_ij: `F^-T = cof(F)/det(F)`. In fewer than three dimensions, F is extended by ones
-/// on the diagonal.
+/// Computes the cofactor of f_ij: `F^-T = cof(F)/det(F)`. In fewer than three dimensions, F is
+/// extended by ones on the diagonal.
 #[inline]
 pub(super) fn cofactor<T: Number, const D: usize>(f: &Tensor<T, D>, i: usize, j: usize) -> T {
     match D {
@@ -50,26 +51,26 @@ pub(super) fn cofactor<T: Number, const D: usize>(f: &Tensor<T, D>, i: usize, j:
     }
 }
 
-/// det F, from its first row and the cofactors of that row.
+/// Computes det F from its first row and the cofactors of that row.
 #[inline]
 pub(super) fn det<T: Number, const D: usize>(f: &Tensor<T, D>, cofactor: &Tensor<T, D>) -> T {
     sum::<T, D>(|j| f[0][j] * cofactor[0][j])
 }
 
-/// The Cauchy stress `P F^T/J` for a given P, in the units of P.
+/// Computes the Cauchy stress `P F^T/J` for a given P, in the units of P.
 pub(super) fn pushed_forward(piola: &Tensor<f64>, grad: &Tensor<f64>) -> Tensor<f64> {
     let f: Tensor<f64> = tensor(|i, j| grad[i][j] + f64::from(u8::from(i == j)));
     let det: f64 = (0..3).map(|b| f[0][b] * cofactor(&f, 0, b)).sum();
     tensor(|i, j| (0..3).map(|k| piola[i][k] * f[j][k]).sum::<f64>() / det)
 }
 
-/// det F in a plane, from the displacement gradient.
+/// Computes det F in a plane from the displacement gradient.
 pub(super) fn area<T: Number>(grad: &Tensor<T, 2>) -> T {
     let f: Tensor<T, 2> = tensor(|i, j| grad[i][j] + unit(i, j));
     f[0][0] * f[1][1] - f[0][1] * f[1][0]
 }
 
-/// `det(I + grad) - 1`, from the invariants of grad, without cancellation for small values.
+/// Computes `det(I + grad) - 1` from the invariants of grad, without cancellation for small values.
 pub(super) fn dilation(grad: &Tensor<f64>) -> f64 {
     let minors: Tensor<f64> = tensor(|i, j| cofactor(grad, i, j));
     det(grad, &minors) + sum::<f64, 3>(|i| grad[i][i] + minors[i][i])
@@ -83,13 +84,13 @@ pub(super) fn product<T: Number, const D: usize>(
     tensor(|i, j| sum::<T, D>(|k| a[i][k] * b[k][j]))
 }
 
-/// The logarithmic strain `eps = ln(b)/2`, `b = F F^T`.
+/// Computes the logarithmic strain `eps = ln(b)/2`, `b = F F^T`.
 ///
-/// Computed from `tanh(eps) = X = (b - I)(b + I)^-1` by the series of the inverse function,
-/// `X + X^3/3 + X^5/5 + ...` (Higham 2008, *Functions of Matrices*, section 11.4). This avoids
-/// eigenvalues, which are not differentiable where they coincide. NaN if [`MOST_TERMS`] terms do
-/// not suffice. If the shear and its derivatives vanish, the strains are logarithms, which is
-/// faster.
+/// The strain follows from `tanh(eps) = X = (b - I)(b + I)^-1` by the series of the inverse
+/// function, `X + X^3/3 + X^5/5 + ...` (Higham 2008, *Functions of Matrices*, section 11.4). This
+/// avoids eigenvalues, which are not differentiable where they coincide. The result is NaN if
+/// [`MOST_TERMS`] terms do not suffice. If the shear and its derivatives vanish, the strains are
+/// logarithms, which is faster.
 pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     if !is_sheared(f) {
         return tensor(|i, j| if i == j { Number::ln(f[i][i]) } else { T::from(0.0) });
@@ -115,9 +116,10 @@ pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<
     tensor(|_, _| T::from(f64::NAN))
 }
 
-/// The rotation R of the polar decomposition `F = R U`, from Newton's iteration `R <- (R + R^-T)/2`
-/// starting at F (Higham 2008, *Functions of Matrices*, section 8.3). If the shear and its
-/// derivatives vanish, R is the identity. NaN if [`MOST_TERMS`] iterations do not suffice.
+/// Computes the rotation R of the polar decomposition `F = R U` by Newton's iteration
+/// `R <- (R + R^-T)/2`, starting at F (Higham 2008, *Functions of Matrices*, section 8.3). If the
+/// shear and its derivatives vanish, R is the identity. The result is NaN if [`MOST_TERMS`]
+/// iterations do not suffice.
 pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     if !is_sheared(f) && (0..D).all(|i| f[i][i].value() > 0.0) {
         return tensor(unit);

@@ -7,8 +7,8 @@ use std::fmt::Debug;
 /// The terms of a load in the equation of motion, `rho0 u_tt = Div P + rho0 b`, and in the check of
 /// an exact solution. Each load implements only the methods it needs.
 pub trait Term: Debug + Send + Sync {
-    /// Component i of the stated force per unit mass (m/s2) at the position `label` (m) and time
-    /// `t` (s), for the displacement `u` (m).
+    /// Returns component i of the stated force per unit mass (m/s2) at the position `label` (m) and
+    /// time `t` (s), for the displacement `u` (m).
     fn stated(&self, _i: usize, _label: &[f64], _t: f64, _u: &[f64; 3]) -> f64 {
         0.0
     }
@@ -35,8 +35,8 @@ pub trait Term: Debug + Send + Sync {
         false
     }
 
-    /// One component of a force that opposes the motion (m/s2), from the same component of the
-    /// velocity (m/s) and of the unbalanced force, `Div P/rho0 + b` (m/s2).
+    /// Returns one component of a force that opposes the motion (m/s2), from the same component of
+    /// the velocity (m/s) and of the unbalanced force, `Div P/rho0 + b` (m/s2).
     fn resistance(&self, _t: f64, _velocity: f64, _unbalanced: &dyn Fn() -> f64) -> f64 {
         0.0
     }
@@ -46,18 +46,18 @@ pub trait Term: Debug + Send + Sync {
         false
     }
 
-    /// Thermal expansion, if any.
+    /// Returns the thermal expansion, if any.
     fn expansion(&self) -> Option<Expansion> {
         None
     }
 
-    /// Index of a rim in [`Outline::rims`](super::Outline::rims) and the pressure on it (Pa, per
-    /// current area), a formula of the coordinates and t.
+    /// Returns the index of a rim in [`Outline::rims`](super::Outline::rims) and the pressure on it
+    /// (Pa, per current area), a formula of the coordinates and t.
     fn pressed_rim(&self) -> Option<(usize, &Formula)> {
         None
     }
 
-    /// A region and its prescribed velocity (m/s), formulas of the coordinates and t.
+    /// Returns a region and its prescribed velocity (m/s), formulas of the coordinates and t.
     fn driven(&self) -> Option<(&Region, &[Formula])> {
         None
     }
@@ -80,7 +80,7 @@ impl Region {
         label.iter().zip(&self.from).zip(&self.to).all(|((x, from), to)| (from..=to).contains(&x))
     }
 
-    /// The corners of the intersection with a body from `from` to `to`.
+    /// Returns the corners of the intersection with a body from `from` to `to`.
     pub fn within(&self, from: &[f64], to: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let low = self.from.iter().zip(from).map(|(a, b)| a.max(*b));
         let high = self.to.iter().zip(to).map(|(a, b)| a.min(*b));

@@ -13,7 +13,7 @@ use crate::subject::PlaneState;
 use rstest::rstest;
 use std::sync::Arc;
 
-/// The momentum balance in weak form only.
+/// Checks only the momentum balance in weak form.
 fn momentum(problem: &Problem) -> Result<(), Violation> {
     super::check::weak::momentum(problem, &Survey::new(problem))
 }
@@ -94,12 +94,12 @@ where
     }
 }
 
-/// A face that does not move.
+/// Creates the condition of a face that does not move.
 pub(super) fn fixed() -> Arc<dyn Condition> {
     Demands::condition(|point| (0..point.dimension()).try_for_each(|i| point.held(i, "fixed")))
 }
 
-/// A free face.
+/// Creates the condition of a free face.
 pub(super) fn free() -> Arc<dyn Condition> {
     Demands::condition(|point| {
         (0..point.dimension()).try_for_each(|i| point.traction(i, "free", 0.0))
@@ -163,7 +163,7 @@ fn a_sound_motion_passes_whatever_happens_across(
     Problem { plane, equation, ..ring() }.check().unwrap();
 }
 
-/// The wave of [`held`], with the first coordinate from 1 to 2.
+/// Creates the wave of [`held`], with the first coordinate from 1 to 2.
 fn ring() -> Problem {
     Problem { from: vec![1.0, 0.0], to: vec![2.0, 1.0], ..held(2) }
 }
@@ -245,7 +245,7 @@ fn forces_that_are_shared_have_the_same_bits(#[values(1, 2, 3)] dimension: usize
     }
 }
 
-/// A bar from 0 to 1 with c = 1 and a fixed left end.
+/// Creates a bar from 0 to 1 with c = 1 and a fixed left end.
 pub(super) fn bar(displacement: &str, right: Arc<dyn Condition>) -> Problem {
     let face = |name, high, condition| Face { name, axis: 0, high, period: 1.0, condition };
     Problem {
@@ -286,8 +286,8 @@ fn the_stress_of_several_bodies_is_that_of_each() {
     }
 }
 
-/// A stretched and sheared plate with nu = 0 and F = ((1, 0.2 t), (0, 1 + 0.3 t)). The correct
-/// condition for its top is P N = mu (F - F^-T) N.
+/// Creates a stretched and sheared plate with nu = 0 and F = ((1, 0.2 t), (0, 1 + 0.3 t)). The
+/// correct condition for its top is P N = mu (F - F^-T) N.
 fn sheared(top: Arc<dyn Condition>) -> Problem {
     let names = ["X", "Y", "t"];
     let face = |name, axis, high, condition| Face { name, axis, high, period: 1.0, condition };
@@ -352,7 +352,7 @@ fn a_pressure_acts_on_the_present_area() {
     assert!(found.condition.contains("side is under pressure, traction in X"), "{found}");
 }
 
-/// `u_tt + 2 u_t = u_XX`.
+/// The bar satisfies `u_tt + 2 u_t = u_XX`.
 #[test]
 fn damping_is_a_force_in_the_equation_of_motion() {
     let wave = "sin(pi*X)*exp(-t)*sin(sqrt(pi^2 - 1)*t)";
@@ -392,7 +392,7 @@ fn local_damping_opposes_the_motion_with_a_share_of_the_other_forces() {
     assert!(weighed.check().is_err());
 }
 
-/// A hanging bar that is in equilibrium only with the load at the end of the run.
+/// A hanging bar is in equilibrium only with the load at the end of the run.
 #[test]
 fn an_equilibrium_is_one_with_the_loads_at_the_end() {
     let hanging = Problem {
@@ -415,9 +415,8 @@ fn an_equilibrium_is_one_with_the_loads_at_the_end() {
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
-/// A pipe under internal pressure that is free outside:
-/// `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`. The residual traction on the inner rim counts,
-/// although the outer rim has none.
+/// A pipe under internal pressure is free outside: `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`. The
+/// residual traction on the inner rim counts, although the outer rim has none.
 #[test]
 fn what_is_left_is_the_largest_of_all_rims() {
     let names = ["X", "Y", "t"];
@@ -445,7 +444,7 @@ fn what_is_left_is_the_largest_of_all_rims() {
     assert!(left > 0.1, "{left}");
 }
 
-/// A column that is sheared along its axis, with different `P_zR` and `P_Rz`. The hoop terms of the
+/// A column is sheared along its axis, with different `P_zR` and `P_Rz`. The hoop terms of the
 /// pointwise equation and of the weak form agree.
 #[test]
 fn large_shear_about_an_axis_balances_in_weak_form() {

@@ -24,7 +24,7 @@ pub trait Truth: Send + Sync {
         false
     }
 
-    /// Temperature (K); `None` if the solution does not define it.
+    /// Returns the temperature (K); `None` if the solution does not define it.
     fn temperature(&self, label: &[f64], t: f64) -> Option<f64> {
         let _ = (label, t);
         None

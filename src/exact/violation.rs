@@ -21,7 +21,7 @@ pub struct Violation {
     pub unit: &'static str,
 }
 
-/// The largest violation relative to its tolerance. Among similar violations, the first one.
+/// The violation that is largest relative to its tolerance; the first of similar violations.
 #[derive(Debug, Default)]
 pub(super) struct LargestViolation(Option<Violation>);
 
@@ -39,21 +39,23 @@ impl LargestViolation {
         }
     }
 
+    /// Returns success if no condition is violated.
+    ///
     /// # Errors
-    /// The largest violation, if there is one.
+    /// The largest violation.
     pub(super) fn into_result(self) -> Result<(), Violation> {
         self.0.map_or(Ok(()), Err)
     }
 }
 
 impl Violation {
-    /// Difference divided by the allowed difference.
+    /// Returns the difference divided by the allowed difference.
     fn excess(&self) -> f64 {
         self.accepted_by(1.0).unwrap_or(0.0)
     }
 
-    /// The tolerance with which the solution of a problem with this `tolerance` would be accepted,
-    /// if the tolerance is decisive.
+    /// Returns the tolerance with which the solution of a problem with this `tolerance` would be
+    /// accepted, if the tolerance is decisive.
     pub fn accepted_by(&self, tolerance: f64) -> Option<f64> {
         Some(tolerance * ((self.found - self.expected?).abs() / self.allowed?))
     }
@@ -85,7 +87,7 @@ impl fmt::Display for Violation {
     }
 }
 
-/// Fixed-point notation with six decimals for ordinary magnitudes, otherwise an exponent.
+/// Formats a coordinate with six decimals for ordinary magnitudes, otherwise with an exponent.
 fn coordinate(value: f64) -> String {
     let plain = value == 0.0 || (1e-3..1e6).contains(&value.abs());
     if plain { format!("{value:.6}") } else { format!("{value:.6e}") }

@@ -7,17 +7,17 @@ use std::path::Path;
 /// root of the repository.
 const FILES: &[(&str, &str, &str)] = include!(concat!(env!("OUT_DIR"), "/suites.rs"));
 
-/// Names of the embedded suites, sorted.
+/// Returns the names of the embedded suites, sorted.
 pub fn names() -> impl Iterator<Item = &'static str> {
     FILES.iter().map(|(name, ..)| *name)
 }
 
-/// Names of the embedded suites with their paths from the repository root, sorted by name.
+/// Returns names and paths (from the repository root) of the embedded suites, sorted by name.
 pub fn paths() -> impl Iterator<Item = (&'static str, &'static Path)> {
     FILES.iter().map(|(name, path, _)| (*name, Path::new(*path)))
 }
 
-/// The embedded suite `name`, if it exists.
+/// Returns the embedded suite `name`, if it exists.
 pub fn source(name: &str) -> Option<Result<Source, Diagnostic>> {
     let (_, path, text) = FILES.iter().find(|(found, ..)| *found == name)?;
     Some(Source::from_text(*path, *text))

@@ -19,8 +19,8 @@ const STEP: f64 = 1e-5;
 /// Maximum difference step, relative to the length or time over which the motion varies.
 const SHARE: f64 = 1e-3;
 
-/// Difference step (s or m) over an `extent`. `largest` contains the largest value of a quantity
-/// and of its derivatives, in ascending order of differentiation.
+/// Returns the difference step (s or m) over an `extent`. `largest` contains the largest values of
+/// a quantity and of its derivatives, in ascending order of differentiation.
 pub(crate) fn step(extent: f64, largest: &[f64]) -> f64 {
     let scales = largest.windows(2).map(|pair| SHARE * (pair[0] / pair[1]));
     scales.filter(|scale| *scale > 0.0).fold(STEP * extent, f64::min)
@@ -65,8 +65,8 @@ fn differences(problem: &Problem, event: &Event, sizes: &Magnitudes) -> Result<(
         let allowed = DIFFERENCE_TOLERANCE * speed;
         let slope = (high - low) / (2.0 * step);
         event.judge(allowed, name.clone(), (slope, all.velocity[i]), "m/s")?;
-        // The second difference is inaccurate: u is divided by step^2, and its rounding error is
-        // 1e-16 times its own terms, such as the coordinates in X*(cos(w*t) - 1).
+        // The second difference is inaccurate, because u is divided by step^2. The rounding error
+        // of u is 1e-16 times the terms of its formula, such as X*(cos(w*t) - 1).
         let known = 1e-13 * (low.abs() + mid.abs() + high.abs()) + 1e-15 * largest_coordinate;
         let rounding = known / (step * step);
         let allowed = DIFFERENCE_TOLERANCE * acceleration + rounding;

@@ -29,7 +29,7 @@ impl Event {
         Err(self.violation(condition, Some(expected), found, Some(allowed), unit))
     }
 
-    /// Refuses `found` unless it is a number of at most `most + allowed`.
+    /// Refuses a value `found` that is greater than `most + allowed`, infinite or NaN.
     pub(crate) fn judge_most(
         &self,
         allowed: f64,
@@ -58,7 +58,7 @@ impl Event {
     }
 }
 
-/// The largest of some magnitudes. NaN if any is NaN, so that every later comparison fails.
+/// Returns the largest magnitude; NaN if any is NaN, which makes every later comparison fail.
 pub(crate) fn greatest(magnitudes: impl Iterator<Item = f64>) -> f64 {
     magnitudes.fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f64::max(a, b) })
 }
@@ -67,14 +67,14 @@ pub(crate) fn largest(values: &[f64; 3]) -> f64 {
     values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
 }
 
-/// Number of events in the body and the run, if terms are large only in a small part of them.
+/// Number of events over the whole body and run, if large terms occur only in a small part.
 pub(crate) const EVENTS: usize = 4096;
 
-/// Number of events on a face, or on another part with fewer dimensions, if terms are large only in
-/// a small part of the body and the run.
+/// Number of events on a face or on another part with fewer dimensions, if large terms occur only
+/// in a small part of body and run.
 pub(crate) const FACE_EVENTS: usize = 1024;
 
-/// Divisor of [`EVENTS`] and [`FACE_EVENTS`] if terms are large in much of the body and the run.
+/// Divisor of [`EVENTS`] and [`FACE_EVENTS`] if terms are large in a large part of body and run.
 pub(crate) const BROAD: usize = 8;
 
 /// A box in space and time.
@@ -86,8 +86,8 @@ pub(crate) struct SpaceTimeBox<'a> {
 }
 
 impl SpaceTimeBox<'_> {
-    /// At most `count` events, each at a random position in one cell of a regular raster. Axes of
-    /// zero length, and axes along which nothing `varies`, are not divided.
+    /// Returns at most `count` events, each at a random position in one cell of a regular raster.
+    /// Axes of zero length, and axes along which nothing `varies`, are not divided.
     pub(crate) fn spread(
         &self,
         count: usize,
@@ -126,7 +126,7 @@ pub(crate) struct OnFace {
 }
 
 impl OnFace {
-    /// The low or the `high` face of a box; the normal is along `axis`.
+    /// Returns the corners of the low or `high` face of a box, whose normal is along `axis`.
     pub(crate) fn new(from: &[f64], to: &[f64], axis: usize, high: bool) -> Self {
         let (mut from, mut to) = (from.to_vec(), to.to_vec());
         if high {
@@ -137,7 +137,7 @@ impl OnFace {
         Self { from, to }
     }
 
-    /// The space-time box of the face, with the times of `body`.
+    /// Returns the space-time box of the face, with the times of `body`.
     pub(crate) fn extent<'a>(&'a self, body: &SpaceTimeBox<'_>) -> SpaceTimeBox<'a> {
         SpaceTimeBox { from: &self.from, to: &self.to, start: body.start, end: body.end }
     }

@@ -92,8 +92,9 @@ mod tests {
     use rstest::rstest;
     use std::sync::Arc;
 
-    /// A layer of height 1 under gravity (3, -4), with shear modulus 100, density 1 and lambda = 0.
-    /// It sticks to the wall or slides with friction; shear and pressure increase towards the wall.
+    /// Creates a layer of height 1 under gravity (3, -4), with shear modulus 100, density 1 and
+    /// lambda = 0. The layer sticks to the wall or slides with friction; shear and pressure
+    /// increase towards the wall.
     fn layer(coefficient: f64, [x, y]: [&str; 2]) -> Problem {
         let bind = |text: &str, names: &[&str]| {
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), names).unwrap()
@@ -125,9 +126,10 @@ mod tests {
         }
     }
 
-    /// Settled under its own weight; the pressure at the wall is 4.
+    /// Vertical displacement of a layer settled under its own weight; the wall pressure is 4.
     const SETTLED: &str = "4/200*(Y^2/2 - Y)";
-    /// Friction with mu = 1/2 balances 2 of the tangential force of 3.
+    /// Displacement along the wall of a sliding layer. The tangential force is 3, and the friction
+    /// is 2 (mu = 1/2).
     const SLIDES: &str = "t^2/2 - 2/100*(Y^2/2 - Y)";
     const STAYS: &str = "-3/100*(Y^2/2 - Y)";
 

@@ -57,8 +57,8 @@ pub fn meets(
     found.into_result()
 }
 
-/// The motion on a face of `problem` at `event`, expanded about a point at the distance `inside`
-/// (m) from the face along `axis`.
+/// Returns the motion on a face of `problem` at `event`, expanded about a point at the distance
+/// `inside` (m) from the face along `axis`.
 fn on_face(problem: &Problem, event: &Event, axis: usize, inside: f64) -> Derivatives {
     let mut label = event.label.clone();
     label[axis] -= inside;
@@ -86,7 +86,7 @@ impl BodyPair<'_> {
         format!("where two bodies meet along {}, {what}", AXES[self.axis])
     }
 
-    /// The motion of both bodies on their faces.
+    /// Returns the motion of both bodies on their faces.
     fn both(&self, event: &Event) -> [Derivatives; 2] {
         let Self { one, other, axis, .. } = *self;
         let inside = |problem: &Problem| INSIDE * (problem.to[axis] - problem.from[axis]);
@@ -95,7 +95,7 @@ impl BodyPair<'_> {
         [on_face(one, event, axis, inside(one)), on_face(other, &opposite, axis, -inside(other))]
     }
 
-    /// P e on both faces, where e is the unit vector along the axis.
+    /// Returns P e on both faces, where e is the unit vector along the axis.
     fn forces(&self, event: &Event, here: &Derivatives, there: &Derivatives) -> [[f64; 3]; 2] {
         let of = |problem: &Problem, face: f64, now: &Derivatives| {
             let mut label = event.label.clone();
@@ -165,7 +165,7 @@ mod tests {
     use rstest::rstest;
     use std::sync::Arc;
 
-    /// Bars from 0 to 1 and from 1 to 2, with rho = c = 1.
+    /// Creates bars from 0 to 1 and from 1 to 2, with rho = c = 1.
     fn bars(displacement: &str) -> [Problem; 2] {
         let expr = Expr::parse(displacement).unwrap();
         let bind = || Formula::bind(&expr, &Scope::new(), &["X", "t"]).unwrap();
@@ -204,10 +204,10 @@ mod tests {
         meets(one, other, 0, friction, &surveys[0].largest)
     }
 
-    /// The bars collide with velocity 1/100 and separate after time 2.
+    /// Displacement of bars that collide with velocity 1/100 and separate after time 2.
     const BOUNCE: &str =
         "sign(1 - X)/100*(t - max(0, t - abs(X - 1)) - max(0, t - (2 - abs(X - 1))))";
-    /// The bars stay together and vibrate as one bar.
+    /// Displacement of bars that stay together and vibrate as one bar.
     const STICK: &str = "cos(pi*X/2)*sin(pi*t/2)/100";
 
     #[rstest]
@@ -235,7 +235,7 @@ mod tests {
         }
     }
 
-    /// Plates that are pressed together by 1/100 and slide along their common face with separate
+    /// The plates are pressed together by 1/100 and slide along their common face with different
     /// velocities. For mu = 0.3, friction shears them by 3/500.
     #[rstest]
     #[case::together(["t/10", "t/10"], "")]

@@ -59,8 +59,8 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
     found.into_iter().try_for_each(LargestViolation::into_result)
 }
 
-/// Component i of an initial condition: the `stated` value if any, otherwise the value of the
-/// motion (which must be finite) or zero.
+/// Returns component i of an initial condition: the `stated` value, if any. Otherwise the value of
+/// the `motion` if the problem follows the motion, or zero.
 fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion: f64) -> f64 {
     if stated.is_empty() && problem.follows_motion {
         return motion;
@@ -129,7 +129,7 @@ pub(crate) fn tractions_on_rims(problem: &Problem, survey: &Survey) -> Result<f6
             let pressure: f64 =
                 pressed.iter().map(|formula| formula.eval(&values[..=event.label.len()])).sum();
             let size = survey.largest.stress.max(pressure.abs());
-            // J F^-T n is linear in n.
+            // J F^-T n is linear in n, so it follows from the values along the axes.
             let areas: Vec<[f64; 3]> = (0..problem.dimension())
                 .map(|axis| problem.equation.present_area(&now.grad, axis, true))
                 .collect();

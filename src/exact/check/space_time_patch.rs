@@ -23,12 +23,13 @@ pub(crate) struct SpaceTimePatch {
 }
 
 impl SpaceTimePatch {
-    /// Number of space dimensions.
+    /// Returns the number of space dimensions.
     pub(super) fn dimension(&self) -> usize {
         self.centre.len() - 1
     }
 
-    /// A random patch in a box, within a run until `until` (s), for at most `longest` (s).
+    /// Creates a random patch in a box. The time interval of the patch lies in a run until `until`
+    /// (s) and is at most `longest` (s) long.
     pub(crate) fn in_box(
         random: &mut Random,
         from: &[f64],
@@ -42,8 +43,8 @@ impl SpaceTimePatch {
         Self::over(random, centre, half, until, longest)
     }
 
-    /// A patch with the given centre and half-lengths (m) in space. Its time interval is random,
-    /// within a run until `until` (s), and at most `longest` (s) long.
+    /// Creates a patch with the given centre and half-lengths (m) in space. The time interval is
+    /// random, lies in a run until `until` (s), and is at most `longest` (s) long.
     pub(super) fn over(
         random: &mut Random,
         mut centre: Vec<f64>,
@@ -57,8 +58,8 @@ impl SpaceTimePatch {
         Self { centre, half }
     }
 
-    /// The whole box, at times around `t` (s) in a run until `until` (s), with a duration of at
-    /// most `longest` (s).
+    /// Creates a patch of the whole box around the time `t` (s). The time interval lies in a run
+    /// until `until` (s) and is at most `longest` (s) long.
     pub(super) fn whole(from: &[f64], to: &[f64], until: f64, longest: f64, t: f64) -> Self {
         let mut half: Vec<f64> =
             from.iter().zip(to).map(|(low, high)| 0.5 * (high - low)).collect();
@@ -69,19 +70,19 @@ impl SpaceTimePatch {
         Self { centre, half }
     }
 
-    /// A part of the patch around `event`, shortened by one random factor on all axes.
+    /// Returns a part of the patch around `event`, shortened by one random factor on all axes.
     pub(super) fn about(&self, event: &Event, random: &mut Random) -> Self {
         let mut place = event.label.clone();
         place.push(event.t);
         self.part(&place, 0.5 * libm::exp2(-5.0 * random.unit()))
     }
 
-    /// The part of the patch around `place` with half the length on every axis.
+    /// Returns the part of the patch around `place` with half the length on every axis.
     pub(super) fn half_about(&self, place: &[f64]) -> Self {
         self.part(place, 0.5)
     }
 
-    /// The part of the patch around `place`, shortened by `factor` on every axis.
+    /// Returns the part of the patch around `place`, shortened by `factor` on every axis.
     fn part(&self, place: &[f64], factor: f64) -> Self {
         let half: Vec<f64> = self.half.iter().map(|half| factor * half).collect();
         let within = |axis: usize| {
@@ -91,8 +92,8 @@ impl SpaceTimePatch {
         Self { centre: (0..half.len()).map(within).collect(), half }
     }
 
-    /// Upper bound on the sum of all terms of a balance over a raster: every term has its `largest`
-    /// density everywhere in the patch.
+    /// Returns an upper bound on the sum of all terms of a balance over a raster. Every term is
+    /// assumed to have its `largest` density everywhere in the patch.
     pub(super) fn largest_sum(&self, largest: &Densities, per_axis: usize) -> f64 {
         let d = self.dimension();
         // On one axis, the integrals of the bump and of its slope are 32/35 and 2 times its height.
@@ -104,7 +105,7 @@ impl SpaceTimePatch {
         largest.stored * slope(d) + largest.flow * flow + largest.supply * supply
     }
 
-    /// Midpoint-rule points of the patch, `per_axis` on each axis.
+    /// Returns the midpoint-rule points of the patch, `per_axis` on each axis.
     pub(super) fn raster(&self, per_axis: usize) -> Raster {
         let d = self.dimension();
         let axes: Vec<Vec<AxisPoint>> = (0..d).map(|a| self.axis(a, per_axis)).collect();
@@ -120,7 +121,7 @@ impl SpaceTimePatch {
         Raster { points, times: self.axis(d, per_axis) }
     }
 
-    /// Equally spaced points on axis `a`; the last axis is time.
+    /// Returns equally spaced points on axis `a`; the last axis is time.
     fn axis(&self, a: usize, points: usize) -> Vec<AxisPoint> {
         let point = |index: usize| {
             let xi = (index as f64 + 0.5) / points as f64 * 2.0 - 1.0;
@@ -143,8 +144,8 @@ pub(crate) struct Raster {
     pub(crate) times: Vec<AxisPoint>,
 }
 
-/// A point on one axis of a patch: its position, and the factor of phi for this axis with its
-/// derivative.
+/// A point on one axis of a patch: its position, and the factor of phi for this axis with the
+/// derivative of this factor.
 #[derive(Clone, Copy)]
 pub(crate) struct AxisPoint {
     pub(crate) at: f64,
@@ -152,12 +153,12 @@ pub(crate) struct AxisPoint {
     slope: f64,
 }
 
-/// The positions of a raster's points (m).
+/// Returns the positions of a raster's points (m).
 pub(crate) fn labels(points: &[Vec<AxisPoint>]) -> Vec<Vec<f64>> {
     points.iter().map(|point| point.iter().map(|on_axis| on_axis.at).collect()).collect()
 }
 
-/// phi and its derivative along every axis at a point with the given coordinates.
+/// Returns phi and its derivative along every axis at a point with the given coordinates.
 pub(crate) fn bump(points: &[AxisPoint]) -> (f64, [f64; 4]) {
     let factors = |except: usize| {
         let others = points.iter().enumerate().filter(move |(b, _)| *b != except);
@@ -170,7 +171,7 @@ pub(crate) fn bump(points: &[AxisPoint]) -> (f64, [f64; 4]) {
     (factors(points.len()), slope)
 }
 
-/// Centre and half-length of a random part of an interval; its length is at most `longest`.
+/// Returns centre and half-length of a random part, at most `longest` long, of an interval.
 fn interval(random: &mut Random, low: f64, high: f64, longest: f64) -> (f64, f64) {
     let width = (high - low).min(longest) * random.between(0.2, 1.0);
     let start = low + (high - low - width) * random.unit();

@@ -16,12 +16,12 @@ const ROUNDS: usize = 8;
 /// Number of events added per round.
 const ADDED: usize = 16;
 
-/// Evenly distributed events resolve a magnitude if at least this share of them has half of its
-/// largest value or more.
+/// Minimum share of the evenly distributed events at which a magnitude must be at least half of its
+/// maximum. With a smaller share, the events do not resolve the magnitude.
 const RESOLVED: f64 = 1.0 / 16.0;
 
 /// Maximum distance of an added event in the first round, relative to the body and the run. Each
-/// round halves it.
+/// round halves this distance.
 const REACH: f64 = 1.0 / 32.0;
 
 /// The largest magnitudes of a motion and of the terms in its equation.
@@ -95,7 +95,7 @@ impl Magnitudes {
         ]
     }
 
-    /// The larger value of each magnitude; NaN if either value is NaN.
+    /// Returns the larger value of each magnitude; NaN if either value is NaN.
     fn larger(self, other: Self) -> Self {
         let (a, b) = (self.to_array(), other.to_array());
         let all: [f64; Self::COUNT] = std::array::from_fn(|i| greatest([a[i], b[i]].into_iter()));
@@ -164,12 +164,12 @@ impl Survey {
         all
     }
 
-    /// Reference positions and the motion at each of them.
+    /// Returns all reference positions, each with the motion there.
     pub(crate) fn motion(&self) -> impl Iterator<Item = (&[f64], &Derivatives)> {
         self.points.iter().map(|point| (point.event.label.as_slice(), &point.now))
     }
 
-    /// At most `count` events at which the quantity `of` is at least half of its maximum.
+    /// Returns at most `count` events at which the quantity `of` is at least half of its maximum.
     pub(crate) fn active(&self, count: usize, of: impl Fn(&Magnitudes) -> f64) -> Vec<&Event> {
         let most = greatest(self.points.iter().map(|point| of(&point.sizes)));
         let active: Vec<&Event> = self
@@ -183,7 +183,7 @@ impl Survey {
     }
 }
 
-/// Events distributed evenly over the body of `problem` and the run.
+/// Returns events distributed evenly over the body of `problem` and the run.
 pub(crate) fn events(problem: &Problem, count: usize, random: &mut Random) -> Vec<Event> {
     let Some(outline) = &problem.outline else {
         return extent(problem).spread(count, |axis| problem.motion.varies_along(axis), random);
@@ -196,7 +196,7 @@ pub(crate) fn events(problem: &Problem, count: usize, random: &mut Random) -> Ve
     (0..count).map(event).collect()
 }
 
-/// The bounding box of the body, and the times of the run.
+/// Returns the bounding box of the body, and the times of the run.
 pub(crate) fn extent(problem: &Problem) -> SpaceTimeBox<'_> {
     let Problem { from, to, until, .. } = problem;
     SpaceTimeBox { from, to, start: problem.loaded(0.0), end: *until }

@@ -23,7 +23,7 @@ const PATCHES: usize = 12;
 /// the patches only detect a front so steep that no random point lies on it.
 const PATCHES_OF_SMOOTH_FIELDS: usize = 2;
 
-/// Number of patches on which a problem is checked.
+/// Returns the number of patches on which a problem is checked.
 pub(crate) fn patches(smooth: bool) -> usize {
     if smooth { PATCHES_OF_SMOOTH_FIELDS } else { PATCHES }
 }
@@ -32,18 +32,18 @@ pub(crate) fn patches(smooth: bool) -> usize {
 /// jump that runs obliquely through the raster is about 0.001.
 const TOLERANCE: f64 = 0.005;
 
-/// Maximum duration of a patch, in wave transit times through the body. The raster must resolve the
-/// duration.
+/// Maximum duration of a patch, in wave transit times through the body. The raster does not resolve
+/// longer durations.
 const WAVES: f64 = 4.0;
 
-/// Transit time of a wave along the longest axis of the body (s).
+/// Returns the transit time of a wave along the longest axis of the body (s).
 fn crossing(problem: &Problem) -> f64 {
     let lengths = problem.from.iter().zip(&problem.to).map(|(from, to)| to - from);
     let longest = lengths.fold(0.0, f64::max);
     longest / problem.wave_speed()
 }
 
-/// A random patch in the body.
+/// Creates a random patch in the body.
 fn draw(random: &mut Random, problem: &Problem) -> SpaceTimePatch {
     let (from, to) = (&problem.from[..], &problem.to[..]);
     let longest = WAVES * crossing(problem);
@@ -140,7 +140,7 @@ pub(crate) struct Sums {
 }
 
 impl Sums {
-    /// Zero sums with the minimum scale `smallest`.
+    /// Creates zero sums with the minimum scale `smallest`.
     pub(crate) fn new(smallest: f64) -> Self {
         Self { smallest, ..Self::default() }
     }
@@ -158,7 +158,7 @@ impl Sums {
         }
     }
 
-    /// Difference of gain and loss, relative to the sum of all terms.
+    /// Returns the difference of gain and loss, relative to the sum of all terms.
     fn imbalance(&self) -> f64 {
         (self.gain - self.loss) / self.size.max(self.smallest)
     }
@@ -168,8 +168,8 @@ impl Sums {
         (self.gain - self.loss).abs() <= share * self.size.max(self.smallest)
     }
 
-    /// Whether imbalance and terms hardly differ from those of a coarse raster with half as many
-    /// points per axis. `share` is the ratio of the numbers of points.
+    /// Whether imbalance and terms hardly differ from those of a `coarse` raster with half as many
+    /// points per axis. `share` is the number of coarse points divided by that of fine points.
     fn has_settled(&self, coarse: &Self, share: f64) -> bool {
         let (fine, before) = (self.imbalance(), coarse.imbalance());
         let same_size = (coarse.size - share * self.size).abs() <= 0.05 * coarse.size;
@@ -209,14 +209,14 @@ fn balance(
     };
     balances(patch, condition, &densities, |raster, smallest| {
         let all = sums(problem, raster, smallest, only_first);
-        // At infinite slopes of roots of constants, only jets give finite derivatives.
+        // At an infinite slope of the root of a constant, only jets give finite derivatives.
         let is_finite = all.iter().all(|sums| sums.size.is_finite());
         if is_finite { all } else { sums(problem, raster, smallest, false) }
     })
 }
 
-/// The balance of each component on a raster of a patch. With `only_first`, only first derivatives
-/// of the motion are computed.
+/// Computes the balance of each component on a raster of a patch. With `only_first`, only first
+/// derivatives of the motion are computed.
 fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> [Sums; 3] {
     let d = problem.dimension();
     let Raster { points, times } = raster;
@@ -256,8 +256,8 @@ fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> 
     all
 }
 
-/// Distinct positions of a raster. Points that differ only along an axis along which the motion
-/// does not vary share a position.
+/// Distinct positions of a raster. Raster points share a position if they differ only along axes
+/// along which the motion does not vary.
 pub(super) struct DistinctPlaces {
     /// The first raster point at each position.
     pub(super) first: Vec<usize>,
@@ -266,8 +266,8 @@ pub(super) struct DistinctPlaces {
 }
 
 impl DistinctPlaces {
-    /// Distinct positions of a raster of `count` points, with `per_axis` points along each axis;
-    /// the first axis varies fastest.
+    /// Finds the distinct positions of a raster of `count` points, with `per_axis` points along
+    /// each axis; the first axis varies fastest.
     pub(super) fn new(motion: &Motion, count: usize, per_axis: usize) -> Self {
         let varying: Vec<bool> =
             (0..motion.dimension()).map(|axis| motion.varies_along(axis)).collect();
@@ -283,7 +283,7 @@ impl DistinctPlaces {
     }
 }
 
-/// Position index of a point: its number on a raster of the axes along which the motion varies.
+/// Returns the position index of a point: its number on a raster of the axes of varying motion.
 fn place(mut point: usize, per_axis: usize, varying: &[bool]) -> usize {
     let (mut place, mut stride) = (0, 1);
     for varies in varying {

@@ -37,7 +37,7 @@ pub(super) enum NodeKind {
     Sum(Sum),
 }
 
-/// `sum(index, from, to, body)`.
+/// A sum, `sum(index, from, to, body)`.
 #[derive(Debug, Clone)]
 pub(super) struct Sum {
     pub(super) index: String,
@@ -52,13 +52,13 @@ impl Expr {
         Self { source: source.to_owned(), nodes }
     }
 
-    /// The parsed text.
+    /// Returns the parsed text.
     pub fn source(&self) -> &str {
         &self.source
     }
 
-    /// All occurrences of free names with their spans, in reading order. Builtin names, called
-    /// functions and sum indices are not free names.
+    /// Returns all occurrences of free names with their spans, in reading order. Builtin names,
+    /// called functions and sum indices are not free names.
     pub fn names(&self) -> Vec<(String, Range<usize>)> {
         self.collect(|kind| match kind {
             NodeKind::Name(name) => Some(name),
@@ -66,7 +66,7 @@ impl Expr {
         })
     }
 
-    /// All calls of user functions with the spans of the function names, in reading order.
+    /// Returns all calls of user functions with the spans of the function names, in reading order.
     pub fn calls(&self) -> Vec<(String, Range<usize>)> {
         self.collect(|kind| match kind {
             NodeKind::Call(name, _) => Some(name),
@@ -82,7 +82,7 @@ impl Expr {
         &self.nodes[at]
     }
 
-    /// All sums of the formula.
+    /// Returns all sums of the formula.
     pub(super) fn sums(&self) -> impl Iterator<Item = &Sum> {
         self.nodes.iter().filter_map(|node| match &node.kind {
             NodeKind::Sum(sum) => Some(sum),
@@ -102,7 +102,7 @@ impl Expr {
 }
 
 impl Node {
-    /// The span of `name` at the start of this node.
+    /// Returns the span of `name` at the start of this node.
     pub(super) fn head(&self, name: &str) -> Range<usize> {
         self.span.start..self.span.start + name.len()
     }

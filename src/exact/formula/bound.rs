@@ -9,9 +9,9 @@ use super::number::Number;
 use super::program::{Instruction, Operand, read, run};
 use super::scope::Scope;
 
-/// Register counts that fit on the stack, in two sizes: short formulas need not clear many
-/// registers. Formulas with more registers allocate.
+/// Number of stack registers of a short formula, which then need not clear many registers.
 const FEW: usize = 8;
+/// Number of stack registers of a longer formula. Formulas with even more registers allocate.
 const MANY: usize = 32;
 
 /// A formula with resolved names, ready for evaluation.
@@ -53,7 +53,7 @@ impl Formula {
         })
     }
 
-    /// The value at `variables`, in the order of [`Formula::bind`].
+    /// Evaluates the formula at `variables`, in the order of [`Formula::bind`].
     ///
     /// # Panics
     /// If the number of variables differs from the number in [`Formula::bind`].
@@ -69,23 +69,23 @@ impl Formula {
         }
     }
 
-    /// Number of operations per evaluation; those in sums count once per term.
+    /// Returns the number of operations per evaluation; those in sums count once per term.
     pub fn operations(&self) -> u64 {
         self.operations
     }
 
-    /// The text of the formula.
+    /// Returns the text of the formula.
     pub fn source(&self) -> &str {
         &self.source
     }
 
-    /// The constants and functions of the scope that the formula uses, directly or through
+    /// Returns the constants and functions of the scope that the formula uses, directly or through
     /// functions.
     pub fn uses(&self) -> &BTreeSet<String> {
         &self.uses
     }
 
-    /// The value, if it does not depend on any variable.
+    /// Returns the value, if it does not depend on any variable.
     pub fn constant(&self) -> Option<f64> {
         match self.result {
             Operand::Constant(value) => Some(value),
@@ -93,7 +93,7 @@ impl Formula {
         }
     }
 
-    /// Number of variables to which the formula is bound.
+    /// Returns the number of variables to which the formula is bound.
     pub fn variables(&self) -> usize {
         self.variables
     }
@@ -109,12 +109,12 @@ impl Formula {
         &self.code
     }
 
-    /// Number of registers that the code uses.
+    /// Returns the number of registers that the code uses.
     pub(super) fn registers(&self) -> usize {
         self.registers
     }
 
-    /// Location of the result after the code has run.
+    /// Returns the location of the result after the code has run.
     pub(super) fn result(&self) -> Operand {
         self.result
     }

@@ -25,16 +25,16 @@ pub enum Binary {
 }
 
 impl Binary {
-    /// The functions called by name.
+    /// Functions that formulas call by name, with their names.
     pub const NAMED: &'static [(&'static str, Self)] =
         &[("atan2", Self::Atan2), ("min", Self::Min), ("max", Self::Max)];
 
-    /// The function called `name`.
+    /// Returns the function called `name`.
     pub(super) fn find(name: &str) -> Option<Self> {
         Self::NAMED.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
     }
 
-    /// The value for the arguments `a` and `b`.
+    /// Returns the value for the arguments `a` and `b`.
     #[inline]
     pub fn apply<T: Number>(self, a: T, b: T) -> T {
         match self {
@@ -63,7 +63,7 @@ pub(super) enum Builtin {
 }
 
 impl Builtin {
-    /// The builtin function called `name`.
+    /// Returns the builtin function called `name`.
     pub(super) fn find(name: &str) -> Option<Self> {
         Unary::find(name)
             .map(Self::Unary)
@@ -77,14 +77,14 @@ pub(super) fn is_reserved(name: &str) -> bool {
     name == PI || Builtin::find(name).is_some()
 }
 
-/// All builtin names of the language.
+/// Returns all builtin names of the language.
 pub(super) fn names<'a>() -> impl Iterator<Item = &'a str> {
     let unary = Unary::ALL.iter().map(|(name, _)| *name);
     let binary = Binary::NAMED.iter().map(|(name, _)| *name);
     unary.chain(binary).chain([SUM, PI])
 }
 
-/// The count as text: `1 argument`, `2 arguments`.
+/// Formats the count: `1 argument`, `2 arguments`.
 pub(super) fn arguments(count: usize) -> String {
     format!("{count} argument{}", if count == 1 { "" } else { "s" })
 }

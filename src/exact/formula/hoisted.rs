@@ -72,7 +72,7 @@ impl<T: Number> Hoisted<T> {
         self.inputs[..time.kept].copy_from_slice(&self.registers[..time.kept]);
     }
 
-    /// The values of the formulas at a position for the current time. Does not allocate.
+    /// Returns the values of the formulas at a position for the current time. Does not allocate.
     ///
     /// # Panics
     /// If `place` is out of range.
@@ -84,7 +84,7 @@ impl<T: Number> Hoisted<T> {
         self.split.results.iter().map(|result| read(*result, &self.inputs, &self.registers))
     }
 
-    /// Number of remaining operations per evaluation.
+    /// Returns the number of remaining operations per evaluation.
     pub fn operations(&self) -> usize {
         self.split.rest.code.len()
     }
@@ -155,7 +155,7 @@ impl Split {
 }
 
 impl Nodes {
-    /// The node for a step; an equal step reuses its node.
+    /// Adds a node for a step, or returns the node of an equal step.
     fn push(&mut self, action: Action) -> Operand {
         let next = self.list.len();
         let node = *self.known.entry(format!("{action:?}")).or_insert(next);
@@ -251,7 +251,7 @@ impl Homes {
         homes
     }
 
-    /// The program of one part.
+    /// Returns the program of one part.
     fn part(&self, nodes: &[SsaNode], part: Dependence) -> PartProgram {
         let mut code = Vec::new();
         for (node, register) in nodes.iter().zip(&self.registers[part]) {
@@ -263,7 +263,7 @@ impl Homes {
         PartProgram { registers: code.len(), code, kept: self.kept[part] }
     }
 
-    /// Location of an operand for the part `reader`.
+    /// Returns the location of an operand for the part `reader`.
     fn seen(&self, operand: Operand, reader: Dependence) -> Operand {
         let Operand::Register(node) = operand else { return operand };
         let home = home(self.dependence[node], reader);
@@ -276,9 +276,9 @@ impl Homes {
     }
 }
 
-/// The part that computes the inputs of `reader`. Constants are computed in the part that uses
-/// them. Exception: constants of the rest, which runs most often, are computed in the part that
-/// depends on time.
+/// Returns the part that computes an input of `reader`. A constant is computed in the part that
+/// uses it, with one exception: constants of the rest, which runs most often, are computed in the
+/// part that depends on time.
 fn home(dependence: Dependence, reader: Dependence) -> Dependence {
     match (dependence, reader) {
         (NOTHING, BOTH) => TIME,

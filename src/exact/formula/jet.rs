@@ -19,7 +19,7 @@ pub struct Jet<const N: usize> {
 }
 
 impl<const N: usize> Jet<N> {
-    /// The variable with this `index` and `value`.
+    /// Creates the variable with this `index` and `value`.
     ///
     /// # Panics
     /// If `index` is not below `N`.
@@ -30,13 +30,13 @@ impl<const N: usize> Jet<N> {
         jet
     }
 
-    /// The value, without derivatives.
+    /// Returns the value, without derivatives.
     #[inline]
     pub fn value(&self) -> f64 {
         self.value
     }
 
-    /// The first derivative with respect to the variable `i`.
+    /// Returns the first derivative with respect to the variable `i`.
     ///
     /// # Panics
     /// If `i` is not below `N`.
@@ -45,7 +45,7 @@ impl<const N: usize> Jet<N> {
         self.gradient[i]
     }
 
-    /// The second derivative with respect to the variables `i` and `j`.
+    /// Returns the second derivative with respect to the variables `i` and `j`.
     ///
     /// # Panics
     /// If `i` or `j` is not below `N`.
@@ -72,7 +72,7 @@ impl<const N: usize> Jet<N> {
         jet
     }
 
-    /// Chain rule for a function of one argument, whose derivatives at `self` are `f1` and `f2`.
+    /// Applies the chain rule for a function with the derivatives `f1` and `f2` at `self`.
     #[inline]
     fn chain(&self, value: f64, f1: f64, f2: f64) -> Self {
         let jet = Self::build(
@@ -89,7 +89,8 @@ impl<const N: usize> Jet<N> {
     }
 
     /// Clears the derivatives with respect to variables on which the argument does not depend.
-    /// Otherwise an infinite derivative of the function, multiplied by 0, would make them NaN.
+    /// Otherwise these derivatives would be NaN if the function has an infinite derivative:
+    /// infinity times 0.
     fn flattened(&self, flat: impl Fn(usize) -> bool) -> Self {
         Self::build(
             self.value,
@@ -100,7 +101,7 @@ impl<const N: usize> Jet<N> {
 }
 
 impl<const N: usize> From<f64> for Jet<N> {
-    /// A constant.
+    /// Creates a constant.
     #[inline]
     fn from(value: f64) -> Self {
         Self { value, gradient: [0.0; N], hessian: [[0.0; N]; N] }
@@ -254,7 +255,7 @@ pub(super) fn is_overflow(denominator: f64, quotient: f64) -> bool {
     denominator.abs() > 1.0 / TINY && quotient.abs() < TINY
 }
 
-/// The power over `f64`. The value of a jet is therefore bit-identical to a plain evaluation.
+/// Computes a power over `f64`, so the value of a jet is bit-identical to a plain evaluation.
 fn power(base: f64, exponent: f64) -> f64 {
     Number::pow(base, exponent)
 }

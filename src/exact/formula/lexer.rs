@@ -25,7 +25,7 @@ pub(super) struct Lexeme<'a> {
     pub(super) span: Range<usize>,
 }
 
-/// All tokens of `source`, terminated by [`Token::End`].
+/// Splits `source` into tokens, terminated by [`Token::End`].
 pub(super) fn tokens(source: &str) -> Result<Vec<Lexeme<'_>>, FormulaError> {
     if source.len() > MAX_BYTES {
         let message = format!("the formula is longer than {MAX_BYTES} bytes");
@@ -197,12 +197,12 @@ pub struct FormulaError {
 }
 
 impl FormulaError {
-    /// An error without help in the formula itself.
+    /// Creates an error without help in the formula itself.
     pub(super) fn new(span: Range<usize>, message: impl Into<String>) -> Self {
         Self { message: message.into(), span, help: None, within: None, unknown: None }
     }
 
-    /// An error about an unknown name.
+    /// Creates an error about an unknown name.
     pub(super) fn unknown(span: Range<usize>, name: &str) -> Self {
         let message = format!("unknown name `{name}`");
         Self { unknown: Some(name.to_owned()), ..Self::new(span, message) }
@@ -214,7 +214,7 @@ impl FormulaError {
         self
     }
 
-    /// Marks the error as one in the body of `function`. An inner function takes precedence.
+    /// Marks the error as one in the body of `function`, unless an inner function is marked.
     pub(super) fn within(mut self, function: &str) -> Self {
         self.within.get_or_insert_with(|| function.to_owned());
         self

@@ -29,7 +29,7 @@
 //! # Hostile input
 //!
 //! Length, number of tokens, depth, size after inlining and number of operations are limited.
-//! Formulas beyond a limit give a [`FormulaError`] and never cause a stack overflow or an endless
+//! Formulas above a limit give a [`FormulaError`] and never cause a stack overflow or an endless
 //! loop.
 //!
 //! ```

@@ -31,35 +31,35 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// The value, without derivatives.
+    /// Returns the value, without derivatives.
     fn value(&self) -> f64;
 
     /// Applies a function of one argument.
     #[must_use]
     fn unary(self, function: Unary) -> Self;
 
-    /// The angle of the point (`x`, `self`).
+    /// Returns the angle of the point (`x`, `self`).
     #[must_use]
     fn atan2(self, x: Self) -> Self;
 
-    /// An integer power by repeated multiplication, also valid for a negative or zero base.
+    /// Computes an integer power by repeated multiplication, also for a negative or zero base.
     #[must_use]
     fn powi(self, exponent: i32) -> Self;
 
-    /// A power. For an integer exponent without derivatives, this is [`powi`].
+    /// Computes a power. For an integer exponent without derivatives, this is [`powi`].
     ///
     /// [`powi`]: Number::powi
     #[must_use]
     fn pow(self, exponent: Self) -> Self;
 
-    /// The smaller number; `self` if both are equal, NaN if either is NaN.
+    /// Returns the smaller number; `self` if both are equal, NaN if either is NaN.
     #[inline]
     #[must_use]
     fn min(self, other: Self) -> Self {
         if self.value() <= other.value() || self.value().is_nan() { self } else { other }
     }
 
-    /// The larger number; `self` if both are equal, NaN if either is NaN.
+    /// Returns the larger number; `self` if both are equal, NaN if either is NaN.
     #[inline]
     #[must_use]
     fn max(self, other: Self) -> Self {
@@ -120,14 +120,14 @@ impl Number for f64 {
     }
 }
 
-/// `exponent` as an integer, if it is an integer.
+/// Converts `exponent` to an integer, if its value is an integer.
 #[inline]
 pub(super) fn whole(exponent: f64) -> Option<i32> {
     let fits = exponent % 1.0 == 0.0 && libm::fabs(exponent) <= f64::from(i32::MAX);
     fits.then_some(exponent as i32)
 }
 
-/// An integer power of `base` by repeated squaring; any base to the power 0 is 1.
+/// Computes an integer power of `base` by repeated squaring; any base to the power 0 is 1.
 #[inline]
 fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     let mut power = 1.0;
@@ -163,7 +163,7 @@ impl NumberBatch {
         Self(std::array::from_fn(number))
     }
 
-    /// The number of one lane.
+    /// Returns the number of one lane.
     ///
     /// # Panics
     /// If `lane` is not below [`NumberBatch::LEN`].
@@ -231,8 +231,8 @@ impl Div for NumberBatch {
 }
 
 impl Number for NumberBatch {
-    /// The value of the first lane. Formulas branch only on the index of a sum, which is equal in
-    /// all lanes.
+    /// Returns the value of the first lane. Formulas branch only on the index of a sum, which is
+    /// equal in all lanes.
     #[inline]
     fn value(&self) -> f64 {
         self.0[0]

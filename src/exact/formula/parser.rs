@@ -21,7 +21,7 @@ impl Expr {
     }
 }
 
-/// The nodes of the formula `source`; the root is last.
+/// Parses `source` to nodes; the root is last.
 fn parse(source: &str) -> Result<Vec<Node>, FormulaError> {
     let lexemes = tokens(source)?;
     let mut parser =
@@ -33,7 +33,7 @@ fn parse(source: &str) -> Result<Vec<Node>, FormulaError> {
     }
 }
 
-/// An operator with its left and right binding power.
+/// Returns the operator of a token, with its left and right binding power.
 fn operator(token: Token) -> Option<(Binary, u8, u8)> {
     match token {
         Token::Symbol('+') => Some((Binary::Add, 1, 2)),
@@ -123,7 +123,7 @@ impl<'a> Parser<'a> {
         self.lexemes[self.at].span.clone()
     }
 
-    /// Byte range from `start` to the end of the last consumed token.
+    /// Returns the byte range from `start` to the end of the last consumed token.
     fn since(&self, start: usize) -> Range<usize> {
         start..self.lexemes[self.at - 1].span.end
     }
@@ -136,7 +136,7 @@ impl<'a> Parser<'a> {
         FormulaError::new(self.span(), format!("expected {what}, found {found}"))
     }
 
-    /// The error for a missing operand.
+    /// Returns the error for a missing operand.
     fn missing_operand(&self) -> FormulaError {
         let error = self.expected("a value");
         let before = self.at.checked_sub(1).map(|at| self.lexemes[at].token);
@@ -147,7 +147,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Suggestion for a decimal comma: the number with a decimal point.
+    /// Returns a suggestion for a decimal comma: the number with a decimal point.
     fn decimal_comma(&self) -> Option<String> {
         let (before, after) =
             (self.lexemes.get(self.at.checked_sub(1)?)?, self.lexemes.get(self.at + 1)?);
@@ -157,7 +157,7 @@ impl<'a> Parser<'a> {
         are_numbers.then(|| Some(format!("{}.{}", text(before)?, text(after)?)))?
     }
 
-    /// The error for a missing operator. If another operand follows, a `*` may be missing.
+    /// Returns the error for a missing operator. If another operand follows, a `*` may be missing.
     fn missing_operator(&self, expected: &str) -> FormulaError {
         let error = self.expected(expected);
         match self.peek() {
@@ -176,7 +176,7 @@ impl<'a> Parser<'a> {
 const SUM_FORM: &str = "the form is `sum(index, from, to, body)`";
 
 impl<'a> Parser<'a> {
-    /// A term that begins with a name: a call if a parenthesis follows, otherwise a value.
+    /// Parses a term that begins with a name: a call if a parenthesis follows, otherwise a value.
     pub(self) fn named(
         &mut self,
         name: &'a str,
@@ -206,7 +206,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// A name that has a value and cannot be called.
+    /// Adds the node of a name that has a value, and refuses a call of this name.
     fn plain(
         &mut self,
         kind: NodeKind,
@@ -245,7 +245,7 @@ impl<'a> Parser<'a> {
         Err(FormulaError::new(self.since(span.start), message))
     }
 
-    /// The arguments of a call, including the closing parenthesis.
+    /// Parses the arguments of a call, including the closing parenthesis.
     fn arguments(&mut self) -> Result<Vec<usize>, FormulaError> {
         let mut arguments = Vec::new();
         if self.peek() == Token::Symbol(')') {

@@ -42,7 +42,7 @@ pub(super) struct Loop {
 }
 
 impl Action {
-    /// The arguments of the action.
+    /// Returns the arguments of the action.
     pub(super) fn arguments(&self) -> impl Iterator<Item = Operand> {
         let (first, second) = match self {
             Self::Copy(a) | Self::Negate(a) | Self::Unary(_, a) | Self::Powi(a, _) => (*a, None),
@@ -52,7 +52,7 @@ impl Action {
         std::iter::once(first).chain(second)
     }
 
-    /// The action with each argument replaced by `to(argument)`.
+    /// Returns the action with each argument replaced by `to(argument)`.
     pub(super) fn map(&self, to: impl Fn(Operand) -> Operand) -> Self {
         match self {
             Self::Copy(a) => Self::Copy(to(*a)),
@@ -117,7 +117,7 @@ pub(super) fn run<T: Number>(
     }
 }
 
-/// The value of an operand.
+/// Returns the value of an operand.
 #[inline]
 pub(super) fn read<T: Number>(operand: Operand, variables: &[T], registers: &[T]) -> T {
     match operand {

@@ -34,7 +34,7 @@ pub(super) struct Tabulated {
 }
 
 impl Scope {
-    /// An empty scope.
+    /// Creates an empty scope.
     pub fn new() -> Self {
         Self::default()
     }
@@ -75,7 +75,7 @@ impl Scope {
         Ok(())
     }
 
-    /// This scope with a new value for a declared constant.
+    /// Returns this scope with a new value for a declared constant.
     #[must_use]
     pub fn with(&self, name: &str, value: f64) -> Self {
         let mut scope = self.clone();
@@ -115,8 +115,8 @@ impl Scope {
     }
 
     /// Declares a table: `name` is a piecewise linear function of `by`, which is a constant or a
-    /// variable. Each of `rows` has a value of `by` in ascending order and the function value. The
-    /// function is constant before the first and after the last row.
+    /// variable. Each of `rows` contains a value of `by` and the function value, in ascending order
+    /// of `by`. The function is constant before the first and after the last row.
     ///
     /// # Errors
     /// When `name` or `by` is invalid, or when `name` is taken.
@@ -141,17 +141,17 @@ impl Scope {
             .help("a name is made of ASCII letters, digits and `_`, no digit first"))
     }
 
-    /// The declared tables, in alphabetical order.
+    /// Returns the declared tables, in alphabetical order.
     pub fn tables(&self) -> impl Iterator<Item = &str> {
         self.tables.keys().map(String::as_str)
     }
 
-    /// The declared constants, in alphabetical order.
+    /// Returns the declared constants, in alphabetical order.
     pub fn constants(&self) -> impl Iterator<Item = (&str, f64)> {
         self.constants.iter().map(|(name, value)| (name.as_str(), *value))
     }
 
-    /// The names of the declared functions, in alphabetical order.
+    /// Returns the names of the declared functions, in alphabetical order.
     pub fn functions(&self) -> impl Iterator<Item = &str> {
         self.functions.keys().map(String::as_str)
     }
@@ -213,7 +213,7 @@ impl Scope {
     }
 }
 
-/// The expression of a table: its first value plus the rise over each interval.
+/// Creates the expression of a table: its first value plus the rise over each interval.
 fn interpolation(by: &str, rows: &[(f64, f64)]) -> Result<Expr, FormulaError> {
     let rise = |pair: &[(f64, f64)]| {
         let ((from, low), (to, high)) = (pair[0], pair[1]);

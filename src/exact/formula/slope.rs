@@ -19,13 +19,13 @@ pub struct Slope<const N: usize> {
 }
 
 impl<const N: usize> Slope<N> {
-    /// A value with the given `gradient`.
+    /// Creates a value with the given `gradient`.
     #[inline]
     pub fn new(value: f64, gradient: [f64; N]) -> Self {
         Self { value, gradient }
     }
 
-    /// The variable with this `index` and `value`.
+    /// Creates the variable with this `index` and `value`.
     ///
     /// # Panics
     /// If `index` is not below `N`.
@@ -36,7 +36,7 @@ impl<const N: usize> Slope<N> {
         slope
     }
 
-    /// The derivative along the direction `i`.
+    /// Returns the derivative along the direction `i`.
     ///
     /// # Panics
     /// If `i` is not below `N`.
@@ -61,7 +61,7 @@ impl<const N: usize> Slope<N> {
 }
 
 impl<const N: usize> From<f64> for Slope<N> {
-    /// A constant.
+    /// Creates a constant.
     #[inline]
     fn from(value: f64) -> Self {
         Self { value, gradient: [0.0; N] }

@@ -27,7 +27,7 @@ impl Formula {
         })
     }
 
-    /// The registers that depend on a variable at some step.
+    /// Returns whether each register depends on a variable at some step.
     fn varying(&self) -> Vec<bool> {
         let mut varying = vec![false; self.registers()];
         // A sum reads values that its previous iteration wrote, so the search is repeated.

@@ -2,7 +2,7 @@
 
 use libm::{cos, cosh, exp, fabs, hypot, log1p, sin, sinh, sqrt};
 
-/// Builds [`Unary`] and its tables. In each line, `x` is the argument and `f` the value at `x`.
+/// Declares [`Unary`] and its tables. In each line, `x` is the argument and `f` the value at `x`.
 macro_rules! functions {
     ($x:ident, $f:ident; $($doc:literal $name:ident $variant:ident = $value:expr,
         $first:expr, $second:expr;)*) => {
@@ -17,14 +17,14 @@ macro_rules! functions {
             pub const ALL: &'static [(&'static str, Self)] =
                 &[$((stringify!($name), Self::$variant),)*];
 
-            /// The value at `x`.
+            /// Returns the value at `x`.
             pub fn value(self, $x: f64) -> f64 {
                 match self {
                     $(Self::$variant => $value,)*
                 }
             }
 
-            /// First and second derivative at `x`; `f` is the value at `x`.
+            /// Returns first and second derivative at `x`; `f` is the value at `x`.
             pub fn derivatives(self, $x: f64, $f: f64) -> (f64, f64) {
                 match self {
                     $(Self::$variant => ($first, $second),)*
@@ -78,7 +78,7 @@ functions! { x, f;
 }
 
 impl Unary {
-    /// The function called `name`.
+    /// Returns the function called `name`.
     pub(super) fn find(name: &str) -> Option<Self> {
         Self::ALL.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
     }
@@ -92,27 +92,27 @@ fn cube(x: f64) -> f64 {
     x * x * x
 }
 
-/// sqrt(1 - x^2), also accurate near 1 and -1.
+/// Computes sqrt(1 - x^2) without loss of accuracy near 1 and -1.
 fn root(x: f64) -> f64 {
     sqrt((1.0 - x) * (1.0 + x))
 }
 
-/// The second derivative of J1 at `x`, where its value is `j1`: `J2/x - J1`.
+/// Computes the second derivative of J1 at `x`, `J2/x - J1`; `j1` is the value of J1 at `x`.
 fn bessel_j1_curvature(x: f64, j1: f64) -> f64 {
     if x == 0.0 { 0.0 } else { libm::jn(2, x) / x - j1 }
 }
 
-/// The derivative of W, from its value `w`.
+/// Computes the derivative of W from the value `w` of W.
 fn lambert_slope(w: f64) -> f64 {
     exp(-w) / (1.0 + w)
 }
 
-/// The second derivative of W, from its value `w`.
+/// Computes the second derivative of W from the value `w` of W.
 fn lambert_curvature(w: f64) -> f64 {
     -square(lambert_slope(w)) * (2.0 + w) / (1.0 + w)
 }
 
-/// The sign of 0 is 0, and that of NaN is NaN.
+/// Returns the sign of `x`: -1, 0 or 1; NaN for NaN.
 fn sign(x: f64) -> f64 {
     if x > 0.0 {
         1.0
@@ -136,7 +136,7 @@ fn step(x: f64) -> f64 {
 /// Maximum number of iterations. Halley's method converges cubically, here in at most five steps.
 const MAX_STEPS: usize = 16;
 
-/// The principal branch of W, the solution of w*exp(w) = x, for x >= 0; NaN otherwise.
+/// Computes the principal branch of W, the solution of w*exp(w) = x, for x >= 0; NaN otherwise.
 pub(super) fn lambert_w(x: f64) -> f64 {
     if x.is_nan() || x < 0.0 {
         return f64::NAN;
@@ -155,8 +155,8 @@ pub(super) fn lambert_w(x: f64) -> f64 {
     w
 }
 
-/// Halley's step for w*exp(w) - x. The equation is divided by exp(w), which avoids overflow for
-/// large `x`.
+/// Returns the step of Halley's method for w*exp(w) - x. The equation is divided by exp(w), which
+/// avoids overflow for large `x`.
 fn halley(w: f64, x: f64) -> f64 {
     let residual = w - x * exp(-w);
     residual / (w + 1.0 - 0.5 * residual * (w + 2.0) / (w + 1.0))

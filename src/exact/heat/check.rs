@@ -152,7 +152,7 @@ impl HeatFacePoint for HeatedPoint<'_> {
     }
 }
 
-/// Heat inflow through `face` from outside (W/m^(D-1)).
+/// Computes the heat inflow through `face` from outside (W/m^(D-1)).
 fn inflow_at(
     problem: &Conduction,
     face: &HeatFace,
@@ -197,8 +197,8 @@ fn differences(
     event.judge(allowed, name, (divergence, exact), "W/m3")
 }
 
-/// Checks `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s` as powers per unit mass: the power that the
-/// temperature needs, and the stated power.
+/// Checks `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s` by comparing powers per unit mass: the
+/// power that the temperature needs, and the stated power.
 fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(), Violation> {
     let mut found = LargestViolation::default();
     for point in points {
@@ -223,8 +223,8 @@ pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<
         let (from, to) = (&problem.from[..], &problem.to[..]);
         let patch = SpaceTimePatch::in_box(&mut random, from, to, problem.until, f64::INFINITY);
         let d = problem.dimension();
-        // A constant temperature stores no heat. It is subtracted so that it does not increase the
-        // scale.
+        // A constant temperature stores no heat, so it is subtracted. Otherwise it would increase
+        // the scale of the imbalance.
         let middle = problem.temperature.at(&patch.centre[..d], patch.centre[d]);
         let condition = "heat balance across kinks (the heat equation";
         balances(patch, condition, &densities, |raster, smallest| {
@@ -234,7 +234,7 @@ pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<
     Ok(())
 }
 
-/// The balance on a raster of a patch, for the temperature relative to `middle` (K).
+/// Computes the balance on a raster of a patch, for the temperature relative to `middle` (K).
 fn sums(problem: &Conduction, raster: &Raster, smallest: f64, middle: f64) -> Sums {
     let d = problem.dimension();
     let Raster { points, times } = raster;
@@ -271,12 +271,12 @@ fn sums(problem: &Conduction, raster: &Raster, smallest: f64, middle: f64) -> Su
 /// An event, with the motion and the temperature at that event.
 pub(super) type HeatPoint = (Event, Derivatives, TemperatureDerivatives);
 
-/// The bounding box of the body, and the times of the run.
+/// Returns the bounding box of the body, and the times of the run.
 pub(super) fn extent(problem: &Conduction) -> SpaceTimeBox<'_> {
     SpaceTimeBox { from: &problem.from, to: &problem.to, start: 0.0, end: problem.until }
 }
 
-/// Events distributed evenly over the body and the run.
+/// Returns events distributed evenly over the body and the run.
 pub(super) fn interior(problem: &Conduction) -> Vec<HeatPoint> {
     let events = extent(problem).spread(EVENTS, |_| true, &mut Random::new(1));
     let point = |event: Event| {
@@ -332,7 +332,7 @@ impl HeatMagnitudes {
     }
 }
 
-/// The heat source (W/kg) that the temperature needs, and the stated source.
+/// Returns the heat source (W/kg) that the temperature needs, and the stated source.
 pub(super) fn needed_and_stated(
     problem: &Conduction,
     (event, motion, now): &HeatPoint,

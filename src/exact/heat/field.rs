@@ -18,7 +18,7 @@ pub struct Temperature {
     dimension: usize,
 }
 
-/// Temperature and its derivatives at one point and time; axes beyond the dimension are zero.
+/// Temperature and its derivatives at one point and time; zero along missing axes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TemperatureDerivatives {
     /// T (K).
@@ -32,12 +32,12 @@ pub struct TemperatureDerivatives {
 }
 
 impl Temperature {
-    /// A field in `dimension` dimensions.
+    /// Creates a field in `dimension` dimensions.
     pub fn new(formula: Formula, dimension: usize) -> Self {
         Self { formula, dimension }
     }
 
-    /// The text of the formula.
+    /// Returns the text of the formula.
     pub fn source(&self) -> &str {
         self.formula.source()
     }
@@ -47,17 +47,17 @@ impl Temperature {
         self.formula.is_smooth()
     }
 
-    /// T (K).
+    /// Evaluates T (K).
     pub fn at(&self, label: &[f64], t: f64) -> f64 {
         self.formula.eval(&variables(label, t)[..=label.len()])
     }
 
-    /// The temperature and its derivatives, by automatic differentiation.
+    /// Computes the temperature and its derivatives, by automatic differentiation.
     pub fn derivatives(&self, label: &[f64], t: f64) -> TemperatureDerivatives {
         with_dimension!(self.dimension, D => self.over_jets::<{ D + 1 }>(label, t))
     }
 
-    /// The field at `labels`. Terms that do not depend on time are computed in this call.
+    /// Prepares the field at `labels`. Terms that do not depend on time are computed in this call.
     pub(super) fn at_places<'a>(
         &self,
         labels: impl Iterator<Item = &'a [f64]>,
@@ -90,7 +90,7 @@ pub(super) trait TemperaturePlaces: Send {
     /// Sets the time `t` (s).
     fn set_time(&mut self, t: f64);
 
-    /// The derivatives at the position with this index in `labels`. Does not allocate.
+    /// Returns the derivatives at the position with this index in `labels`. Does not allocate.
     fn derivatives(&mut self, place: usize) -> TemperatureDerivatives;
 }
 
@@ -104,7 +104,7 @@ impl<const N: usize> TemperaturePlaces for Hoisted<Jet<N>> {
     }
 }
 
-/// The derivatives from a jet, whose last variable is the time.
+/// Collects the derivatives from a jet, whose last variable is the time.
 fn gather<const N: usize>(jet: &Jet<N>) -> TemperatureDerivatives {
     let time = N - 1;
     let mut all = TemperatureDerivatives {
@@ -121,7 +121,7 @@ fn gather<const N: usize>(jet: &Jet<N>) -> TemperatureDerivatives {
     all
 }
 
-/// `J C^-1 Grad T`, from the gradients of displacement and temperature.
+/// Computes `J C^-1 Grad T`, from the gradients of displacement and temperature.
 fn pulled_back<T: Number, const D: usize>(grad_u: &Tensor<T, D>, grad: &[T; D]) -> [T; D] {
     let f: Tensor<T, D> = tensor(|i, j| grad_u[i][j] + unit(i, j));
     // F^-T = cof(F)/J.
@@ -131,12 +131,12 @@ fn pulled_back<T: Number, const D: usize>(grad_u: &Tensor<T, D>, grad: &[T; D]) 
     std::array::from_fn(|a| sum::<T, D>(|b| metric(a, b) * grad[b]))
 }
 
-/// `J C^-1 Grad T` (K/m). The inflow through a reference area is k times the normal component.
+/// Computes `J C^-1 Grad T` (K/m). The inflow per reference area is k times its normal component.
 pub(super) fn slope(motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; 3] {
     pulled_back::<f64, 3>(&motion.grad, &now.grad)
 }
 
-/// `Div (J C^-1 Grad T)` (K/m2), for fields that vary only along the first `dimension` axes.
+/// Computes `Div (J C^-1 Grad T)` (K/m2), for fields that vary along the first `dimension` axes.
 pub(super) fn divergence(
     dimension: usize,
     motion: &Derivatives,
@@ -158,7 +158,7 @@ pub(super) fn divergence(
     }
 }
 
-/// The terms of the divergence in D dimensions.
+/// Computes the terms of the divergence in D dimensions.
 fn divergence_in<const D: usize>(motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; D] {
     let bent = |i: usize, j: usize| std::array::from_fn(|axis| motion.second[i][j][axis]);
     let grad_u: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(motion.grad[i][j], bent(i, j)));

@@ -28,7 +28,7 @@ pub struct HeatFace {
 pub struct Conduction {
     /// Lowest corner of the body (m).
     pub from: Vec<f64>,
-    /// Highest corner (m).
+    /// Highest corner of the body (m).
     pub to: Vec<f64>,
     /// Reference density (kg/m3).
     pub density: f64,
@@ -36,7 +36,7 @@ pub struct Conduction {
     pub conductivity: f64,
     /// Heat capacity c (J/(kg K)).
     pub capacity: f64,
-    /// Heat source (W/kg), a formula for [`source_at`].
+    /// Heat source (W/kg), a formula that [`source_at`] evaluates.
     pub source: Option<Formula>,
     /// Initial temperature (K), a formula of the coordinates. Default: that of the exact solution.
     pub initial: Option<Formula>,
@@ -50,36 +50,36 @@ pub struct Conduction {
     pub manufactured: bool,
     /// End of the run (s).
     pub until: f64,
-    /// Maximum residual, relative to the terms of the condition.
+    /// Maximum residual of a condition, relative to its terms.
     pub tolerance: f64,
 }
 
 impl Conduction {
-    /// Number of space dimensions.
+    /// Returns the number of space dimensions.
     pub fn dimension(&self) -> usize {
         self.from.len()
     }
 
-    /// The motion and the temperature at one point and time.
+    /// Computes the motion and the temperature at one point and time.
     pub(super) fn now(&self, label: &[f64], t: f64) -> (Derivatives, TemperatureDerivatives) {
         let still = Derivatives::default;
         let motion = self.motion.as_ref().map_or_else(still, |motion| motion.derivatives(label, t));
         (motion, self.temperature.derivatives(label, t))
     }
 
-    /// The source that the temperature needs, `c T_t - Div (k J C^-1 Grad T)/rho0` (W/kg).
+    /// Computes the source that the temperature needs, `c T_t - Div (k J C^-1 Grad T)/rho0` (W/kg).
     pub(super) fn balance(&self, motion: &Derivatives, now: &TemperatureDerivatives) -> f64 {
         self.capacity * now.rate
             - self.conductivity * divergence(self.dimension(), motion, now) / self.density
     }
 
-    /// The manufactured source (W/kg) of the exact temperature.
+    /// Computes the manufactured source (W/kg) of the exact temperature.
     pub fn manufactured_source(&self, label: &[f64], t: f64) -> f64 {
         let (motion, now) = self.now(label, t);
         self.balance(&motion, &now)
     }
 
-    /// The source of the problem (W/kg), manufactured or stated.
+    /// Returns the source of the problem (W/kg), manufactured or stated.
     pub(super) fn source(
         &self,
         label: &[f64],
@@ -93,13 +93,13 @@ impl Conduction {
         self.source.as_ref().map_or(0.0, |source| source_at(source, label, t, now.value))
     }
 
-    /// `k J C^-1 Grad T` (W/m^(D-1)), which is minus the heat flow per reference area.
+    /// Computes `k J C^-1 Grad T` (W/m^(D-1)), which is minus the heat flow per reference area.
     pub(super) fn inflow(&self, motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; 3] {
         slope(motion, now).map(|slope| self.conductivity * slope)
     }
 }
 
-/// Temperature and displacement; a body at rest has zero displacement.
+/// The solution is temperature and displacement. The displacement of a body at rest is zero.
 impl Truth for Conduction {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
         match &self.motion {
@@ -132,13 +132,13 @@ pub trait ThermalCondition: Debug + Send + Sync {
 /// A point of a face at one time, with the elementary requirements on the temperature: a value, a
 /// heat inflow, or continuity with the opposite face.
 pub trait HeatFacePoint {
-    /// Value of a formula of the coordinates and t at this point and time.
+    /// Evaluates a formula of the coordinates and t at this point and time.
     fn value(&self, formula: &Formula) -> f64;
 
-    /// The temperature (K).
+    /// Returns the temperature (K).
     fn temperature(&self) -> f64;
 
-    /// Largest temperature in the body (K).
+    /// Returns the largest temperature in the body (K).
     fn largest_temperature(&self) -> f64;
 
     /// Requires `T = given` (K).
@@ -161,8 +161,8 @@ pub trait HeatFacePoint {
     fn continues_on_opposite_face(&self) -> Result<(), Violation>;
 }
 
-/// The heat source (W/kg) at the reference position `label` (m), a time (s) and a temperature (K).
-/// Variables of `formula` are the coordinates, t and optionally T.
+/// Evaluates the heat source (W/kg) at the reference position `label` (m), a time (s) and a
+/// temperature (K). Variables of `formula` are the coordinates, t and optionally T.
 pub fn source_at(formula: &Formula, label: &[f64], t: f64, temperature: f64) -> f64 {
     let mut all = [0.0; 5];
     all[..4].copy_from_slice(&variables(label, t));
@@ -178,7 +178,7 @@ pub struct HeatForcing {
 }
 
 impl HeatForcing {
-    /// The source of `problem` at `labels` (m), with D numbers each.
+    /// Prepares the source of `problem` at `labels` (m), with D numbers each.
     pub fn new<'a>(problem: &Conduction, labels: impl Iterator<Item = &'a [f64]>) -> Self {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let all = || labels.iter().map(Vec::as_slice);

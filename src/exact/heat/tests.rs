@@ -46,7 +46,7 @@ impl ThermalCondition for Ends {
     }
 }
 
-/// A box from 0 to 1 with rho0 c = 6 and k = 3, insulated on all faces.
+/// Creates a box from 0 to 1 with rho0 c = 6 and k = 3, insulated on all faces.
 fn insulated(dimension: usize, temperature: &str) -> Conduction {
     let face = |i: usize| HeatFace {
         name: ["left", "right", "bottom", "top", "back", "front"][i],
@@ -71,7 +71,7 @@ fn insulated(dimension: usize, temperature: &str) -> Conduction {
     }
 }
 
-/// A bar with conditions on both ends.
+/// Creates a bar with conditions on both ends.
 fn bar(temperature: &str, ends: [Ends; 2]) -> Conduction {
     let mut bar = insulated(1, temperature);
     for (face, condition) in bar.faces.iter_mut().zip(ends) {
@@ -86,7 +86,7 @@ fn refused(problem: &Conduction, words: &str) -> Violation {
     found
 }
 
-/// kappa = k/(rho0 c) = 1/2.
+/// The diffusivity is kappa = k/(rho0 c) = 1/2.
 #[rstest]
 #[case(1, "5 + cos(pi*X)*exp(-pi^2*t/2)")]
 #[case(2, "5 + cos(pi*X)*cos(2*pi*Y)*exp(-5*pi^2*t/2)")]
@@ -184,7 +184,7 @@ fn heat_goes_on_beyond_a_periodic_face(#[values("1e-6", "1", "1e6")] size: &str)
     refused(&bar("cos(pi*(X - 1/2))*exp(-pi^2*t/2)"), "left is periodic, the flow of heat");
 }
 
-/// The root is 0.86033...: an error in the fourth digit is refused.
+/// The root is 0.86033...; an error in the fourth digit is refused.
 #[test]
 fn a_root_of_the_eigenvalue_equation_is_verified() {
     let cooled = |mu: &str| {
@@ -211,7 +211,7 @@ fn no_temperature_is_none(#[case] temperature: &str, #[case] words: &str) {
     refused(&insulated(1, temperature), words);
 }
 
-/// `X + u = (1 + t/2) X`: heat flows over a longer distance, `J C^-1 = 1/(1 + t/2)`.
+/// For `X + u = (1 + t/2) X`, heat flows over a longer distance: `J C^-1 = 1/(1 + t/2)`.
 #[test]
 fn heat_flows_where_the_body_is_now() {
     let stretched = |source: &str| Conduction {
@@ -223,7 +223,7 @@ fn heat_flows_where_the_body_is_now() {
     refused(&stretched("3*pi^2/2*cos(pi*X)"), "heat equation");
 }
 
-/// A plane under simple shear g: `J C^-1 = [[1 + g^2, -g], [-g, 1]]`.
+/// In a plane under simple shear g, `J C^-1 = [[1 + g^2, -g], [-g, 1]]`.
 #[test]
 fn shear_turns_the_flow() {
     let sheared = Conduction {

@@ -24,8 +24,9 @@ use crate::exact::tensor::{Tensor, tensor};
 pub struct CamClayLaw {
     /// Slope M of the critical-state line.
     slope: f64,
-    /// Slopes of the swelling line (kappa) and the compression line (lambda).
+    /// Slope kappa of the swelling line.
     swelling: f64,
+    /// Slope lambda of the compression line.
     compression: f64,
     /// Ratio of moduli `G/K`.
     ratio: f64,
@@ -40,8 +41,8 @@ pub struct CamClayLaw {
 }
 
 impl CamClayLaw {
-    /// The law from the slope M of the critical-state line, the slopes of swelling and compression,
-    /// Poisson's ratio, and the initial mean stress and preconsolidation pressure (Pa).
+    /// Creates the law from the slope M of the critical-state line, the slopes of swelling and
+    /// compression, Poisson's ratio, initial mean stress and preconsolidation pressure (Pa).
     pub fn new(
         critical_state_slope: f64,
         swelling_slope: f64,
@@ -77,30 +78,30 @@ impl CamClayLaw {
         law
     }
 
-    /// `a` and `D`.
+    /// Returns `a` and `D`.
     fn weights(&self) -> [f64; 2] {
         [self.swelling / (3.0 * self.ratio), self.compression - self.swelling]
     }
 
-    /// N.
+    /// Returns N at the ratio `eta`.
     fn numerator(&self, eta: f64) -> f64 {
         let ([a, d], m2, e2) = (self.weights(), self.slope * self.slope, eta * eta);
         a * (m2 - e2) * (m2 + e2) + 2.0 * d * eta * (2.0 * eta - 2.0 / 3.0 * (m2 - e2))
     }
 
-    /// C.
+    /// Returns C at the ratio `eta`.
     fn cubic(&self, eta: f64) -> f64 {
         let ([a, d], inside) = (self.weights(), self.slope * self.slope - eta * eta);
         a * eta * inside + 2.0 * d * eta - 2.0 / 3.0 * self.compression * inside
     }
 
-    /// `dC/d eta`.
+    /// Returns `dC/d eta`.
     fn slope_of_cubic(&self, eta: f64) -> f64 {
         let ([a, d], m2) = (self.weights(), self.slope * self.slope);
         a * (m2 - 3.0 * eta * eta) + 2.0 * d + 4.0 / 3.0 * self.compression * eta
     }
 
-    /// The root of C between two ratios at which C has opposite signs.
+    /// Finds the root of C between two ratios at which C has opposite signs.
     fn root(&self, [mut low, mut high]: [f64; 2]) -> f64 {
         let rises = self.cubic(high) > 0.0;
         loop {
@@ -112,8 +113,8 @@ impl CamClayLaw {
         }
     }
 
-    /// Coefficients `b/2` and `e` of the partial fraction `(b eta + e M)/(M^2 + eta^2)`. At
-    /// `eta = i M`, its numerator equals `-N/C`.
+    /// Returns the coefficients `b/2` and `e` of the partial fraction
+    /// `(b eta + e M)/(M^2 + eta^2)`. At `eta = i M`, the numerator of this fraction equals `-N/C`.
     fn at_the_imaginary_slope(&self) -> [f64; 2] {
         let ([a, d], m) = (self.weights(), self.slope);
         let numerator = [4.0 * d * m * m, 8.0 / 3.0 * d * m * m * m];
@@ -124,13 +125,13 @@ impl CamClayLaw {
         [0.5 * imaginary / m, real / m]
     }
 
-    /// The ratio at yield in compression.
+    /// Returns the ratio at yield in compression.
     fn ratio_at_yield(&self) -> f64 {
         2.0 * self.ratio * (1.0 - self.initial_pressure / self.yields[0])
     }
 
-    /// State at the ratio whose distance from the K0 line has decreased by the factor `exp(-u)`
-    /// since yield. Returns `ln(p/p_y)`, the compaction after yield, and the ratio.
+    /// Computes the state at the ratio whose distance from the K0 line has decreased by the factor
+    /// `exp(-u)` since yield. Returns `ln(p/p_y)`, the compaction after yield, and the ratio.
     fn beyond_yield(&self, u: f64) -> [f64; 3] {
         let (start, m2, [limit, weight]) =
             (self.ratio_at_yield(), self.slope * self.slope, self.poles[0]);
@@ -146,7 +147,7 @@ impl CamClayLaw {
         [pressure, self.compression * pressure + hardening * growth, eta]
     }
 
-    /// `ln(p/p_y)` and the ratio at a given compaction after yield; NaN if the clay softens.
+    /// Computes `ln(p/p_y)` and the ratio at a compaction after yield; NaN if the clay softens.
     fn flowed(&self, beyond: f64) -> [f64; 2] {
         let start = self.ratio_at_yield();
         if !(start < self.slope) {
@@ -169,7 +170,7 @@ impl CamClayLaw {
         }
     }
 
-    /// `tau11` (Pa) at the logarithmic strain `strain`; NaN if the clay softens.
+    /// Computes `tau11` (Pa) at the logarithmic strain `strain`; NaN if the clay softens.
     fn kirchhoff<T: Number>(&self, strain: T) -> T {
         let elastic = Number::exp(T::from(-1.0 / self.swelling) * strain);
         let pressure = self.initial_pressure * elastic.value();
@@ -193,7 +194,7 @@ impl CamClayLaw {
     }
 }
 
-/// A ratio larger than all roots of C, from Cauchy's bound.
+/// Returns a ratio larger than all roots of C, from Cauchy's bound.
 fn bound(law: &CamClayLaw) -> f64 {
     let ([a, d], m2) = (law.weights(), law.slope * law.slope);
     let largest = (2.0 / 3.0 * law.compression * m2.max(1.0)).max(a * m2 + 2.0 * d);
@@ -251,8 +252,8 @@ mod tests {
         piola * libm::exp(strain)
     }
 
-    /// Values from an independent program: the constant ratio of the K0 line, and the mean stress
-    /// of a path that starts isotropically at its preconsolidation pressure.
+    /// Compares with values from an independent program: the constant ratio of the K0 line, and the
+    /// mean stress of a path that starts isotropically at its preconsolidation pressure.
     #[test]
     fn a_path_from_an_isotropic_state_approaches_the_k0_line() {
         let law = clay(100.0);
@@ -287,7 +288,7 @@ mod tests {
         assert_relative_eq!(plastic_shear, flow * plastic_volume, max_relative = 1e-5);
     }
 
-    /// Elastic up to yield, continuous at yield, and undefined if the clay would soften.
+    /// The stress is elastic up to yield, continuous at yield, and undefined for softening clay.
     #[test]
     fn yield_is_on_the_elastic_path() {
         let law = clay(150.0);

@@ -12,38 +12,38 @@ pub(super) trait ConstitutiveLaw {
     /// Equation of motion in reports.
     const EQUATION: &'static str;
 
-    /// Whether stress depends on the history of the motion, except under monotonic loading.
+    /// Whether stress depends on the history of the motion unless the loading is monotonic.
     const HAS_HISTORY: bool = false;
 
-    /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`. If the law depends on the
-    /// density, this is P for unit reference density.
+    /// Computes P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`. If the law depends
+    /// on the density, this is P for unit reference density.
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D>;
 
-    /// Energy W (J/m3) with `P = dW/dF`. It is zero at rest or, for a gas, in the limit of infinite
-    /// expansion. `None` for a law without energy, or with history.
+    /// Computes the energy W (J/m3) with `P = dW/dF`. The energy is zero at rest or, for a gas, in
+    /// the limit of infinite expansion. Returns `None` for a law without energy, or with history.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let _ = grad;
         None
     }
 
-    /// Largest modulus at rest (Pa), `lambda + 2 mu` for a solid. It bounds the stress for a given
-    /// strain.
+    /// Returns the largest modulus at rest (Pa), `lambda + 2 mu` for a solid, which bounds the
+    /// stress for a given strain.
     fn modulus(&self) -> f64;
 
-    /// Factor of P, of the energy and of the modulus at the reference density `density` (kg/m3). It
-    /// is 1 if the law does not depend on the density.
+    /// Returns the ratio of P, energy and modulus at the reference density `density` (kg/m3) to
+    /// those at unit density; 1 if the law does not depend on the density.
     fn density_factor<T: Number>(&self, density: T) -> T {
         let _ = density;
         T::from(1.0)
     }
 
-    /// `3 lambda + 2 mu` (Pa), the stiffness against equal strain on all axes, for a small-strain
-    /// law; `None` for a finite-strain law.
+    /// Returns `3 lambda + 2 mu` (Pa), the stiffness against equal strain on all axes, for a
+    /// small-strain law; `None` for a finite-strain law.
     fn small_strain_modulus(&self) -> Option<f64> {
         None
     }
 
-    /// `F_33 - 1` of a plate in plane stress (sigma_33 = 0), for the in-plane displacement
+    /// Computes `F_33 - 1` of a plate in plane stress (sigma_33 = 0), for the in-plane displacement
     /// gradient; `None` if the law does not implement plane stress.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let _ = grad;
@@ -74,18 +74,18 @@ pub(crate) struct Lame {
 }
 
 impl Lame {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// Computes Lame's parameters from Young's modulus (Pa) and Poisson's ratio.
     pub(crate) fn new(young: f64, poisson: f64) -> Self {
         let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
         Self { lambda, mu: young / (2.0 * (1.0 + poisson)) }
     }
 
-    /// `lambda + 2 mu` (Pa).
+    /// Returns `lambda + 2 mu` (Pa).
     pub(super) fn modulus(&self) -> f64 {
         self.lambda + 2.0 * self.mu
     }
 
-    /// `nu/(1 - nu)`: minus the thickness strain over the area strain of a plate in plane stress.
+    /// Returns `nu/(1 - nu)`: minus thickness strain over area strain of a plate in plane stress.
     pub(super) fn thinning(&self) -> f64 {
         self.lambda / self.modulus()
     }

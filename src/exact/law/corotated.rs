@@ -10,7 +10,7 @@ use crate::exact::tensor::{Tensor, cofactor, det, dilation, rotation, sum, tenso
 pub struct CorotatedLaw(Lame);
 
 impl CorotatedLaw {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(Lame::new(young, poisson))
     }
@@ -33,7 +33,7 @@ impl ConstitutiveLaw for CorotatedLaw {
         })
     }
 
-    /// `W = mu |F - R|^2 + lambda/2 (J - 1)^2`.
+    /// Computes `W = mu |F - R|^2 + lambda/2 (J - 1)^2`.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let Lame { lambda, mu } = self.0;
         let turn = rotation::<f64, 3>(&tensor(|i, j| grad[i][j] + unit::<f64>(i, j)));

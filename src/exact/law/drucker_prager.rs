@@ -18,8 +18,8 @@ use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
 pub struct DruckerPragerLaw(UniaxialLaw);
 
 impl DruckerPragerLaw {
-    /// The law from Young's modulus (Pa), Poisson's ratio, the coefficients of friction eta and of
-    /// dilation etab, and the strength k (Pa).
+    /// Creates the law from Young's modulus (Pa), Poisson's ratio, the coefficients of friction eta
+    /// and of dilation etab, and the strength k (Pa).
     pub fn new(young: f64, poisson: f64, friction: f64, dilation: f64, strength: f64) -> Self {
         let lame = Lame::new(young, poisson);
         let bulk = lame.lambda + 2.0 / 3.0 * lame.mu;
@@ -62,7 +62,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Values from an independent program, K = 1e4 Pa and mu = 6e3 Pa.
+    /// Compares with values from an independent program for K = 1e4 Pa and mu = 6e3 Pa.
     #[rstest]
     #[case::elastic(-0.002, -36.0)]
     #[case::compression(-0.01, -152.446_057_383_1)]

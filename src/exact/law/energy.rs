@@ -24,7 +24,8 @@ pub(super) fn assert_stress_is_derivative_from(
         let expected = -pressure * unit::<f64>(i, j);
         assert_abs_diff_eq!(initial[i][j], expected, epsilon = 1e-14 * law.modulus());
     }
-    // Work of the mean stress, with digits that differences of numbers near 1 would lose.
+    // The energy equals the work of the mean stress, even for strains so small that differences of
+    // numbers near 1 would lose digits.
     let small = [[2e-7, -1e-7, 5e-8], [3e-7, -2e-7, 1e-7], [0.0, 1.5e-7, 1e-7]];
     let stress = law.piola(&small);
     let mean = stress.iter().flatten().zip(initial.iter().flatten()).map(|(p, p0)| 0.5 * (p + p0));

@@ -18,7 +18,7 @@ use crate::exact::tensor::Tensor;
 pub struct GreenNaghdiLaw(Lame);
 
 impl GreenNaghdiLaw {
-    /// The law from Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(Lame::new(young, poisson))
     }

@@ -10,7 +10,7 @@ use crate::exact::tensor::{Tensor, area, cofactor, det, log_strain, product, sum
 pub struct HenckyLaw(Lame);
 
 impl HenckyLaw {
-    /// The law from Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(Lame::new(young, poisson))
     }
@@ -31,7 +31,7 @@ impl ConstitutiveLaw for HenckyLaw {
         product(&tau, &tensor(|i, j| cofactor[i][j] / det))
     }
 
-    /// `W = lambda/2 ln(J)^2 + mu eps : eps`.
+    /// Computes `W = lambda/2 ln(J)^2 + mu eps : eps`.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let Lame { lambda, mu } = self.0;
         let f: Tensor<f64> = tensor(|i, j| grad[i][j] + unit::<f64>(i, j));
@@ -45,7 +45,7 @@ impl ConstitutiveLaw for HenckyLaw {
         self.0.modulus()
     }
 
-    /// `eps_33 = -lambda/(lambda + 2 mu) ln J`, where J is the in-plane value.
+    /// Uses `eps_33 = -lambda/(lambda + 2 mu) ln J`, where J is the in-plane value.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let strain = T::from(-self.0.thinning()) * Number::ln(area(grad));
         Some(Number::exp(strain) - T::from(1.0))

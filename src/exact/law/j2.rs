@@ -1,11 +1,12 @@
 //! J2 plasticity with linear hardening under monotonic loading.
 //!
 //! While the logarithmic strain `eps` grows along one direction, the plastic strain is a function
-//! of `eps`. The law then depends on the total deformation (Hencky 1924; the integral of the flow
-//! theory for proportional loading). The Kirchhoff stress is `tau = K tr(eps) I + s dev(eps)`, with
-//! `s = 2 mu` up to `q = sqrt(3/2) |2 mu dev(eps)| = Y`. After yield, s satisfies `q = Y + H alpha`
-//! and `3 mu alpha = q_elastic - q`. The law is used in uniaxial strain, where all loading is along
-//! one direction; `monotone_loading` checks that the loading never reverses.
+//! of `eps`. The stress then depends only on the current deformation (Hencky 1924; the integral of
+//! the flow theory for proportional loading). The Kirchhoff stress is
+//! `tau = K tr(eps) I + s dev(eps)`, with `s = 2 mu` up to `q = sqrt(3/2) |2 mu dev(eps)| = Y`.
+//! After yield, s satisfies `q = Y + H alpha` and `3 mu alpha = q_elastic - q`. The law is used in
+//! uniaxial strain, where all loading is along one direction; `monotone_loading` checks that the
+//! loading never reverses.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
@@ -20,8 +21,8 @@ pub struct J2Law {
 }
 
 impl J2Law {
-    /// The law from Young's modulus (Pa), Poisson's ratio, the yield stress in tension (Pa) and the
-    /// hardening modulus (Pa).
+    /// Creates the law from Young's modulus (Pa), Poisson's ratio, the yield stress in tension (Pa)
+    /// and the hardening modulus (Pa).
     pub fn new(young: f64, poisson: f64, yield_stress: f64, hardening: f64) -> Self {
         Self { lame: Lame::new(young, poisson), yield_stress, hardening }
     }
@@ -60,7 +61,7 @@ impl ConstitutiveLaw for J2Law {
     }
 }
 
-/// The Kirchhoff stress (Pa) for the logarithmic strain `strain`, whose trace is `trace`.
+/// Computes the Kirchhoff stress (Pa) for the logarithmic strain `strain`, whose trace is `trace`.
 fn kirchhoff<T: Number, const D: usize>(
     strain: &Tensor<T, D>,
     trace: T,
@@ -80,7 +81,7 @@ fn kirchhoff<T: Number, const D: usize>(
     tensor(|i, j| bulk * third * unit(i, j) + shear * deviator[i][j])
 }
 
-/// `sqrt(3/2) |2 mu dev(eps)|`; the deviator along the missing axes is `-third`.
+/// Computes `sqrt(3/2) |2 mu dev(eps)|`; the deviator along the missing axes is `-third`.
 fn mises<T: Number, const D: usize>(deviator: &Tensor<T, D>, third: T, mu: f64) -> T {
     let inside = sum::<T, D>(|i| sum::<T, D>(|j| deviator[i][j] * deviator[i][j]));
     let square = inside + third * third * T::from((3 - D) as f64);

@@ -1,6 +1,6 @@
 //! Linear elasticity with the Jaumann rate in simple shear.
 //!
-//! In simple shear by gamma the spin is constant in gamma. The rate integrates to
+//! In simple shear by gamma, the spin per unit gamma is constant. The rate integrates to
 //! `tau12 = mu sin(gamma)`, `tau11 = -tau22 = mu (1 - cos(gamma))` (Dienes 1979): the shear stress
 //! oscillates.
 
@@ -14,7 +14,7 @@ use crate::exact::tensor::Tensor;
 pub struct JaumannLaw(Lame);
 
 impl JaumannLaw {
-    /// The law from Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(Lame::new(young, poisson))
     }

@@ -12,7 +12,7 @@ pub struct LinearFluidLaw {
 }
 
 impl LinearFluidLaw {
-    /// The law from the bulk modulus (Pa).
+    /// Creates the law from the bulk modulus (Pa).
     pub fn new(bulk: f64) -> Self {
         Self { bulk }
     }
@@ -30,7 +30,7 @@ impl ConstitutiveLaw for LinearFluidLaw {
         tensor(|i, j| tension * cofactor[i][j])
     }
 
-    /// `W = K/2 (J - 1)^2`.
+    /// Computes `W = K/2 (J - 1)^2`.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let dilation = dilation(grad);
         Some(0.5 * self.bulk * dilation * dilation)

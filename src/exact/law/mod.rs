@@ -1,5 +1,5 @@
-//! Family of constitutive laws of exact solutions, implemented independently of the solvers. A new
-//! member needs one file and one line of `members`.
+//! Constitutive laws of exact solutions, implemented independently of the solvers. A new law needs
+//! a file in this folder and a line in `members`.
 
 mod contract;
 #[cfg(test)]

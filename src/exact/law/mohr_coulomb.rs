@@ -3,9 +3,9 @@
 //! The two lateral stresses are equal, so the state is on an edge of the yield surface, where two
 //! planes flow with the same multiplier `g`. With `s = sin(phi)`, `t = sin(psi)` and
 //! `M = L + 2 mu`, the yield condition is `(1 + s) tau_high - (1 - s) tau_low = 2 c cos(phi)`. Per
-//! unit strain, the flow reduces an axial stress that is the largest by `g (4 L t + 4 mu (1 + t))`,
-//! and increases one that is the smallest by `g (4 mu (1 - t) - 4 L t)`. Half of the shear part is
-//! transferred to or from the lateral stresses.
+//! unit strain, the flow reduces the axial stress by `g (4 L t + 4 mu (1 + t))` if it is the
+//! largest stress, and increases it by `g (4 mu (1 - t) - 4 L t)` if it is the smallest. Half of
+//! the shear part is transferred to or from the lateral stresses.
 
 use super::contract::Lame;
 use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
@@ -15,8 +15,8 @@ use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
 pub struct MohrCoulombLaw(UniaxialLaw);
 
 impl MohrCoulombLaw {
-    /// The law from Young's modulus (Pa), Poisson's ratio, the angles of friction and dilation
-    /// (degrees), and the cohesion (Pa).
+    /// Creates the law from Young's modulus (Pa), Poisson's ratio, the angles of friction and
+    /// dilation (degrees), and the cohesion (Pa).
     pub fn new(
         young: f64,
         poisson: f64,
@@ -81,7 +81,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Values from an independent program, K = 1e4 Pa, mu = 7.5e3 Pa and c = 10 Pa.
+    /// Compares with values of an independent program for K = 1e4 Pa, mu = 7.5e3 Pa, c = 10 Pa.
     #[rstest]
     #[case::compression([30.0, 10.0], -0.01, -196.127_569_232)]
     #[case::large([30.0, 10.0], -0.03, -570.914_763_447)]

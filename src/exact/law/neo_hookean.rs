@@ -10,7 +10,7 @@ use crate::exact::tensor::{Tensor, area, cofactor, det, dilation, sum, tensor, u
 pub struct NeoHookeanLaw(Lame);
 
 impl NeoHookeanLaw {
-    /// The law from Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(Lame::new(young, poisson))
     }
@@ -19,8 +19,8 @@ impl NeoHookeanLaw {
 /// Maximum number of Newton steps for the stretch across a plate; strains of 100 % need about five.
 const MOST_STEPS: usize = 100;
 
-/// One Newton step from `eps` towards the logarithmic thickness strain of a plate whose logarithmic
-/// area strain is `log`.
+/// Performs one Newton step from `eps` towards the logarithmic thickness strain of a plate whose
+/// logarithmic area strain is `log`.
 fn newton<T: Number>(Lame { lambda, mu }: Lame, log: T, eps: T) -> T {
     let (lambda, mu, square) = (T::from(lambda), T::from(mu), Number::exp(eps + eps));
     let force = lambda * (log + eps) + mu * (square - T::from(1.0));
@@ -41,7 +41,7 @@ impl ConstitutiveLaw for NeoHookeanLaw {
         tensor(|i, j| pressure * cofactor[i][j] / det + mu * f[i][j])
     }
 
-    /// `W = lambda/2 ln(J)^2 + mu/2 (F : F - 3) - mu ln J`; `F : F - 3` is computed from grad u.
+    /// Computes `W = lambda/2 ln(J)^2 + mu/2 (F : F - 3) - mu ln J`, with `F : F - 3` from grad u.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let Lame { lambda, mu } = self.0;
         let log = libm::log1p(dilation(grad));
@@ -56,8 +56,8 @@ impl ConstitutiveLaw for NeoHookeanLaw {
 
     /// Solves `lambda (ln J + eps) + mu (exp(2 eps) - 1) = 0` by Newton's method, where J is the
     /// in-plane value and `eps = ln F_33`. The left side is convex, and not negative at the zero of
-    /// its tangent at rest. From there, each step decreases monotonically to the root until
-    /// rounding stops it. Two more steps give the derivatives.
+    /// its tangent at rest. From there, the iterates decrease monotonically to the root until
+    /// rounding stops them. Two more steps give the derivatives.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let log = Number::ln(area(grad));
         let mut eps = -self.0.thinning() * log.value();

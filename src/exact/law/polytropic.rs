@@ -16,7 +16,7 @@ pub struct PolytropicLaw {
 }
 
 impl PolytropicLaw {
-    /// The law from the stiffness K (Pa (m3/kg)^g) and the exponent g.
+    /// Creates the law from the stiffness K (Pa (m3/kg)^g) and the exponent g.
     pub fn new(stiffness: f64, exponent: f64) -> Self {
         Self { stiffness, exponent }
     }

@@ -1,4 +1,4 @@
-//! Assigns laws of exact solutions to materials, one line per law.
+//! Assigns laws of exact solutions to materials.
 
 /// Declares the law family, from the lines of [`each_material`](crate::members) that have a law.
 macro_rules! laws {
@@ -34,8 +34,8 @@ macro_rules! laws {
             /// Names of all laws in suites.
             pub const NAMES: &[&'static str] = &[$($($law::NAME,)?)+];
 
-            /// The equation for a material, from the material's name and its parameters by key;
-            /// `None` if there is no law for it.
+            /// Returns the equation for a material, from the material's name and its parameters by
+            /// key; `None` if there is no law for the material.
             pub fn of_material(
                 material: &str,
                 parameter: impl Fn(&str) -> Option<f64>,
@@ -48,70 +48,71 @@ macro_rules! laws {
                 })
             }
 
-            /// Name of the law in suites.
+            /// Returns the name of the law in suites.
             pub fn name(&self) -> &'static str {
                 match self {
                     $($(Self::$law(_) => $law::NAME,)?)+
                 }
             }
 
-            /// The equation of motion in reports.
+            /// Returns the equation of motion in reports.
             pub fn text(&self) -> &'static str {
                 match self {
                     $($(Self::$law(_) => $law::EQUATION,)?)+
                 }
             }
 
-            /// Whether the stress depends on the history of the motion, except under monotonic
-            /// loading.
+            /// Whether the stress depends on the history of the motion unless the loading is
+            /// monotonic.
             pub(super) fn has_history(&self) -> bool {
                 match self {
                     $($(Self::$law(_) => $law::HAS_HISTORY,)?)+
                 }
             }
 
-            /// P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`. If the law depends on
-            /// the density, this is P for unit reference density, see [`Equation::density_factor`].
+            /// Computes P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`. If the law
+            /// depends on the density, this is P for unit reference density, see
+            /// [`Equation::density_factor`].
             pub fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
                 match self {
                     $($(Self::$law(law) => law.piola(grad),)?)+
                 }
             }
 
-            /// Energy W (J/m3) whose derivative is P. It is zero at rest or, for a gas, in the
-            /// limit of infinite expansion. `None` for a law without energy. For unit reference
-            /// density, like P.
+            /// Computes the energy W (J/m3) whose derivative is P, for unit reference density like
+            /// P. The energy is zero at rest or, for a gas, in the limit of infinite expansion.
+            /// Returns `None` for a law without energy.
             pub fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
                 match self {
                     $($(Self::$law(law) => law.energy(grad),)?)+
                 }
             }
 
-            /// Largest modulus at rest (Pa), which bounds the stress for a given strain. For unit
-            /// reference density, like P.
+            /// Returns the largest modulus at rest (Pa), which bounds the stress for a given
+            /// strain, for unit reference density like P.
             pub fn modulus(&self) -> f64 {
                 match self {
                     $($(Self::$law(law) => law.modulus(),)?)+
                 }
             }
 
-            /// Factor of P, of the energy and of the modulus at the reference density `density`
-            /// (kg/m3). It is 1 if the law does not depend on the density.
+            /// Returns the ratio of P, energy and modulus at the reference density `density`
+            /// (kg/m3) to those at unit density; 1 if the law does not depend on the density.
             pub fn density_factor<T: Number>(&self, density: T) -> T {
                 match self {
                     $($(Self::$law(law) => law.density_factor(density),)?)+
                 }
             }
 
-            /// `3 lambda + 2 mu` (Pa) of a small-strain law; `None` for a finite-strain law.
+            /// Returns `3 lambda + 2 mu` (Pa); `None` for a finite-strain law.
             pub(super) fn small_strain_modulus(&self) -> Option<f64> {
                 match self {
                     $($(Self::$law(law) => law.small_strain_modulus(),)?)+
                 }
             }
 
-            /// `F_33 - 1` of a plate in plane stress (sigma_33 = 0), for the in-plane displacement
-            /// gradient; `None` if the law does not implement plane stress.
+            /// Computes `F_33 - 1` of a plate in plane stress (sigma_33 = 0), for the in-plane
+            /// displacement gradient; `None` if the law does not implement plane stress.
             pub(super) fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
                 match self {
                     $($(Self::$law(law) => law.free_gradient(grad),)?)+

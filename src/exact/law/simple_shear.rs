@@ -5,8 +5,8 @@ use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
 use crate::exact::tensor::{Tensor, tensor};
 
-/// `P = tau F^-T` (Pa) for plane simple shear along the first axis. `kirchhoff` returns components
-/// 11 and 12 of the trace-free Kirchhoff stress for gamma. NaN for any other deformation.
+/// Computes `P = tau F^-T` (Pa) for plane simple shear along the first axis; otherwise NaN.
+/// `kirchhoff` returns components 11 and 12 of the trace-free Kirchhoff stress for gamma.
 pub(super) fn piola_in_simple_shear<T: Number, const D: usize>(
     grad: &Tensor<T, D>,
     kirchhoff: impl FnOnce(T) -> [T; 2],
@@ -29,7 +29,7 @@ pub(super) fn piola_in_simple_shear<T: Number, const D: usize>(
 /// Refuses a scene that is not plane.
 ///
 /// # Errors
-/// The reason, and the alternative for a suite.
+/// The reason for refusing the scene, and an alternative for the suite.
 pub(super) fn admit_a_plane(dimension: usize) -> Result<(), [&'static str; 2]> {
     if dimension == 2 {
         return Ok(());
@@ -40,7 +40,7 @@ pub(super) fn admit_a_plane(dimension: usize) -> Result<(), [&'static str; 2]> {
     ])
 }
 
-/// Asserts the components 11 and 12 of the Kirchhoff stress (Pa) in simple shear.
+/// Asserts components 11 and 12 of the Kirchhoff stress (Pa) in simple shear by `gamma`.
 #[cfg(test)]
 pub(super) fn assert_kirchhoff(law: &impl ConstitutiveLaw, gamma: f64, expected: [f64; 2]) {
     let piola = law.piola(&[[0.0, gamma], [0.0, 0.0]]);

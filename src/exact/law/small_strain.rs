@@ -9,7 +9,7 @@ use crate::exact::tensor::{Tensor, sum, tensor};
 pub struct SmallStrainLaw(Lame);
 
 impl SmallStrainLaw {
-    /// The law from Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(Lame::new(young, poisson))
     }
@@ -28,7 +28,7 @@ impl ConstitutiveLaw for SmallStrainLaw {
         })
     }
 
-    /// `W = lambda/2 tr(eps)^2 + mu eps : eps`, which is half of `P : grad u`.
+    /// Computes `W = lambda/2 tr(eps)^2 + mu eps : eps`, which is half of `P : grad u`.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let stress = self.piola(grad);
         let work = stress.iter().flatten().zip(grad.iter().flatten()).map(|(p, slope)| p * slope);
@@ -39,7 +39,7 @@ impl ConstitutiveLaw for SmallStrainLaw {
         self.0.modulus()
     }
 
-    /// `eps_33 = -lambda/(lambda + 2 mu) (eps_11 + eps_22)`.
+    /// Uses `eps_33 = -lambda/(lambda + 2 mu) (eps_11 + eps_22)`.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         Some(T::from(-self.0.thinning()) * (grad[0][0] + grad[1][1]))
     }
@@ -65,7 +65,7 @@ mod tests {
         assert_relative_eq!(bar.modulus(), 100.0);
     }
 
-    /// Div P by hand for u = (x^2 y, x y^2, 0).
+    /// Compares with Div P computed by hand for u = (x^2 y, x y^2, 0).
     #[test]
     fn the_divergence_agrees_with_a_hand_calculation() {
         let (x, y) = (0.3, 0.7);

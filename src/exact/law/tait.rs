@@ -13,8 +13,8 @@ pub struct TaitLaw {
 }
 
 impl TaitLaw {
-    /// The law from the bulk modulus at rest (Pa) and the viscosity (Pa s), which causes stress in
-    /// a moving fluid.
+    /// Creates the law from the bulk modulus at rest (Pa) and the viscosity (Pa s), which causes
+    /// stress in a moving fluid.
     pub fn new(bulk: f64, viscosity: f64) -> Self {
         Self { bulk, viscosity }
     }
@@ -33,7 +33,7 @@ impl ConstitutiveLaw for TaitLaw {
         tensor(|i, j| -(pressure * cofactor[i][j]))
     }
 
-    /// `W = K/7 (J^-6/6 + J - 7/6)`, computed from `J - 1`.
+    /// Computes `W = K/7 (J^-6/6 + J - 7/6)` from `J - 1`.
     fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
         let dilation = dilation(grad);
         let power = libm::expm1(-6.0 * libm::log1p(dilation));

@@ -17,7 +17,7 @@ pub(super) trait UniaxialPlasticity {
     /// See [`ConstitutiveLaw::EQUATION`].
     const TEXT: &'static str;
 
-    /// The axial stress of the law.
+    /// Returns the axial stress of the law.
     fn response(&self) -> &UniaxialLaw;
 }
 
@@ -49,7 +49,7 @@ impl<L: UniaxialPlasticity> ConstitutiveLaw for L {
     }
 }
 
-/// The flow in compression or in extension.
+/// Plastic flow in compression or in extension.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct UniaxialFlow {
     /// Magnitude of the strain at yield; infinite if the body never yields.
@@ -79,7 +79,7 @@ impl UniaxialLaw {
         if strain < 0.0 { (-1.0, &self.compression) } else { (1.0, &self.extension) }
     }
 
-    /// Kirchhoff stress (Pa) at the logarithmic strain `strain`.
+    /// Computes the Kirchhoff stress (Pa) at the logarithmic strain `strain`.
     fn kirchhoff<T: Number>(&self, strain: T) -> T {
         let (sign, flow) = self.sense(strain.value());
         let elastic = self.lame.modulus();
@@ -94,7 +94,7 @@ impl UniaxialLaw {
         at_yield + T::from(flow.modulus) * (strain - T::from(sign * flow.strain))
     }
 
-    /// P (Pa) for the displacement gradient of uniaxial strain along the first axis.
+    /// Computes P (Pa) for the displacement gradient of uniaxial strain along the first axis.
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
         let stretch = T::from(1.0) + grad[0][0];
         let along = self.kirchhoff(Number::ln(stretch)) / stretch;

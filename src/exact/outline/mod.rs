@@ -21,62 +21,63 @@ const ROUNDING: f64 = 1e-12;
 
 /// Shape of a body that is not a box, in the reference configuration.
 pub trait Outline: Debug + Send + Sync {
-    /// Name of the kind in suites.
+    /// Returns the name of the kind in suites.
     fn kind(&self) -> &'static str;
 
-    /// One-line description for reports.
+    /// Returns a one-line description for reports.
     fn row(&self) -> String;
 
-    /// Lowest and highest corner of the bounding box (m).
+    /// Returns lowest and highest corner of the bounding box (m).
     fn ends(&self) -> (Vec<f64>, Vec<f64>);
 
     /// Whether the body contains the point with reference position `label`.
     fn holds(&self, label: &[f64]) -> bool;
 
-    /// Distance of a point from the body (m); holes count as filled.
+    /// Returns the distance of a point from the body (m); holes count as filled.
     fn distance(&self, label: &[f64]) -> f64;
 
-    /// Centre and radius (m) of a round body, ignoring holes; `None` for other shapes.
+    /// Returns centre and radius (m) of a round body, ignoring holes; `None` for other shapes.
     fn ball(&self) -> Option<(&[f64], f64)> {
         None
     }
 
-    /// Circles on which a pressure can act; empty unless the body is a disk or an annulus.
+    /// Returns the circles on which a pressure can act; empty unless the body is a disk or annulus.
     fn circles(&self) -> Vec<Circle> {
         Vec::new()
     }
 
-    /// Radius of the central hole of a round body (m); 0 without a hole.
+    /// Returns the radius of the central hole of a round body (m); 0 without a hole.
     fn hole(&self) -> f64 {
         0.0
     }
 
-    /// The particles of one lattice cell, which represent the part of the cell in the body. The
-    /// cell is a box with half-lengths `half` (m) around `centre`.
+    /// Returns the particles of one lattice cell, which represent the part of the cell in the body.
+    /// The cell is a box with half-lengths `half` (m) around `centre`.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut;
 
-    /// Volume of the part of the body in a box (m^D).
+    /// Returns the volume of the part of the body in a box (m^D).
     fn volume_within(&self, from: &[f64], to: &[f64]) -> f64;
 
-    /// A closed line along the rim in the plane of the first two axes (m).
+    /// Returns a closed line along the rim in the plane of the first two axes (m).
     fn trace(&self) -> Vec<(f64, f64)>;
 
-    /// The parts of the rim, named for messages.
+    /// Returns the parts of the rim, named for messages.
     fn rims(&self) -> Vec<String>;
 
-    /// A random point on a part of the rim, and the outward normal at that point.
+    /// Returns a random point on a part of the rim, and the outward normal at that point.
     fn on_rim(&self, rim: usize, random: &mut Random) -> (Vec<f64>, [f64; 3]);
 
-    /// A random point in the body, with uniform distribution.
+    /// Returns a random point in the body, with uniform distribution.
     fn point(&self, random: &mut Random) -> Vec<f64>;
 
-    /// Centre and half-lengths of a random box inside the body.
+    /// Returns centre and half-lengths of a random box inside the body.
     fn patch(&self, random: &mut Random) -> (Vec<f64>, Vec<f64>);
 
-    /// Coordinate ranges of the charts. A chart maps a box to a part of the body; all charts
-    /// together cover the body.
+    /// Returns the coordinate ranges of the charts. A chart maps a box to a part of the body; all
+    /// charts together cover the body.
     fn charts(&self) -> Vec<Vec<(f64, f64)>>;
 
-    /// The point of a chart at `coordinates`, and the body volume per unit of the coordinates.
+    /// Returns the point of a chart at `coordinates`, and the body volume per unit of
+    /// `coordinates`.
     fn place(&self, chart: usize, coordinates: &[f64]) -> (Vec<f64>, f64);
 }

@@ -33,14 +33,14 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// A whole lattice cell.
+    /// Creates the piece that is a whole lattice cell.
     pub(super) fn whole(place: [f64; 2], half: [f64; 2]) -> Self {
         let [width, height] = half.map(|half| 2.0 * half);
         let spread = [width * width / 12.0, 0.0, height * height / 12.0];
         Self { volume: width * height, place, spread, joints: [height, height, width, width] }
     }
 
-    /// Half-lengths (m), row by row, of a parallelogram with the volume of the piece and
+    /// Returns half-lengths (m), row by row, of a parallelogram with the volume of the piece and
     /// proportional mean products of coordinates. Its columns are those of the symmetric root
     /// `(Q + s I)/t`, where Q is three times the matrix of mean products, `s = sqrt(det Q)` and
     /// `t = sqrt(tr Q + 2 s)` (Higham 2008, *Functions of Matrices*, problem 6.2). For an
@@ -57,7 +57,7 @@ impl Piece {
         [xx + root, xy, xy, yy + root].map(|entry| scale * entry)
     }
 
-    /// The union of this piece and `other`.
+    /// Returns the union of this piece and `other`.
     fn with(&self, other: &Self) -> Self {
         let volume = self.volume + other.volume;
         let shares = [self.volume / volume, other.volume / volume];
@@ -77,8 +77,9 @@ impl Piece {
 
 /// Merges pieces smaller than a quarter of a lattice cell with the neighbour that shares the
 /// longest boundary, starting with the smallest piece. A merged centroid must lie in the body
-/// (`holds`). `cuts` contains all lattice cells, `along` of them in a row, with half-lengths `half`
-/// (m) around their `centres` (m). Volumes and first moments do not change.
+/// (`holds`). `cuts` contains all lattice cells, row by row with `along` cells per row. The cells
+/// have half-lengths `half` (m) around their `centres` (m). Volumes and first moments do not
+/// change.
 pub fn join_small(
     cuts: &mut [Cut],
     along: usize,

@@ -16,7 +16,8 @@ pub struct Polygon {
 }
 
 impl Polygon {
-    /// The polygon with these corners (m), in either orientation; `kind` is its name in suites.
+    /// Creates the polygon with these corners (m), in either orientation; `kind` is a name in
+    /// suites.
     ///
     /// # Errors
     /// Indices of two sides that cross, or that touch other than at a common corner. Side i begins
@@ -54,22 +55,22 @@ impl Polygon {
         pairs.map(|(one, two)| common(one, two)).sum::<f64>() > ROUNDING * area
     }
 
-    /// Area (m2).
+    /// Returns the area (m2).
     fn area(&self) -> f64 {
         self.triangles.iter().map(|[a, b, c]| 0.5 * turn(a, b, c)).sum()
     }
 
-    /// The end points of all sides.
+    /// Returns the end points of all sides.
     fn sides(&self) -> impl Iterator<Item = (&Point, &Point)> {
         self.corners.iter().zip(self.corners.iter().cycle().skip(1))
     }
 
-    /// Distance of a point from the nearest side (m).
+    /// Returns the distance of a point from the nearest side (m).
     fn depth(&self, p: &Point) -> f64 {
         self.sides().map(|(a, b)| distance(a, b, p)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The piece that consists of the convex `parts` of a lattice cell; `None` if negligible.
+    /// Returns the piece that consists of these convex `parts` of a cell; `None` if negligible.
     fn piece(parts: &[Vec<Point>], centre: &Point, half: &Point) -> Option<Piece> {
         let AreaMoments { area, first, .. } = AreaMoments::from_pieces(parts, centre);
         if !(area > ROUNDING * 4.0 * half[0] * half[1]) {
@@ -123,11 +124,11 @@ impl Outline for Polygon {
         if self.holds(label) { 0.0 } else { self.depth(&[label[0], label[1]]) }
     }
 
-    /// The exact intersection of cell and body, with a particle at its centroid. The particles have
-    /// the volume and the first moment of the body, up to rounding. The sum of V f(X) over the
-    /// particles approximates the integral of f to second order in the spacing, also at the rim. If
-    /// the centroid is outside the body, for example in a notch, each convex piece becomes a
-    /// particle.
+    /// Returns the exact intersection of cell and body, with a particle at its centroid. The
+    /// particles have the volume and the first moment of the body, up to rounding. The sum of V
+    /// f(X) over the particles approximates the integral of f to second order in the spacing, also
+    /// at the rim. If the centroid is outside the body, for example in a notch, each convex piece
+    /// becomes a particle.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut {
         let (centre, half) = ([centre[0], centre[1]], [half[0], half[1]]);
         let is_near = |corners: &&TriangleCorners| {
@@ -207,7 +208,7 @@ impl Outline for Polygon {
         (centre, half)
     }
 
-    /// One chart per triangle: a unit square with one side collapsed to the first corner.
+    /// Returns one chart per triangle: a unit square with one side collapsed to the first corner.
     fn charts(&self) -> Vec<Vec<(f64, f64)>> {
         self.triangles.iter().map(|_| vec![(0.0, 1.0); 2]).collect()
     }
@@ -220,7 +221,7 @@ impl Outline for Polygon {
     }
 }
 
-/// The part of a triangle in a box.
+/// Returns the part of a triangle in a box.
 fn inside(corners: &TriangleCorners, from: &[f64], to: &[f64]) -> Vec<Point> {
     [0, 1].into_iter().fold(corners.to_vec(), |left, axis| {
         clip(&clip(&left, |p| p[axis] - from[axis]), |p| to[axis] - p[axis])
@@ -239,7 +240,7 @@ pub(super) struct AreaMoments {
 }
 
 impl AreaMoments {
-    /// The moments relative to `origin`.
+    /// Computes the moments relative to `origin`.
     pub(super) fn from_pieces(pieces: &[Vec<Point>], origin: &Point) -> Self {
         let mut all = Self::default();
         for corners in pieces {
@@ -250,8 +251,8 @@ impl AreaMoments {
         all
     }
 
-    /// Adds a triangle. The mean of a product of linear functions over a triangle is 1/12 of the
-    /// sum of their products at the corners plus the product of their sums.
+    /// Adds a triangle. The mean of a product of two linear functions over a triangle is 1/12 of a
+    /// sum: their products at the three corners, and the product of their sums over the corners.
     fn add(&mut self, corners: TriangleCorners) {
         let [a, b, c] = &corners;
         let area = 0.5 * turn(a, b, c);
@@ -270,17 +271,17 @@ impl AreaMoments {
 /// A point in the plane (m).
 pub(super) type Point = [f64; 2];
 
-/// Vector from `a` to `b` (m).
+/// Returns the vector from `a` to `b` (m).
 pub(super) fn side(a: &Point, b: &Point) -> Point {
     [b[0] - a[0], b[1] - a[1]]
 }
 
-/// Third component of the cross product, positive if `b` is to the left of `a`.
+/// Returns the third component of the cross product, positive if `b` is to the left of `a`.
 pub(super) fn cross(a: &Point, b: &Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// Twice the signed area of a triangle (m2), positive for counter-clockwise corners.
+/// Returns twice the signed area of a triangle (m2), positive for counter-clockwise corners.
 pub(super) fn turn(a: &Point, b: &Point, c: &Point) -> f64 {
     cross(&side(a, b), &side(a, c))
 }
@@ -311,7 +312,7 @@ pub(super) fn meet(corners: &[Point], first: usize, second: usize) -> bool {
     !(apart(a, b, c, d) || apart(c, d, a, b) || beside(0) || beside(1))
 }
 
-/// Distance of `p` from the segment between `a` and `b` (m).
+/// Returns the distance of `p` from the segment between `a` and `b` (m).
 pub(super) fn distance(a: &Point, b: &Point, p: &Point) -> f64 {
     let (along, to) = (side(a, b), side(a, p));
     let square = along[0] * along[0] + along[1] * along[1];
@@ -353,8 +354,8 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
     found
 }
 
-/// The part of a convex polygon where `height`, a linear function of position, is not negative
-/// (Sutherland & Hodgman 1974, Reentrant polygon clipping).
+/// Returns the part of a convex polygon where `height`, a linear function of position, is not
+/// negative (Sutherland & Hodgman 1974, Reentrant polygon clipping).
 pub(super) fn clip(corners: &[Point], height: impl Fn(&Point) -> f64) -> Vec<Point> {
     let mut kept = Vec::with_capacity(corners.len() + 1);
     for (i, to) in corners.iter().enumerate() {

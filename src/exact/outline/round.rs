@@ -49,7 +49,7 @@ struct Rim {
 }
 
 impl Round {
-    /// The rims with nonzero radius, the inner rim first.
+    /// Returns the rims with nonzero radius, the inner rim first.
     fn each_rim(&self) -> impl Iterator<Item = Rim> {
         let rim = |title, name, radius, outwards| Rim { title, name, radius, outwards };
         let inner = rim("the inner rim", "inner", self.inner, -1.0);
@@ -57,7 +57,7 @@ impl Round {
         [inner, outer].into_iter().filter(|rim| rim.radius > 0.0)
     }
 
-    /// A random direction, uniform because the height on a sphere is uniform (Archimedes).
+    /// Returns a random direction, uniform because the height on a sphere is uniform (Archimedes).
     fn direction(&self, random: &mut Random) -> [f64; 3] {
         let angle = random.between(-PI, PI);
         let height = if self.centre.len() == 2 { 0.0 } else { random.between(-1.0, 1.0) };
@@ -123,8 +123,8 @@ impl Outline for Round {
         self.each_rim().enumerate().map(circle).collect()
     }
 
-    /// The whole lattice cell if its centre is inside the body. The rim becomes a staircase; volume
-    /// and mass have a relative error that decreases with the spacing.
+    /// Returns the whole lattice cell if its centre is inside the body. The rim becomes a
+    /// staircase; volume and mass have a relative error that decreases with the spacing.
     fn cut(&self, centre: &[f64], _: &[f64]) -> Cut {
         if self.holds(centre) { Cut::Whole } else { Cut::Nothing }
     }
@@ -168,7 +168,7 @@ impl Outline for Round {
         self.along(&direction, radius.clamp(self.inner, self.outer))
     }
 
-    /// A box between the rims.
+    /// Returns a box between the rims.
     fn patch(&self, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
         let radius = self.inner + (self.outer - self.inner) * random.between(0.25, 0.75);
         let away = |rim: Rim| (rim.radius - radius).abs();
@@ -179,13 +179,13 @@ impl Outline for Round {
         (self.along(&direction, radius), half)
     }
 
-    /// Coordinates: radius, angle and, in 3-D, height divided by radius.
+    /// Returns the ranges of radius, angle and, in 3-D, height divided by radius.
     fn charts(&self) -> Vec<Vec<(f64, f64)>> {
         let all = [(self.inner, self.outer), (-PI, PI), (-1.0, 1.0)];
         vec![all[..self.centre.len()].to_vec()]
     }
 
-    /// The volume per unit of the coordinates is r in the plane and r^2 in space.
+    /// Returns the point, and the volume per unit of the coordinates: r in the plane, r^2 in space.
     fn place(&self, _: usize, coordinates: &[f64]) -> (Vec<f64>, f64) {
         let (radius, height) = (coordinates[0], coordinates.get(2).copied().unwrap_or(0.0));
         let direction = direction(coordinates[1], height);
@@ -193,18 +193,19 @@ impl Outline for Round {
     }
 }
 
-/// Unit vector at `angle` around the third axis, whose third component is `height`.
+/// Returns the unit vector at `angle` around the third axis, whose third component is `height`.
 fn direction(angle: f64, height: f64) -> [f64; 3] {
     let flat = (1.0 - height * height).sqrt();
     [flat * libm::cos(angle), flat * libm::sin(angle), height]
 }
 
-/// Quadrature panels between two kinks. With four, a kink just outside causes an error of 1e-9.
+/// Number of quadrature panels between two kinks. With four panels, a kink just outside the
+/// interval causes an error of 1e-9.
 const PANELS: usize = 8;
 
-/// Volume of the intersection of a ball with this `radius` and the box between `ends`. This is the
-/// integral along the last axis of the corresponding volumes of slices, which are balls with one
-/// dimension less.
+/// Computes the volume of the intersection of a ball with this `radius` and the box between `ends`.
+/// This is the integral along the last axis of the corresponding volumes of slices, which are balls
+/// with one dimension less.
 pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     let Some((&(low, high), others)) = ends.split_last() else { return 1.0 };
     let (low, high) = (low.max(-radius), high.min(radius));
@@ -222,8 +223,8 @@ pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     }
 }
 
-/// The integral of `slice` between two kinks. At a kink, the integrand grows like a power of the
-/// square root of the distance; the substitution `(3 xi - xi^3)/2` makes it smooth.
+/// Computes the integral of `slice` between two kinks. At a kink, the integrand grows like a power
+/// of the square root of the distance; the substitution `(3 xi - xi^3)/2` makes it smooth.
 fn integral(ends: &[f64], slice: impl Fn(f64) -> f64) -> f64 {
     let (middle, half) = (f64::midpoint(ends[0], ends[1]), 0.5 * (ends[1] - ends[0]));
     let term = |(xi, weight): &(Vec<f64>, f64)| {
@@ -233,8 +234,8 @@ fn integral(ends: &[f64], slice: impl Fn(f64) -> f64) -> f64 {
     points(&[(-1.0, 1.0)], PANELS).iter().map(term).sum()
 }
 
-/// The area of a circle between chords at the two `ends`, and between `low` and `high` across them.
-/// Each of `low` and `high` must be entirely inside or entirely outside the circle.
+/// Computes the area of a circle between two chords at the positions `ends`, and between `low` and
+/// `high` along the chords. Both `low` and `high` must be entirely inside or outside the circle.
 fn between_chords(radius: f64, low: f64, high: f64, ends: &[f64]) -> f64 {
     let (from, to) = (ends[0], ends[1]);
     let root = |x: f64| (radius * radius - x * x).max(0.0).sqrt();
@@ -246,8 +247,8 @@ fn between_chords(radius: f64, low: f64, high: f64, ends: &[f64]) -> f64 {
     if middle.min(high) > low.max(-middle) { top - bottom } else { 0.0 }
 }
 
-/// Sorted positions from `low` to `high` at which a slice touches a face, an edge or a corner of
-/// `others`, including both ends.
+/// Returns the sorted positions from `low` to `high` at which a slice touches a face, an edge or a
+/// corner of `others`, including both ends.
 fn kinks(radius: f64, others: &[(f64, f64)], low: f64, high: f64) -> Vec<f64> {
     let with = |squares: Vec<f64>, (from, to): &(f64, f64)| -> Vec<f64> {
         squares.into_iter().flat_map(|s| [s, s + from * from, s + to * to]).collect()

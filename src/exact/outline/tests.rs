@@ -30,7 +30,7 @@ fn polygon(corners: &[[f64; 2]]) -> Polygon {
     Polygon::new("polygon", corners).unwrap()
 }
 
-/// Area and first moments computed from the sides (Green's theorem).
+/// Computes area and first moments from the sides (Green's theorem).
 fn by_sides(corners: &[[f64; 2]]) -> [f64; 3] {
     let next = corners.iter().cycle().skip(1);
     let sums = corners.iter().zip(next).fold([0.0; 3], |sums, (a, b)| {
@@ -41,7 +41,7 @@ fn by_sides(corners: &[[f64; 2]]) -> [f64; 3] {
     sums.map(|sum| if sums[0] < 0.0 { -sum } else { sum })
 }
 
-/// The particles of a lattice with `count` cells per unit length that starts outside the body.
+/// Returns the particles of a lattice with `count` cells per unit length.
 fn particles(body: &Polygon, count: i32) -> Vec<Piece> {
     let spacing = 1.0 / f64::from(count);
     let half = [0.5 * spacing; 2];
@@ -101,7 +101,7 @@ fn a_whole_share_is_a_rectangle() {
     assert_relative_eq!(domain[..], [0.2, 0.0, 0.0, 0.3][..], epsilon = 1e-15);
 }
 
-/// A star-shaped polygon. Any distances from a centre at increasing angles form a simple polygon.
+/// Generates a star polygon: any distances from a centre at increasing angles are valid.
 fn star() -> impl Strategy<Value = Vec<[f64; 2]>> {
     prop::collection::vec((0.05..1.0_f64, 0.1..1.0_f64), 4..12).prop_map(|corners| {
         let whole: f64 = corners.iter().map(|(_, angle)| angle).sum();

@@ -27,11 +27,11 @@ struct Compiled<'a> {
     latest: f64,
 }
 
-/// A check that involves several keys.
+/// A check that involves several keys of a convergence study.
 type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
 
-/// Checks of a convergence study that precede its expectations. They are independent: the order
-/// only determines which of several errors is reported.
+/// Checks that run before the expectations are compiled. They are independent: their order only
+/// determines which of several errors is reported.
 const CROSS_CHECKS: [CrossCheck; 9] = [
     |suite| load_steps::refuse_unfit(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
@@ -105,7 +105,7 @@ pub(crate) fn convergence_plan(
     Ok(plan)
 }
 
-/// The acknowledged warnings of a suite. Refuses entries without reason and repeated warnings.
+/// Returns the acknowledged warnings. Refuses entries without reason and repeated warnings.
 fn acknowledged(
     evaluator: &Evaluator<'_>,
     specs: &[AcknowledgeSpec],

@@ -15,10 +15,10 @@ use crate::verify::{
 };
 use std::str::FromStr;
 
-/// Expectation of a case, and its expectation for a full run if different.
+/// Expectation of a case, and a second one for a full run if it differs.
 type CaseExpectation = (Expectation, Option<Expectation>);
 
-/// The expectations of `cases`, in the order of the cases; all `None` if the suite states none.
+/// Returns the expectations in the order of `cases`; all `None` if the suite states none.
 pub(crate) fn expectations(
     evaluator: &Evaluator<'_>,
     spec: &[ExpectSpec],
@@ -44,7 +44,7 @@ pub(crate) fn expectations(
     Ok(owners.into_iter().map(|owner| Some(parsed[owner?].clone())).collect())
 }
 
-/// For each case, the index of the only matching entry of `expect`; all `None` without entries.
+/// Returns the index of the only matching entry of `expect` for each case, if there are entries.
 pub(crate) fn assign(
     evaluator: &Evaluator<'_>,
     selectors: &[Option<&OneOrMany<String>>],
@@ -85,7 +85,7 @@ pub(crate) fn assign(
     names.iter().map(owner).collect()
 }
 
-/// Expectation for a full run, if an entry states a different one.
+/// Returns the expectation for a full run, if an entry states a different one.
 fn in_full(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -154,7 +154,7 @@ fn verdict(evaluator: &Evaluator<'_>, path: &Path, word: &str) -> Result<Verdict
     })
 }
 
-/// The limits of the expectation at `path`.
+/// Compiles the limits of the expectation at `path`.
 fn limits(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -192,7 +192,7 @@ fn limits(
     Ok(limits)
 }
 
-/// Refuses the bound at `path` if no case has this `figure`.
+/// Refuses the bound at `path` if the study does not measure the bounded quantity.
 fn refuse_missing_figure(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -258,10 +258,10 @@ fn drifts(
     Ok(drifts)
 }
 
-/// Number of points per axis, and of instants, at which a motion is tested for being a translation.
+/// Number of points per axis, and of times, at which a motion is tested for being a translation.
 const PLACES: usize = 5;
 
-/// Maximum entry of a translation's displacement gradient, from rounding errors of its formulas.
+/// Displacement gradients up to this value count as rounding errors of a translation.
 const UNDEFORMED: f64 = 1e-14;
 
 /// Compiles the key `any_method`.

@@ -17,7 +17,7 @@ use crate::verify::{Axis, GradientTerms};
 /// Maximum number of sweep points.
 const MOST_POINTS: u64 = 1000;
 
-/// Relative change of a parameter for which the stated solution must still solve the problem.
+/// Relative change of a parameter after which the stated solution must still solve the problem.
 const CHANGE: f64 = 1.0 / 64.0;
 
 /// Compiles a gradient study.
@@ -38,7 +38,7 @@ pub(crate) fn plan(
     Ok(plan)
 }
 
-/// The external solvers of the suite; a single unnamed solver if the suite states none.
+/// Returns the external solvers of the suite; a single unnamed solver if the suite states none.
 fn methods(evaluator: &Evaluator<'_>, spec: &GradientSpec) -> Result<Vec<MethodSpec>, Diagnostic> {
     let is_other = |method: &MethodSpec| !matches!(method, MethodSpec::External { .. });
     if let Some(i) = spec.methods.iter().position(is_other) {
@@ -119,7 +119,7 @@ fn refuse_unfit_problem(
     }
 }
 
-/// An index: an integer from 0 to `count - 1`.
+/// Evaluates an index, which must be an integer from 0 to `count - 1`.
 fn index(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -159,7 +159,7 @@ fn functional(
     })
 }
 
-/// Number of particles on the coarsest level; at least one.
+/// Returns the number of particles on the coarsest level; at least one.
 fn coarsest_particles(problem: &ConvergencePlan) -> usize {
     let scene = &problem.scene;
     let Some(level) = problem.refine.levels.first() else { return 1 };
@@ -207,7 +207,7 @@ fn parameters(
     }
 }
 
-/// The parameter of the problem that is set by the suite parameter `name`.
+/// Returns the parameter of the problem that is set by the suite parameter `name`.
 fn differentiated(
     evaluator: &Evaluator<'_>,
     source: &Source,
@@ -268,8 +268,8 @@ fn differentiated(
     Ok(Differentiated { parameter, name: name.clone(), motion, velocity_factor: factor })
 }
 
-/// Whether `value` equals the parameter in `scene`. For an initial velocity, whether its relative
-/// `growth` is 1, which means that it is proportional to the suite parameter.
+/// Whether `value` equals the parameter in `scene`. An initial velocity must instead be
+/// proportional to the suite parameter: the relative `growth` of the velocity is then 1.
 fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) -> bool {
     let of_material = || {
         let parameters = scene.material.keyed_parameters();
@@ -286,7 +286,7 @@ fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) ->
     }
 }
 
-/// The result of `check` for a changed value of a suite parameter.
+/// Returns the result of `check` for the suite with a changed value of a suite parameter.
 fn with_value<T>(
     source: &Source,
     spec: &GradientSpec,
@@ -299,7 +299,7 @@ fn with_value<T>(
     check(&evaluator)
 }
 
-/// The exact motion as a function of the suite parameter `name`.
+/// Returns the exact motion as a function of the suite parameter `name`.
 fn motion(
     evaluator: &Evaluator<'_>,
     spec: &GradientSpec,
@@ -323,7 +323,7 @@ fn motion(
     })
 }
 
-/// Index of the level whose parameters are perturbed.
+/// Returns the index of the level whose parameters are perturbed.
 fn level(
     evaluator: &Evaluator<'_>,
     spec: &GradientSpec,

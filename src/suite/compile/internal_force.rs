@@ -1,4 +1,4 @@
-//! The internal-force study: the grid-crossing error, without a run.
+//! Compiles an internal-force study, and computes the grid-crossing error without a run.
 //!
 //! Two cells meet at a node. All cells contain equal particles with the same uniform stress. One
 //! particle of the left cell is moved across the node, and the solver's P2G computes the internal
@@ -12,8 +12,8 @@ use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::ForceRow;
 
-/// Number of full cells on each side of the node. The axis is periodic: the support of a wide basis
-/// then contains no wall and no end of the body.
+/// Number of full cells on each side of the node. The axis is periodic. With this length, the
+/// support of a wide basis contains no wall and no end of the body.
 const SIDE: usize = 4;
 
 /// Maximum number of particles over all positions. Limits the run time to about a second, and the
@@ -98,7 +98,7 @@ fn expectation(
     }
 }
 
-/// The force on the node for each position of the moving particle.
+/// Computes the force on the node for each position of the moving particle.
 pub(crate) fn rows(plan: &ForcePlan, case: &ForceCase) -> Vec<ForceRow> {
     (0..plan.positions).map(|k| row(plan, case, k)).collect()
 }
@@ -133,7 +133,7 @@ fn force(plan: &ForcePlan, basis: BasisName, position: f64) -> f64 {
     grid.force[node][0]
 }
 
-/// The node with the largest weight for a particle at x = 0; if two are equal, the right one.
+/// Returns the node with the largest weight for a particle at x = 0, or the right one of two.
 fn node_at(kernel: &dyn Kernel<1>, grid: &mut Grid<1>, h: f64) -> usize {
     let (from, to) = (Vector::<1>::new(-0.5 * h), Vector::<1>::new(0.5 * h));
     let alone = Particles::fill(&Block { from, to, density: 1.0 }, h, 1);

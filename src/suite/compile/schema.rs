@@ -8,7 +8,7 @@ use schemars::generate::SchemaSettings;
 use schemars::transform::{RecursiveTransform, Transform};
 use serde_json::{Value, json};
 
-/// The schema of a suite, as indented JSON.
+/// Returns the schema of a suite, as indented JSON.
 pub fn suite_schema() -> String {
     let mut all = SchemaSettings::draft07().into_generator();
     let convergence = all.subschema_for::<ConvergenceSpec>();

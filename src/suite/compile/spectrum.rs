@@ -25,7 +25,7 @@ const MOST: usize = 500;
 /// Maximum number of particles per cell. The closed form has one term per particle.
 const MOST_PPC: u64 = 64;
 
-/// Minimum mass symbol of a wave that the grid represents.
+/// Minimum mass symbol (see the glossary) of a wave that the grid represents.
 const SMALLEST_MASS: f64 = 1e-9;
 
 /// Deviation of a number of periods from an integer that is treated as rounding error.
@@ -65,7 +65,7 @@ pub(crate) fn plan(
     Ok(plan)
 }
 
-/// The diagnostic for a suite without a `property` that the study requires.
+/// Returns the diagnostic for a suite that lacks a `property` required by the study.
 fn needs(evaluator: &Evaluator<'_>, path: &Path, property: &str) -> Diagnostic {
     evaluator.diagnostic(path, &format!("spectrum needs {property}"))
 }
@@ -96,7 +96,7 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
     }
 }
 
-/// The translation of the particles (m), with which no particle leaves its cell.
+/// Compiles the translation of the particles (m), by which no particle may leave its cell.
 fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result<f64, Diagnostic> {
     let Some(texts) = &spec.particles.shift else { return Ok(0.0) };
     let path = Path::top("particles").then("shift");
@@ -109,7 +109,7 @@ fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result
     Err(evaluator.diagnostic(&path, &message).with_label(label))
 }
 
-/// The waves: all combinations of wavelengths and Courant numbers.
+/// Compiles the waves: all combinations of wavelengths and Courant numbers.
 fn waves(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,
@@ -149,7 +149,7 @@ fn waves(
     Ok(waves)
 }
 
-/// Initial velocity (m/s) of a standing wave of this `length` (m).
+/// Returns the initial velocity (m/s) of a standing wave of this `length` (m).
 fn velocity(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -161,7 +161,7 @@ fn velocity(
     evaluator.formula(path, &text, &coordinates_and_time(1))
 }
 
-/// The cases: the product of the lists in `methods`, with closed forms and expectations.
+/// Compiles the cases (combinations of the lists in `methods`), closed forms and expectations.
 fn cases(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,
@@ -199,7 +199,7 @@ fn cases(
     Ok(named.into_iter().zip(curves).zip(owners).map(case).collect())
 }
 
-/// The closed form of a method.
+/// Returns the closed form of a method.
 fn curve(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -233,7 +233,7 @@ fn curve(
     Ok(WaveMethod { spline, ppc, shift: plan.shift / plan.h, transfer, scheme })
 }
 
-/// Expectation number `i` and its reason.
+/// Compiles expectation number `i`, and its reason.
 fn expectation(
     evaluator: &Evaluator<'_>,
     i: usize,

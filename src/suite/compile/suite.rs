@@ -30,8 +30,8 @@ impl Suite {
         Ok(Self { group: source.group(), fingerprint, ..suite? })
     }
 
-    /// The scene of the convergence study in `source`, without exact solution. Used to run solvers
-    /// with deliberate defects.
+    /// Compiles the scene of the convergence study in `source`, without exact solution. Used to run
+    /// solvers with deliberate defects.
     ///
     /// # Errors
     /// A [`Diagnostic`] with the position of the first error.
@@ -42,8 +42,8 @@ impl Suite {
     }
 }
 
-/// The convergence study in `source`. The amplitudes of the exact motion and the initial state are
-/// multiplied by `factor`; loads are not scaled.
+/// Loads the convergence study in `source`, with the amplitudes of the exact motion and of the
+/// initial state multiplied by `factor`. Loads are not scaled.
 ///
 /// # Errors
 /// If the scaled motion is not a solution, for example because of unscaled loads.
@@ -51,7 +51,7 @@ pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diag
     with_changes(source, |spec| scale_amplitude(spec, factor))
 }
 
-/// The convergence study in `source` with a `change`, without expectations.
+/// Loads the convergence study in `source` after a `change` of its keys, without expectations.
 ///
 /// # Errors
 /// A [`Diagnostic`] with the reason for refusing the changed suite.
@@ -125,7 +125,7 @@ fn stability(source: &Source, spec: StabilitySpec) -> Result<Suite, Diagnostic> 
     Ok(assemble(head, parameters, &spec.functions, plan))
 }
 
-/// A suite with these texts and parameters.
+/// Creates a suite from its texts and parameters.
 fn assemble(
     [name, title, source, about]: [String; 4],
     parameters: Vec<DeclaredParameter>,
@@ -137,7 +137,7 @@ fn assemble(
     Suite { name, group, title, source, about, parameters, functions, study, fingerprint: 0 }
 }
 
-/// Refuses a name that cannot be part of test and file names.
+/// Refuses a name that cannot be part of the names of tests and files.
 fn refuse_unusable_name(evaluator: &Evaluator<'_>, name: &str) -> Result<(), Diagnostic> {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     if !name.is_empty() && name.len() <= 64 && name.chars().all(plain) {

@@ -20,7 +20,7 @@ pub(crate) const COORDINATES: [&str; 3] = ["X", "Y", "Z"];
 /// Names of displacement components in load formulas.
 pub(crate) const DISPLACEMENTS: [&str; 3] = ["ux", "uy", "uz"];
 
-/// The first `dimension` coordinate names, followed by t.
+/// Returns the first `dimension` coordinate names, followed by t.
 pub(crate) fn coordinates_and_time(dimension: usize) -> Vec<&'static str> {
     COORDINATES[..dimension].iter().copied().chain(["t"]).collect()
 }
@@ -46,7 +46,7 @@ impl InPlaceOfNumber for TableSpec {
 /// A parameter: its name and text, and its value unless it is a table.
 pub(crate) type DeclaredParameter = (String, String, Option<f64>);
 
-/// The names that a suite declares. Records which of them are used.
+/// Evaluates formulas with the names that a suite declares, and records which names are used.
 pub(crate) struct Evaluator<'a> {
     source: &'a Source,
     scope: Scope,
@@ -128,7 +128,7 @@ impl<'a> Evaluator<'a> {
         Ok(formula)
     }
 
-    /// Binds a list of `dimension` formulas.
+    /// Binds a list of `dimension` formulas, one for each component.
     pub(crate) fn vector(
         &self,
         path: &Path,
@@ -152,7 +152,7 @@ impl<'a> Evaluator<'a> {
         texts.iter().enumerate().map(bind).collect()
     }
 
-    /// A finite number, given directly or by a formula of parameters.
+    /// Evaluates a finite number, given directly or by a formula of parameters.
     pub(crate) fn number(&self, path: &Path, text: &NumberText) -> Result<f64, Diagnostic> {
         let formula = self.formula(path, text, &[])?;
         let value = formula.constant().unwrap_or(f64::NAN);
@@ -162,7 +162,7 @@ impl<'a> Evaluator<'a> {
         Err(self.not_finite(path, text, value))
     }
 
-    /// A positive number.
+    /// Evaluates a positive number.
     pub(crate) fn positive(
         &self,
         path: &Path,
@@ -177,7 +177,7 @@ impl<'a> Evaluator<'a> {
         Err(self.unusable(path, text, &message, "expected a positive number"))
     }
 
-    /// A positive integer.
+    /// Evaluates a positive integer.
     pub(crate) fn count(
         &self,
         path: &Path,
@@ -187,7 +187,7 @@ impl<'a> Evaluator<'a> {
         self.count_up_to(MOST, path, text, what)
     }
 
-    /// An integer from 1 to `most`.
+    /// Evaluates an integer from 1 to `most`.
     pub(crate) fn count_up_to(
         &self,
         most: f64,
@@ -204,7 +204,7 @@ impl<'a> Evaluator<'a> {
         Err(self.unusable(path, text, &message, &label))
     }
 
-    /// The coordinates of a point: `dimension` numbers.
+    /// Evaluates the coordinates of a point: `dimension` numbers.
     pub(crate) fn point(
         &self,
         path: &Path,
@@ -215,7 +215,7 @@ impl<'a> Evaluator<'a> {
         texts.iter().enumerate().map(|(i, text)| self.number(&path.then(i), text)).collect()
     }
 
-    /// Both ends of an interval, the lower end first.
+    /// Evaluates both ends of an interval, the lower end first.
     pub(crate) fn interval(
         &self,
         path: &Path,
@@ -234,7 +234,7 @@ impl<'a> Evaluator<'a> {
         Err(self.diagnostic(path, &message).with_label("expected [low, high]"))
     }
 
-    /// The reason (`because`) at `path` for the `stated` value; must not be empty.
+    /// Returns the reason (`because`) at `path` for the `stated` value. Refuses an empty reason.
     pub(crate) fn because(
         &self,
         path: &Path,
@@ -250,12 +250,12 @@ impl<'a> Evaluator<'a> {
         Err(diagnostic.with_label("expected words"))
     }
 
-    /// A diagnostic about the value at `path`.
+    /// Returns a diagnostic about the value at `path`.
     pub(crate) fn diagnostic(&self, path: &Path, message: &str) -> Diagnostic {
         self.source.diagnostic_at(path.steps(), message)
     }
 
-    /// A diagnostic about the key at `path`.
+    /// Returns a diagnostic about the key at `path`.
     pub(crate) fn diagnostic_at_key(&self, path: &Path, message: &str) -> Diagnostic {
         match self.source.key_at(path.steps()) {
             Some(place) => self.source.diagnostic(place, message),
@@ -263,7 +263,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// A diagnostic about a part of the formula at `path`, or of a function that the formula calls.
+    /// Returns a diagnostic about a part of the formula at `path`, or of a function that it calls.
     fn in_text(&self, path: &Path, error: &FormulaError) -> Diagnostic {
         let function = error.within.as_ref().and_then(|name| self.head_of(name));
         let path = function
@@ -294,12 +294,12 @@ fn with_help(diagnostic: Diagnostic, error: &FormulaError) -> Diagnostic {
     }
 }
 
-/// A number as an author would write it: 1e300 instead of 1 followed by 300 zeros.
+/// Formats a number as an author would write it: 1e300 instead of 1 followed by 300 zeros.
 pub(crate) fn shown(value: f64) -> String {
     NumberText::Number(value).to_string()
 }
 
-/// The known name closest to `name`, otherwise all `known` names.
+/// Returns help with the known name closest to `name`, or with all `known` names if none is close.
 pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
     match nearest(name, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
@@ -307,12 +307,13 @@ pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
     }
 }
 
-/// Values for which most formulas are finite. A parameter is a suspected cause if the formula is
-/// finite with one of these values, or with the parameter's magnitude, in place of its value.
+/// Values for which most formulas are finite. A parameter may be the cause of a value that is not
+/// finite if the formula is finite with one of these values, or with the parameter's magnitude, in
+/// place of the parameter's value.
 const HARMLESS: [f64; 2] = [1.0, 0.5];
 
 impl Evaluator<'_> {
-    /// A diagnostic about an invalid number at `path`, with the parameters of its formula.
+    /// Returns a diagnostic about an invalid number at `path`, with the parameters of its formula.
     pub(crate) fn unusable(
         &self,
         path: &Path,
@@ -325,7 +326,7 @@ impl Evaluator<'_> {
         self.diagnostic(path, message).with_label(label).with_help(&read.join(", "))
     }
 
-    /// A diagnostic about a formula of parameters whose value is not finite.
+    /// Returns a diagnostic about a formula of parameters whose value is not finite.
     pub(super) fn not_finite(&self, path: &Path, text: &NumberText, value: f64) -> Diagnostic {
         let (label, value) = ("expected a finite number", shown(value));
         let what = match path.steps() {
@@ -350,7 +351,7 @@ impl Evaluator<'_> {
         self.diagnostic(path, &message).with_label(label).with_help(&places.join(", "))
     }
 
-    /// Names and values of the parameters that a formula uses, directly or through functions.
+    /// Returns names and values of the parameters that a formula uses, also through functions.
     fn read_by(&self, text: &NumberText) -> Vec<(String, f64)> {
         let formula =
             Expr::parse(&text.to_string()).and_then(|expr| Formula::bind(&expr, &self.scope, &[]));
@@ -367,7 +368,7 @@ impl Evaluator<'_> {
         formula.is_ok_and(|formula| formula.constant().is_some_and(f64::is_finite))
     }
 
-    /// Text with a parameter, its value and the line of its declaration.
+    /// Formats a parameter with its value and the line of its declaration.
     fn found(&self, name: &str, value: f64) -> String {
         let value = shown(value);
         match self.line_of(name) {
@@ -376,7 +377,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The line number of the declaration of a parameter.
+    /// Returns the line number of the declaration of a parameter.
     pub(super) fn line_of(&self, parameter: &str) -> Option<usize> {
         let path = Path::top("parameters").then(parameter);
         self.source.key_at(path.steps()).map(Place::line)

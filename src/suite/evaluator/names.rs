@@ -60,14 +60,14 @@ impl Evaluator<'_> {
             && !self.scope.tables().any(|known| known == name)
     }
 
-    /// The declared head of `function`, such as `s(tau)`.
+    /// Returns the declared head of `function`, such as `s(tau)`.
     pub(super) fn head_of(&self, function: &str) -> Option<&String> {
         self.heads.iter().find(|head| name_in(head) == function)
     }
 }
 
 impl<'a> Evaluator<'a> {
-    /// An evaluator in which the parameter `name` is a free variable. Functions and later
+    /// Returns an evaluator in which the parameter `name` is a free variable. Functions and later
     /// parameters may depend on this variable.
     ///
     /// # Errors
@@ -107,7 +107,7 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-/// The function name in a head: `s` in `s(tau)`.
+/// Returns the function name in a head: `s` in `s(tau)`.
 fn name_in(head: &str) -> &str {
     head.split('(').next().unwrap_or(head).trim()
 }
@@ -142,7 +142,7 @@ impl Evaluator<'_> {
         Ok((format!("({})", written.collect::<Vec<_>>().join(", ")), value))
     }
 
-    /// The rows of a table: at least two, in ascending order.
+    /// Evaluates the rows of a table: at least two, in ascending order.
     fn rows(&self, path: &Path, spec: &TableSpec) -> Result<Vec<(f64, f64)>, Diagnostic> {
         let mut rows: Vec<(f64, f64)> = Vec::new();
         for (i, row) in spec.table.iter().enumerate() {

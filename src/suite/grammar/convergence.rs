@@ -51,7 +51,7 @@ study_spec! {
 }
 
 impl ConvergenceSpec {
-    /// Index of the first FEM entry in `methods`.
+    /// Returns the index of the first FEM entry in `methods`.
     pub(crate) fn fem_method(&self) -> Option<usize> {
         self.methods.iter().position(|method| matches!(method, MethodSpec::Fem { .. }))
     }

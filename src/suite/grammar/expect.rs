@@ -7,7 +7,7 @@ use crate::verify::Verdict;
 use crate::verify::{CaseFigure, FloorCause, each_case_figure};
 use serde::Deserialize;
 
-/// Declares [`ExpectSpec`], with one key for each figure that can be bounded.
+/// Declares [`ExpectSpec`], with one key for each measured quantity that can be bounded.
 macro_rules! expect_spec {
     ($($(#[$doc:meta])* $member:ident = $key:ident, $text:literal, $bound:ident, $need:ident,
         $value:ident;)+) => {
@@ -41,7 +41,8 @@ pub(crate) struct ExpectSpec {
 }
 
         impl ExpectSpec {
-            /// The stated bounds on figures, in the order of [`CaseFigure::ALL`].
+            /// Returns the stated bounds on measured quantities, in the order of
+            /// [`CaseFigure::ALL`].
             pub(crate) fn bounds(&self) -> Vec<(CaseFigure, &NumberText)> {
                 let bounds = [$((CaseFigure::$member, &self.$key)),+];
                 bounds.into_iter().filter_map(|(figure, text)| Some((figure, text.as_ref()?))).collect()
@@ -69,7 +70,7 @@ pub(crate) struct AnyMethodSpec {
     pub(crate) because: String,
 }
 
-/// The names of verdicts in suites.
+/// Returns the JSON schema of the verdict names in suites.
 #[cfg(feature = "schemas")]
 fn verdicts(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     let names = Verdict::ALL.map(|verdict| verdict.name().replace([' ', '-'], "_"));

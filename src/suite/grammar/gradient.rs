@@ -33,7 +33,7 @@ study_spec! {
 }
 
 impl GradientSpec {
-    /// Name of the key that states the solution, and the solution, if any.
+    /// Returns the name of the key that states the solution, and the solution, if any.
     pub(crate) fn truth(&self) -> (&'static str, Option<&ExactSpec>) {
         match (&self.exact, &self.equilibrium) {
             (Some(exact), _) => ("exact", Some(exact)),
@@ -42,8 +42,8 @@ impl GradientSpec {
         }
     }
 
-    /// A convergence study with the same problem and levels, for `methods`. Only the final state of
-    /// a run is used.
+    /// Returns a convergence study with the same problem and levels, for `methods`. Only the final
+    /// state of a run is used.
     pub(crate) fn convergence(&self, methods: Vec<MethodSpec>) -> ConvergenceSpec {
         let run = RunSpec { instants: Some(NumberText::Number(1.0)), ..self.run.clone() };
         ConvergenceSpec {

@@ -86,7 +86,7 @@ pub(crate) enum SchemeKey {
 }
 
 impl SchemeKey {
-    /// The explicit scheme; `None` for load steps.
+    /// Returns the explicit scheme; `None` for load steps.
     pub(crate) fn explicit(self) -> Option<SchemeName> {
         match self {
             Self::Usf => Some(SchemeName::Usf),

@@ -78,15 +78,15 @@ use serde::Deserialize;
 /// The keys of a suite, by kind of study.
 #[derive(Debug, Clone)]
 pub(crate) enum SuiteSpec {
-    /// Errors over a refinement plan.
+    /// Convergence study: errors over a refinement plan.
     Convergence(Box<ConvergenceSpec>),
-    /// Internal force on a node while a particle moves through it.
+    /// Internal-force study: force on a node while a particle moves through the node.
     InternalForce(Box<InternalForceSpec>),
-    /// Whether runs stay bounded, and the limit of a parameter.
+    /// Stability study: whether runs stay bounded, and the limit of a parameter.
     Stability(Box<StabilitySpec>),
-    /// Derivatives that a differentiable solver reports.
+    /// Gradient study: derivatives that a differentiable solver reports.
     Gradient(Box<GradientSpec>),
-    /// Phase speed and damping of waves.
+    /// Spectrum study: phase speed and damping of waves.
     Spectrum(Box<SpectrumSpec>),
 }
 

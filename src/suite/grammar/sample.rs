@@ -150,7 +150,7 @@ impl ConvergenceSpec {
 }
 
 impl StudyName {
-    /// The kind of study of a suite.
+    /// Returns the kind of study of a suite.
     fn of_checked(checked: &CheckedShape<'_>) -> Result<Self, Diagnostic> {
         let known = match checked.top() {
             TopValue::Absent => Some(Self::default_study()),
@@ -161,8 +161,8 @@ impl StudyName {
     }
 }
 
-/// The error for an unknown key of a spectrum study. For keys of irregular particles, the help
-/// states that the particles of this study are regular.
+/// Adds help to the error for an unknown key of a spectrum study. If the key is about irregular
+/// particles, the help states that the particles of this study are regular.
 fn with_regular_particles(diagnostic: Diagnostic) -> Diagnostic {
     let is_irregular = ["perturb", "seed", "extra"]
         .iter()
@@ -175,7 +175,7 @@ fn read<T: DeserializeOwned>(checked: &CheckedShape<'_>, study: &str) -> Result<
     checked.read(&|owner, key| sample(if owner.is_empty() { study } else { owner }, key))
 }
 
-/// The sample value of a key of `owner`.
+/// Returns the sample value of a key of `owner`.
 fn sample(owner: &str, key: &str) -> Option<&'static str> {
     let of =
         |wanted: &str| SAMPLES.iter().find(|(known, _)| *known == wanted).map(|(_, text)| *text);

@@ -50,17 +50,17 @@ pub(crate) struct ManufacturedSpec {
 pub struct EquationName(&'static str);
 
 impl EquationName {
-    /// The equation whose law is called `name`, if known.
+    /// Returns the equation whose law is called `name`, if known.
     pub fn find(name: &str) -> Option<Self> {
         Self::all().find(|known| known.0 == name)
     }
 
-    /// The name in suites and reports.
+    /// Returns the name in suites and reports.
     pub fn name(self) -> &'static str {
         self.0
     }
 
-    /// All laws of exact solutions, then the laws that only the FEM bar has.
+    /// Returns all laws of exact solutions, then the laws that only the FEM bar has.
     fn all() -> impl Iterator<Item = Self> {
         let of_bar = BarLaw::ALL.iter().map(|law| law.name());
         let of_bar_alone = of_bar.filter(|name| !Equation::NAMES.contains(name));
@@ -68,7 +68,7 @@ impl EquationName {
     }
 }
 
-/// The small-strain law, to which every material reduces at first order.
+/// The default is the small-strain law, to which every material reduces at first order.
 impl Default for EquationName {
     fn default() -> Self {
         Self(BarLaw::SmallStrain.name())

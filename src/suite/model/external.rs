@@ -6,10 +6,10 @@ use crate::verify::{Axis, CaseFigure, Expectation, Gating, Quantity, Requirement
 use std::sync::Arc;
 
 impl Suite {
-    /// The suite with an external solver in place of its methods; `None` if the study examines the
-    /// internals of a method. A convergence study keeps the cases that the suite states for this
-    /// solver. If there are none, it has one case for each combination of reference and end. With
-    /// `gate`, each case without an expectation must meet an order or an error bound.
+    /// Returns the suite with an external solver in place of its methods; `None` if the study
+    /// examines the internals of a method. A convergence study keeps the cases that the suite
+    /// states for this solver. If there are none, it has one case for each combination of reference
+    /// and end. With `gate`, each case without an expectation must meet an order or an error bound.
     pub fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Self> {
         self.of_external_on(solver, gate.then(GateTerms::default).as_ref())
     }
@@ -24,7 +24,7 @@ impl Suite {
         Some(Self { study, ..self.clone() })
     }
 
-    /// The convergence study without expectations; `None` for another kind of study.
+    /// Returns the convergence study without expectations; `None` for another kind of study.
     pub fn without_expectations(&self) -> Option<Self> {
         let mut plan = self.plan::<ConvergencePlan>()?.clone();
         for case in &mut plan.cases {
@@ -35,7 +35,7 @@ impl Suite {
 }
 
 impl ConvergencePlan {
-    /// The study with one external solver as its method.
+    /// Returns the study with one external solver as its method.
     pub(super) fn under(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Self {
         let mut plan = self.clone();
         let is_stated = |case: &Case| case.solver.as_deref() == Some(solver.name);
@@ -80,7 +80,7 @@ impl ConvergencePlan {
         case.gating = Some(gating);
     }
 
-    /// Treatment of a case by the gate, for a solver with this formal order.
+    /// Returns the treatment of a case by the gate, for a solver with this formal order.
     fn gating(&self, against: Against, formal_order: f64, terms: &GateTerms) -> Gating {
         if let Some(reason) = &terms.skip {
             return Gating::Excepted(reason.clone());
@@ -112,8 +112,8 @@ impl ConvergencePlan {
         }
     }
 
-    /// The theoretical order on this problem for a solver with this formal order, and the reason.
-    /// `None` for an axis other than space, unless the suite states the order.
+    /// Returns the theoretical order on this problem for a solver with this formal order, and the
+    /// reason. `None` for an axis other than space, unless the suite states the order.
     fn required_order(&self, formal_order: f64) -> Option<(f64, String)> {
         let is_gradient = matches!(self.of, Quantity::Stress | Quantity::DeformationGradient);
         let (of_solver, reason) = if is_gradient && formal_order > 1.0 {
@@ -133,8 +133,8 @@ impl ConvergencePlan {
         }
     }
 
-    /// The smallest `error_below` among the suite's own expectations; `None` if one of them has a
-    /// verdict. Entries with `error_above` are ignored, because they describe methods that fail.
+    /// Returns the smallest `error_below` among the suite's own expectations; `None` if one of them
+    /// has a verdict. Entries with `error_above` are ignored: they describe methods that fail.
     fn smallest_own_bound(&self) -> Option<f64> {
         let expectations = || self.cases.iter().filter_map(|case| case.expectation.as_ref());
         let bound = |expectation: &Expectation| {
@@ -151,7 +151,7 @@ impl ConvergencePlan {
 }
 
 impl Case {
-    /// Summary and reason of the expectation, or of the gate requirement.
+    /// Returns summary and reason of the expectation, or of the gate requirement.
     pub(super) fn expected(&self) -> Option<(String, &str)> {
         match (&self.expectation, &self.gating) {
             (Some(expectation), _) => Some((expectation.summary(), &expectation.because)),
@@ -163,7 +163,7 @@ impl Case {
     }
 }
 
-/// One case of the solver for each combination of reference and end.
+/// Returns one case of the solver for each combination of reference and end.
 fn unstated(plan: &ConvergencePlan, solver: ExternalMethod<'_>) -> Vec<Case> {
     let ExternalMethod { name, formal_order, precision } = solver;
     let mut cases: Vec<Case> = Vec::new();

@@ -19,7 +19,7 @@ pub struct GradientPlan {
     pub parameters: Vec<Differentiated>,
     /// Index of the level whose parameters are perturbed.
     pub level: usize,
-    /// Interval of one parameter to sweep, if any.
+    /// Interval of one parameter for a sweep, if any.
     pub sweep: Option<SweepPlan>,
     /// The cases.
     pub cases: Vec<GradientCase>,
@@ -57,7 +57,7 @@ pub struct GradientCase {
     pub name: String,
     /// The solver, with its formal order and precision.
     pub solver: Case,
-    /// Index in [`GradientPlan::parameters`].
+    /// Index of the parameter in [`GradientPlan::parameters`].
     pub parameter: usize,
     /// Expectation and its reason; `None` if the suite states no expectations.
     pub expected: Option<(GradientTerms, String)>,
@@ -66,7 +66,7 @@ pub struct GradientCase {
 }
 
 impl GradientPlan {
-    /// One case for each parameter; the solver is called `name` in case names.
+    /// Returns one case for each parameter; the solver is called `name` in case names.
     pub(crate) fn cases_of(&self, name: &str, solver: &Case) -> Vec<GradientCase> {
         let case = |(parameter, one): (usize, &Differentiated)| GradientCase {
             name: format!("{name}-{}", one.parameter.name().replace('_', "-")),

@@ -62,7 +62,7 @@ impl StudyPlan for ForcePlan {
 }
 
 impl ForceExpectation {
-    /// One-line summary for reports.
+    /// Returns a one-line summary for reports.
     pub fn summary(self) -> String {
         match self {
             Self::AgreesWithin(share) => format!("agrees with the prediction within {share:e}"),

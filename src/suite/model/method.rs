@@ -28,7 +28,7 @@ pub enum Method {
         /// Precision of the state.
         precision: Precision,
     },
-    /// The MPM of this crate in quasi-static load steps.
+    /// The MPM of this crate with quasi-static load steps.
     QuasiStatic {
         /// Basis functions.
         basis: BasisName,
@@ -63,7 +63,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// `mpm`, `fem` or `external`.
+    /// Returns the kind of solver: `mpm`, `fem` or `external`.
     pub fn subject(&self) -> &'static str {
         match self {
             Self::Mpm { .. } | Self::QuasiStatic { .. } | Self::Heat { .. } => "mpm",
@@ -86,9 +86,9 @@ impl Method {
         matches!(self, Self::Mpm { volume: VolumeName::Averaged, .. })
     }
 
-    /// The theoretical order of the displacement error on a smooth solution. This is p + 1 for a
-    /// basis of degree p, but at most 2 with the lumped mass matrix of MPM. It is 2p for the nodal
-    /// values of superconvergent elements (Strang & Fix 1973, section 1.6).
+    /// Returns the theoretical order of the displacement error on a smooth solution. This is p + 1
+    /// for a basis of degree p, but at most 2 with the lumped mass matrix of MPM. For the nodal
+    /// values of superconvergent elements it is 2p (Strang & Fix 1973, section 1.6).
     pub fn formal_order(&self) -> f64 {
         match self {
             Self::Mpm { basis, mass: MassName::Consistent, .. } => basis.formal_order(),
@@ -101,7 +101,7 @@ impl Method {
         }
     }
 
-    /// The method with this number of load steps; unchanged if the method has no load steps.
+    /// Returns the method with this number of load steps; unchanged if it has no load steps.
     #[must_use]
     pub(crate) fn with_load_steps(self, steps: u64) -> Self {
         match self {
@@ -110,7 +110,7 @@ impl Method {
         }
     }
 
-    /// The settings of the method, as pairs of name and value.
+    /// Returns the settings of the method, as pairs of name and value.
     pub fn settings(&self) -> Vec<(String, String)> {
         let owned = |rows: Vec<(&str, &str)>| -> Vec<(String, String)> {
             rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
@@ -184,7 +184,7 @@ pub struct AnyMethod {
     pub order: Option<f64>,
     /// Errors at or below this bound are accepted without an order.
     pub error_below: Option<f64>,
-    /// Whether nothing deforms; a solver may then use any law.
+    /// Whether no body deforms in the problem; a solver may then use any law.
     pub any_law: bool,
     /// Whether the gate has requirements for external solvers.
     pub gated: bool,

@@ -33,7 +33,7 @@ pub struct Suite {
     pub name: String,
     /// Name of the folder that contains the suite file.
     pub group: String,
-    /// Headline.
+    /// Headline of the report.
     pub title: String,
     /// Reference for the problem.
     pub source: String,
@@ -71,7 +71,7 @@ pub struct ConvergencePlan {
     pub steps: StepKind,
     /// Number of instants at which the error is measured.
     pub instants: u64,
-    /// The judged error.
+    /// Norm of the judged error.
     pub norm: NormName,
     /// The quantity whose error is measured.
     pub of: Quantity,
@@ -141,7 +141,7 @@ pub struct ReferencePlan {
 }
 
 impl Against {
-    /// Phrase for this truth in a sentence.
+    /// Returns the phrase for this truth in a sentence.
     pub fn words(self) -> &'static str {
         match self {
             Self::Exact => "the exact solution",
@@ -156,7 +156,7 @@ impl Against {
         matches!(self, Self::Reference | Self::SameMethod(_))
     }
 
-    /// The level of a fine-grid reference run; `None` for other truths.
+    /// Returns the level of a fine-grid reference run; `None` for other truths.
     pub fn fine_grid(self) -> Option<LevelPlan> {
         match self {
             Self::SameMethod(SameMethod::FineGrid(level)) => Some(level),
@@ -166,8 +166,8 @@ impl Against {
 }
 
 impl ConvergencePlan {
-    /// The steps of a run that ends at `until` (s) and is compared with `against`, for a requested
-    /// step `dt` (s).
+    /// Returns the steps of a run that ends at `until` (s) and is compared with `against`, for a
+    /// requested step `dt` (s).
     pub fn clock(&self, against: Against, until: f64, dt: f64) -> Option<Clock> {
         if against.is_computed() {
             return Clock::with_common_instants(until, dt, self.instants);
@@ -177,24 +177,24 @@ impl ConvergencePlan {
 }
 
 impl Case {
-    /// Number of load steps; `None` for a run in time.
+    /// Returns the number of load steps; `None` for a run in time.
     pub fn load_steps(&self, plan: &ConvergencePlan) -> Option<u64> {
         (plan.steps == StepKind::Load).then_some(self.until as u64)
     }
 
-    /// The steps of a run, for a requested step `dt` (s).
+    /// Returns the steps of the case, for a requested step `dt` (s).
     pub fn clock(&self, plan: &ConvergencePlan, dt: f64) -> Option<Clock> {
         plan.clock(self.against, self.until, dt)
     }
 }
 
 impl Suite {
-    /// Case names, in order.
+    /// Returns the case names, in order.
     pub fn case_names(&self) -> Vec<&str> {
         self.study.case_names()
     }
 
-    /// The suite with only those cases for whose index `keep` returns true.
+    /// Returns the suite with only those cases for whose index `keep` returns true.
     #[must_use]
     pub fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
         Self { study: self.study.only(keep), ..self.clone() }
@@ -205,7 +205,7 @@ impl Suite {
         (0..self.case_names().len()).all(|case| self.study.expectation(case).is_none())
     }
 
-    /// The plan, if the study is of kind `P`.
+    /// Returns the plan, if the study is of kind `P`.
     pub fn plan<P: StudyPlan>(&self) -> Option<&P> {
         let plan: &dyn Any = self.study.as_ref();
         plan.downcast_ref()
@@ -235,7 +235,7 @@ impl StudyPlan for ConvergencePlan {
 }
 
 impl ConvergencePlan {
-    /// The problem with a manufactured body force; `None` for other problems.
+    /// Returns the problem with a manufactured body force; `None` for other problems.
     pub fn manufactured(&self) -> Option<&Problem> {
         self.exact.as_ref().filter(|problem| problem.manufactured)
     }
@@ -245,7 +245,7 @@ impl ConvergencePlan {
         self.exact.is_some() || self.conduction.is_some()
     }
 
-    /// The heat problem that the formulas solve, for a body at rest or in motion.
+    /// Returns the heat problem that the formulas solve, for a body at rest or in motion.
     pub fn heat_problem(&self) -> Option<&Conduction> {
         self.conduction.as_ref().or_else(|| self.exact.as_ref()?.heat.as_ref())
     }
@@ -253,21 +253,21 @@ impl ConvergencePlan {
 
 /// Checked values of a study.
 pub trait StudyPlan: Any + Debug + Send + Sync {
-    /// Case names, in order.
+    /// Returns the case names, in order.
     fn case_names(&self) -> Vec<&str>;
 
-    /// Summary and reason of the expectation of the case with this index; `None` if the suite
-    /// states no expectations.
+    /// Returns summary and reason of the expectation of the case with this index; `None` if the
+    /// suite states no expectations.
     ///
     /// # Panics
     /// If the index is out of range.
     fn expectation(&self, case: usize) -> Option<(String, &str)>;
 
-    /// The study with only those cases for whose index `keep` returns true.
+    /// Returns the study with only those cases for whose index `keep` returns true.
     fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan>;
 
-    /// The study with an external solver in place of its methods, gated on `terms`, if any. `None`
-    /// if the study examines the internals of a method.
+    /// Returns the study with an external solver in place of its methods, gated on `terms`, if any.
+    /// `None` if the study examines the internals of a method.
     fn of_external(
         &self,
         _solver: ExternalMethod<'_>,
@@ -277,7 +277,7 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
     }
 }
 
-/// The elements for whose index `keep` returns true.
+/// Returns the elements for whose index `keep` returns true.
 pub(super) fn kept<T: Clone>(all: &[T], keep: &dyn Fn(usize) -> bool) -> Vec<T> {
     let kept = all.iter().enumerate().filter(|(i, _)| keep(*i));
     kept.map(|(_, member)| member.clone()).collect()

@@ -13,8 +13,8 @@ pub struct RefinePlan {
     pub usual: usize,
     /// The time steps as the suite states them: one formula of h, or one for each level.
     pub steps: Vec<String>,
-    /// Automatic time steps, as a share of the stable time step. The steps of the levels are then
-    /// computed without the state of the particles.
+    /// Share of the stable time step, if time steps are automatic. The steps of the levels are then
+    /// preliminary: they do not depend on the state of the particles.
     pub rule: Option<f64>,
 }
 
@@ -31,17 +31,17 @@ pub struct LevelPlan {
     pub ppc: Option<u64>,
 }
 
-/// Which levels run.
+/// Selection of the levels that run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// The levels of the gate.
+    /// The levels that run without `--full`.
     Usual,
     /// All levels.
     Full,
 }
 
 impl RefinePlan {
-    /// The levels for this extent.
+    /// Returns the levels for this extent.
     pub fn levels(&self, extent: Extent) -> &[LevelPlan] {
         match extent {
             Extent::Usual => &self.levels[..self.usual],
@@ -56,7 +56,7 @@ impl RefinePlan {
 }
 
 impl LevelPlan {
-    /// The level with half the spacing along `axis`; `None` if it has no such spacing.
+    /// Returns the level with half the spacing along `axis`; `None` if it has no such spacing.
     pub fn halved(self, axis: Axis, dimension: usize) -> Option<Self> {
         match axis {
             Axis::Space => Some(Self { cells: 2 * self.cells, h: 0.5 * self.h, ..self }),
@@ -65,15 +65,15 @@ impl LevelPlan {
         }
     }
 
-    /// Distance between neighbouring particles (m), or between nodes if there are no particles.
+    /// Returns the distance between neighbouring particles (m), or between nodes without particles.
     pub fn particle_spacing(self, dimension: usize) -> f64 {
         let per_cell = self.ppc.unwrap_or(1) as f64;
         self.h / libm::pow(per_cell, 1.0 / dimension as f64)
     }
 }
 
-/// Minimum ratio of fine-grid cells to cells of the finest level. A second-order error on the
-/// finest level is then known to 1/16.
+/// Minimum ratio of the cells of a fine-grid reference run to the cells of the finest level. For a
+/// second-order method, the error of the reference run is then 1/16 of that on the finest level.
 pub(crate) const FINE_GRID: u64 = 4;
 
 /// The spacing that a same-method reference run reduces.
@@ -81,12 +81,12 @@ pub(crate) const FINE_GRID: u64 = 4;
 pub enum SameMethod {
     /// The time step (s), on the same grid, in a study of time steps.
     ShorterSteps(f64),
-    /// The cell size, in a study of space; the fine level.
+    /// The cell size, in a study of space. Contains the level with the fine grid.
     FineGrid(LevelPlan),
 }
 
 impl SameMethod {
-    /// Phrase for this reference in a sentence.
+    /// Returns the phrase for this reference in a sentence.
     pub fn words(self) -> &'static str {
         match self {
             Self::ShorterSteps(_) => "the same method with shorter steps",
@@ -94,7 +94,7 @@ impl SameMethod {
         }
     }
 
-    /// Suffix of case names.
+    /// Returns the suffix of case names.
     pub fn suffix(self) -> &'static str {
         match self {
             Self::ShorterSteps(_) => "-vs-shorter-steps",

@@ -60,24 +60,24 @@ pub struct SpectrumCase {
 }
 
 impl SpectrumPlan {
-    /// The cells and particles of the study, with the time step of `wave`.
+    /// Returns the cells and particles of the study, with the time step of `wave`.
     pub(crate) fn level(&self, wave: &Wave) -> LevelPlan {
         let dt = wave.courant * self.h / self.scene.wave_speed();
         LevelPlan { cells: self.cells, h: self.h, dt, ppc: Some(self.ppc) }
     }
 
-    /// The scene at the start of the run of `wave`.
+    /// Returns the scene with the initial velocity of `wave`.
     pub(crate) fn started(&self, wave: &Wave) -> Scene {
         Scene { initial_velocity: vec![wave.velocity.clone()], ..self.scene.clone() }
     }
 
-    /// The translation of the particle lattice by `shift`.
+    /// Returns the translation of the particle lattice by `shift`.
     pub(crate) fn lattice(&self) -> LatticeEdits {
         LatticeEdits { shift: vec![self.shift], ..LatticeEdits::default() }
     }
 
-    /// The case whose prediction applies to the external solver `name`: the case that the suite
-    /// assigns to the solver, otherwise the case with the same name.
+    /// Returns the case whose prediction applies to the external solver `name`: the case that the
+    /// suite assigns to the solver, otherwise the case with the same name.
     fn case_of(&self, name: &str) -> Option<&SpectrumCase> {
         let stated = self.solvers.iter().find(|(solver, _)| solver == name);
         let case = stated.map_or(name, |(_, case)| case);

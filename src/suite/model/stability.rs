@@ -21,7 +21,7 @@ pub struct StabilityPlan {
     pub sought: Option<(String, f64, f64)>,
     /// Whether the particles do not move.
     pub frozen: bool,
-    /// Figures in the report tables.
+    /// Measured quantities in the report tables.
     pub figures: Vec<RunFigure>,
     /// The cases: the product of the lists in `methods`, in order.
     pub cases: Vec<StabilityCase>,
@@ -41,7 +41,8 @@ pub(crate) struct LatticeEdits {
     pub(crate) shift: Vec<f64>,
     /// Offsets of the particles from the lattice.
     pub(crate) scatter: LatticeOffsets,
-    /// Positions of additional particles (m), otherwise equal to the first particle of the lattice.
+    /// Positions of additional particles (m). All other properties equal those of the first
+    /// particle of the lattice.
     pub(crate) extra: Vec<Vec<f64>>,
 }
 

@@ -13,22 +13,23 @@ pub(crate) const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "
 pub struct SceneFace {
     /// Name in suites.
     pub name: &'static str,
-    /// Axis of its normal.
+    /// Axis of the face normal.
     pub axis: usize,
-    /// Whether it is the face with the larger coordinate.
+    /// Whether this is the face with the larger coordinate.
     pub high: bool,
     /// Condition on the motion of the face.
     pub(crate) hold: Arc<dyn BoundaryCondition>,
 }
 
 impl SceneFace {
-    /// Name of the condition in suites.
+    /// Returns the name of the condition in suites.
     pub fn condition(&self) -> &'static str {
         self.hold.name()
     }
 }
 
-/// Number of the face called `name`, which is a key or a value of the file.
+/// Returns the number of the face called `name`. The name is the key at `path` if `is_key` is true,
+/// otherwise the value.
 pub(crate) fn face(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -48,20 +49,20 @@ pub(crate) fn face(
     })
 }
 
-/// JSON schema of a face name.
+/// Returns the JSON schema of a face name.
 #[cfg(feature = "schemas")]
 pub(crate) fn face_name(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     schemars::json_schema!({"type": "string", "enum": FACES})
 }
 
-/// JSON schema of the name of a face, or of a rim of a round body.
+/// Returns the JSON schema of the name of a face, or of a rim of a round body.
 #[cfg(feature = "schemas")]
 pub(crate) fn face_or_rim(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     let names: Vec<&str> = FACES.into_iter().chain(["inner", "outer"]).collect();
     schemars::json_schema!({"type": "string", "enum": names})
 }
 
-/// JSON schema of a map whose keys are face names.
+/// Returns the JSON schema of a map whose keys are face names.
 #[cfg(feature = "schemas")]
 pub(crate) fn by_face<T: schemars::JsonSchema>(
     all: &mut schemars::SchemaGenerator,

@@ -30,8 +30,8 @@ impl LatticeOffsets {
     }
 }
 
-/// The box to fill. For a body that is a box, this is the body. For other bodies, the box consists
-/// of whole cells of the grid that starts at `origin`.
+/// Returns the box to fill: the body itself if it is a box, otherwise whole cells of the grid that
+/// starts at `origin`.
 pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -> Block<D> {
     let node = |axis: usize, x: f64, round: fn(f64) -> f64| match scene.outline {
         Some(_) => origin[axis] + round((x - origin[axis]) / h) * h,
@@ -55,9 +55,9 @@ pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     })
 }
 
-/// Whether `holds` returns true for any particle of a `body` with a free rim. Its arguments are the
-/// particle position (m) and the particle's share of a lattice cell. The grid of `scene` has cells
-/// of size `h`.
+/// Whether `holds` returns true for any particle of a `body` with a free rim. The arguments of
+/// `holds` are the particle position (m) and the particle's share of a lattice cell. The grid of
+/// `scene` has cells of size `h`.
 pub(crate) fn any_particle(
     body: &Scene,
     scene: &Scene,

@@ -1,7 +1,7 @@
 //! The scene of a suite: the body with its conditions and loads.
 //!
-//! Loads and boundary conditions are families. The file of a member contains its keys, the checks
-//! of the keys, and the conversions for the solver and the exact solution.
+//! Each load and each boundary condition has one file, which contains the keys, their checks, and
+//! the conversions for the solver and the exact solution.
 
 pub(crate) mod boundary;
 pub(crate) mod face;
@@ -21,7 +21,7 @@ use crate::subject::PlaneState;
 use load::{ListedLoad, LoadTarget};
 use std::sync::Arc;
 
-/// The body with its conditions and loads.
+/// The body or bodies, with boundary conditions and loads.
 #[derive(Debug, Clone)]
 pub struct Scene {
     /// Lowest corner (m) of the body or its bounding box; the number of entries is the dimension.
@@ -66,17 +66,17 @@ pub struct Scene {
 const ROUNDING: f64 = 1e-9;
 
 impl Scene {
-    /// All bodies: the list of bodies, or this scene if there is one body.
+    /// Returns all bodies: the list of bodies, or this scene if there is one body.
     pub fn each(&self) -> &[Self] {
         if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies }
     }
 
-    /// Length of the longest side of the bounding box (m).
+    /// Returns the length of the longest side of the bounding box (m).
     pub(crate) fn size(&self) -> f64 {
         self.from.iter().zip(&self.to).map(|(from, to)| to - from).fold(0.0, f64::max)
     }
 
-    /// Distance from the body or a face that is treated as rounding error (m).
+    /// Returns the distance from the body or a face that is treated as rounding error (m).
     pub(crate) fn rounding(&self) -> f64 {
         ROUNDING * self.size()
     }
@@ -102,28 +102,28 @@ impl Scene {
         self.loads.iter().any(|load| load.effect == effect)
     }
 
-    /// The loads on one part of the scene.
+    /// Returns the loads on one part of the scene.
     pub(crate) fn loads_on(&self, target: LoadTarget) -> impl Iterator<Item = &ListedLoad> {
         self.loads.iter().filter(move |load| load.target() == target)
     }
 
-    /// The rim on which a load acts.
+    /// Returns the rim on which `load` acts; `None` if the load does not act on a rim.
     pub(crate) fn rim(&self, load: &ListedLoad) -> Option<Circle> {
         let LoadTarget::Rim(number) = load.target() else { return None };
         self.outline.as_ref()?.circles().into_iter().find(|circle| circle.number == number)
     }
 
-    /// The heat conduction of the scene, if any.
+    /// Returns the heat conduction of the scene, if any.
     pub(crate) fn heat(&self) -> Option<&SceneHeat> {
         self.loads.iter().find_map(|load| load.heat())
     }
 
-    /// Terms of the loads in the equation of motion.
+    /// Returns the terms of the loads in the equation of motion.
     pub(crate) fn terms(&self) -> Vec<Arc<dyn Term>> {
         self.loads.iter().map(|load| load.load.clone() as Arc<dyn Term>).collect()
     }
 
-    /// Name of the first set with a prescribed velocity.
+    /// Returns the name of the first set with a prescribed velocity.
     pub(crate) fn driven_set(&self) -> Option<&str> {
         self.loads.iter().find_map(|load| Some(load.driven()?.0.name.as_str()))
     }

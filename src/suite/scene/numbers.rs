@@ -16,7 +16,7 @@ pub(crate) struct LoadNumbers {
     pub(crate) region: Option<Region>,
 }
 
-/// A quantity given by formulas of t, the coordinates and the displacement, or of a part of these.
+/// A quantity given by formulas of t, the coordinates and the displacement, or some of these.
 #[derive(Debug, Clone)]
 pub(crate) struct NumberField {
     /// Key of the quantity.
@@ -27,24 +27,24 @@ pub(crate) struct NumberField {
 }
 
 impl LoadNumbers {
-    /// Numbers with these constants (key and value, SI units).
+    /// Creates numbers from constants (key and value, SI units).
     pub(crate) fn constants(constants: &[(&'static str, f64)]) -> Self {
         Self { constants: constants.to_vec(), ..Self::default() }
     }
 
-    /// Numbers with one vector, given by one formula for each component.
+    /// Creates numbers from one vector, given by one formula for each component.
     pub(crate) fn vector(key: &'static str, formulas: &[Formula]) -> Self {
         let field = NumberField { key, is_vector: true, formulas: formulas.to_vec() };
         Self { field: Some(field), ..Self::default() }
     }
 
-    /// Numbers with one scalar.
+    /// Creates numbers from one scalar.
     pub(crate) fn scalar(key: &'static str, formula: &Formula) -> Self {
         let field = NumberField { key, is_vector: false, formulas: vec![formula.clone()] };
         Self { field: Some(field), ..Self::default() }
     }
 
-    /// The numbers, restricted to a part of the bodies.
+    /// Restricts the numbers to a part of the bodies.
     pub(crate) fn on(self, region: &Region) -> Self {
         Self { region: Some(region.clone()), ..self }
     }
@@ -56,13 +56,13 @@ impl LoadNumbers {
 }
 
 impl NumberField {
-    /// The value, if it is constant in space and time.
+    /// Returns the value, if it is constant in space and time.
     pub(crate) fn constant(&self) -> Option<Vec<f64>> {
         self.formulas.iter().map(Formula::constant).collect()
     }
 
-    /// Whether the value depends on the coordinates, on time and on the displacement, in `d`
-    /// dimensions.
+    /// Returns whether the value depends on the coordinates, on time and on the displacement, in
+    /// `d` dimensions.
     pub(crate) fn depends_on(&self, d: usize) -> [bool; 3] {
         let reads = |from: usize, to: usize| {
             let mut formulas = self.formulas.iter();
@@ -74,7 +74,7 @@ impl NumberField {
         [reads(0, d), reads(d, d + 1), reads(d + 1, 2 * d + 1)]
     }
 
-    /// The value at the reference position `label` (m, D numbers) and time `t` (s), for the
+    /// Returns the value at the reference position `label` (m, D numbers) and time `t` (s), for the
     /// displacement `u` (m).
     pub(crate) fn at(&self, label: &[f64], t: f64, u: &[f64]) -> Vec<f64> {
         let mut all = label.to_vec();
@@ -111,7 +111,7 @@ pub(crate) fn scalar<const D: usize>(formula: &Formula) -> ScalarField<D> {
     Box::new(move |x: &Vector<D>, t| formula.eval(&variables(x.as_slice(), t)[..=D]))
 }
 
-/// Value of a formula at the reference position `label` (m) and time `t` for the displacement `u`
+/// Evaluates a formula at the reference position `label` (m) and time `t` for the displacement `u`
 /// (m). The formula need not depend on the displacement.
 pub(crate) fn of_displacement<T: Number>(
     formula: &Formula,
@@ -128,7 +128,7 @@ pub(crate) fn of_displacement<T: Number>(
     formula.eval(&all[..formula.variables()])
 }
 
-/// The formulas as text, for reports.
+/// Formats the formulas as text, for reports.
 pub(crate) fn sources(formulas: &[Formula]) -> String {
     formulas.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
 }

@@ -19,7 +19,7 @@ pub enum Severity {
     Error,
 }
 
-/// An error in a file: message, position, and correct form.
+/// An error, warning or note about a file: message, position, and correct form.
 ///
 /// `Display` formats it like an error of `rustc`, with the source line and a caret.
 /// [`Diagnostic::one_line`] is for editors and logs.
@@ -45,7 +45,7 @@ struct Excerpt {
 }
 
 impl Diagnostic {
-    /// A diagnostic about a whole file.
+    /// Creates a diagnostic about a whole file.
     pub fn about(file: &str, message: &str) -> Self {
         Self(Box::new(Parts {
             severity: Severity::Error,
@@ -57,7 +57,7 @@ impl Diagnostic {
         }))
     }
 
-    /// A diagnostic about a byte range of `text`, the contents of `file`.
+    /// Creates a diagnostic about a byte range of `text`, the contents of `file`.
     pub fn at(file: &str, text: &str, range: Range<usize>, message: &str) -> Self {
         let place = Place::of(text, range);
         let bytes = place.bytes();
@@ -92,37 +92,37 @@ impl Diagnostic {
         self
     }
 
-    /// Severity of the diagnostic.
+    /// Returns the severity of the diagnostic.
     pub fn severity(&self) -> Severity {
         self.0.severity
     }
 
-    /// The file name, as given by the user.
+    /// Returns the file name, as given by the user.
     pub fn file(&self) -> &str {
         &self.0.file
     }
 
-    /// Position of the error; `None` if the diagnostic concerns the whole file.
+    /// Returns the position of the error; `None` if the diagnostic concerns the whole file.
     pub fn place(&self) -> Option<Place> {
         self.0.excerpt.as_ref().map(|excerpt| excerpt.place)
     }
 
-    /// The error message.
+    /// Returns the error message.
     pub fn message(&self) -> &str {
         &self.0.message
     }
 
-    /// The label under the caret, which states the expected value.
+    /// Returns the label under the caret, which states the expected value.
     pub fn label(&self) -> Option<&str> {
         self.0.label.as_deref()
     }
 
-    /// Advice for the author.
+    /// Returns the advice for the author.
     pub fn help(&self) -> Option<&str> {
         self.0.help.as_deref()
     }
 
-    /// `file:line:column: message`.
+    /// Formats the diagnostic as `file:line:column: message`.
     pub fn one_line(&self) -> String {
         let Parts { file, message, .. } = &*self.0;
         match self.place() {
@@ -131,7 +131,7 @@ impl Diagnostic {
         }
     }
 
-    /// The text of `Display`, with terminal colours.
+    /// Returns the text of `Display`, with terminal colours.
     pub fn styled(&self) -> String {
         Renderer::styled().render(&[self.group()])
     }
@@ -171,7 +171,7 @@ impl fmt::Display for Diagnostic {
 
 impl std::error::Error for Diagnostic {}
 
-/// Text that is safe on a terminal: one line, no invisible characters, limited length.
+/// Makes a text safe for a terminal: one line, no invisible characters, limited length.
 fn printable(words: &str) -> String {
     let mut safe = String::new();
     for (count, c) in words.chars().enumerate() {
@@ -188,7 +188,7 @@ fn printable(words: &str) -> String {
     safe
 }
 
-/// Bidirectional control characters, which reorder the rest of a line in a terminal.
+/// Whether `c` is a bidirectional control character, which reorders a line in a terminal.
 fn reorders(c: char) -> bool {
     matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

@@ -36,36 +36,36 @@ impl From<usize> for Step {
 pub(crate) struct Path(Vec<Step>);
 
 impl Path {
-    /// The path of a top-level key.
+    /// Returns the path of a top-level key.
     pub(crate) fn top(key: &str) -> Self {
         Self(vec![Step::from(key)])
     }
 
-    /// The path with one more step.
+    /// Returns the path with one more step.
     pub(crate) fn then(&self, step: impl Into<Step>) -> Self {
         let mut longer = self.0.clone();
         longer.push(step.into());
         Self(longer)
     }
 
-    /// The path of alternative `i`, for `alternatives` at this path.
+    /// Returns the path of alternative `i`, for `alternatives` at this path.
     pub(crate) fn alternative<T>(&self, alternatives: &OneOrMany<T>, i: usize) -> Self {
         if alternatives.is_listed() { self.then(i) } else { self.clone() }
     }
 
-    /// The steps of the path.
+    /// Returns the steps of the path.
     pub(crate) fn steps(&self) -> &[Step] {
         &self.0
     }
 }
 
 impl Source {
-    /// The position of a value. For a list or a map, this is the position of its first character.
+    /// Returns the position of a value; for a list or a map, the position of its first character.
     pub fn value_at(&self, path: &[Step]) -> Option<Place> {
         self.find(path, Sought::Value).map(|at| Place::of(self.text(), self.token_at(at)))
     }
 
-    /// A diagnostic about the value at `path`, or about the whole file if there is no such value.
+    /// Returns a diagnostic about the value at `path`; about the file if there is no such value.
     pub fn diagnostic_at(&self, path: &[Step], message: &str) -> Diagnostic {
         match self.value_at(path) {
             Some(place) => self.diagnostic(place, message),
@@ -73,12 +73,12 @@ impl Source {
         }
     }
 
-    /// The position of the key in the last step of `path`.
+    /// Returns the position of the key in the last step of `path`.
     pub fn key_at(&self, path: &[Step]) -> Option<Place> {
         self.find(path, Sought::Key).map(|at| Place::of(self.text(), self.token_at(at)))
     }
 
-    /// The position of a byte range within a text value, such as one name in a formula.
+    /// Returns the position of a byte range within a text value, such as one name in a formula.
     ///
     /// If the file does not contain the value verbatim (escapes, several lines), returns the
     /// position of the whole value.

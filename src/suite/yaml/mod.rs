@@ -20,9 +20,9 @@
 //! }
 //!
 //! let source = Source::from_text("bar.yaml", "cels: [5, 10]\n").unwrap();
-//! let complaint = read::<Refine>(&source).err().unwrap();
-//! assert_eq!(complaint.one_line(), "bar.yaml:1:1: unknown key `cels`");
-//! assert_eq!(complaint.help(), Some("did you mean `cells`?"));
+//! let diagnostic = read::<Refine>(&source).err().unwrap();
+//! assert_eq!(diagnostic.one_line(), "bar.yaml:1:1: unknown key `cels`");
+//! assert_eq!(diagnostic.help(), Some("did you mean `cells`?"));
 //! ```
 
 pub(crate) mod diagnostic;

@@ -7,7 +7,7 @@ use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, MapAccess, Se
 use std::fmt;
 use std::marker::PhantomData;
 
-/// A setting that a suite may vary. `scheme: [musl, usl]` gives one case for each entry.
+/// A setting that a suite may vary: `scheme: [musl, usl]` gives one case for each entry.
 ///
 /// The list is never empty. `T` may be a number, text, a struct or an enum. It must not be a list,
 /// because the first bracket always opens the list of alternatives.
@@ -18,7 +18,7 @@ pub struct OneOrMany<T> {
 }
 
 impl<T> OneOrMany<T> {
-    /// The alternatives in the order of the file; at least one.
+    /// Returns the alternatives in the order of the file; at least one.
     pub fn as_slice(&self) -> &[T] {
         &self.values
     }
@@ -35,7 +35,7 @@ impl<T> OneOrMany<T> {
 }
 
 impl<T> OneOrMany<T> {
-    /// `values` as a list if `self` is a list, otherwise the first value; `None` without values.
+    /// Returns `values` as a list if `self` is one, otherwise the first value, if any.
     pub(crate) fn with_values(&self, values: impl IntoIterator<Item = T>) -> Option<Self> {
         let limit = if self.listed { usize::MAX } else { 1 };
         let values: Vec<T> = values.into_iter().take(limit).collect();

@@ -11,7 +11,7 @@ use std::marker::PhantomData;
 pub struct Ordered<T>(Vec<(String, T)>);
 
 impl<T> Ordered<T> {
-    /// The entries in the order of the file.
+    /// Returns the entries in the order of the file.
     pub fn as_slice(&self) -> &[(String, T)] {
         &self.0
     }
@@ -25,7 +25,7 @@ impl<T> Ordered<T> {
         self
     }
 
-    /// The value of a name.
+    /// Returns the value of a name.
     pub fn get(&self, name: &str) -> Option<&T> {
         self.0.iter().find(|(key, _)| key == name).map(|(_, value)| value)
     }

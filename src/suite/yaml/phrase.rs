@@ -1,6 +1,6 @@
 //! Rewrites messages of serde and of the parser in plain English.
 
-/// Plain text for an expected value, without Rust type names.
+/// Converts serde's description of an expected value to plain text without Rust type names.
 pub(crate) fn expected(serde: &str) -> String {
     let words = match serde {
         "f64" | "f32" => "a number",
@@ -18,7 +18,7 @@ pub(crate) fn expected(serde: &str) -> String {
     words.to_owned()
 }
 
-/// Plain text for an expectation that contains a type name or a count.
+/// Converts a description that contains a type name or a count to plain text.
 fn expected_of(serde: &str) -> String {
     let count = serde.split(' ').find_map(|word| word.parse::<usize>().ok());
     match (serde, count) {
@@ -38,7 +38,7 @@ fn is_list(serde: &str) -> bool {
         .any(|list| serde.starts_with(list))
 }
 
-/// Plain text for the value in the file.
+/// Converts serde's description of the value in the file to plain text.
 pub(crate) fn found(serde: &str) -> String {
     match serde {
         "sequence" => return "a list".to_owned(),
@@ -60,13 +60,13 @@ pub(crate) fn found(serde: &str) -> String {
     )
 }
 
-/// The names in backticks, separated by commas.
+/// Formats the names in backticks, separated by commas.
 pub(crate) fn listed(names: &[&str]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     quoted.join(", ")
 }
 
-/// Message and help for invalid YAML.
+/// Returns message and help for an error about invalid YAML.
 pub(crate) fn syntax(error: &str) -> Option<(&'static str, &'static str)> {
     const TABLE: [(&str, &str, &str); 14] = [
         (

@@ -13,7 +13,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// The position of a byte range of `text`, cut at the end of its first line.
+    /// Returns the position of a byte range of `text`, cut at the end of its first line.
     ///
     /// Any range is valid: its ends are moved into the text and to character boundaries. A range
     /// that starts at the end of the text is moved back to the last visible character.
@@ -37,28 +37,28 @@ impl Place {
         }
     }
 
-    /// The line number, starting at one.
+    /// Returns the line number, starting at one.
     pub fn line(self) -> usize {
         self.line
     }
 
-    /// The column in characters, starting at one.
+    /// Returns the column in characters, starting at one.
     pub fn column(self) -> usize {
         self.column
     }
 
-    /// Number of characters; zero for a position between two characters.
+    /// Returns the number of characters; zero for a position between two characters.
     pub fn length(self) -> usize {
         self.length
     }
 
-    /// The byte range.
+    /// Returns the byte range.
     pub fn bytes(self) -> Range<usize> {
         self.start..self.end
     }
 }
 
-/// The byte range, without line break, of the line at `offset`, a character boundary.
+/// Returns the byte range, without line break, of the line at `offset`, a character boundary.
 pub(crate) fn line_around(text: &str, offset: usize) -> Range<usize> {
     let start = text[..offset].rfind('\n').map_or(0, |at| at + 1);
     let end = text[offset..].find('\n').map_or(text.len(), |at| offset + at);

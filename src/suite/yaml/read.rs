@@ -38,7 +38,7 @@ impl<'s> CheckedShape<'s> {
         Ok(Self { source, top })
     }
 
-    /// The stored value of the key.
+    /// Returns the stored value of the key.
     pub(crate) fn top(&self) -> &TopValue {
         &self.top
     }
@@ -66,7 +66,7 @@ impl From<WriteError> for String {
     }
 }
 
-/// The YAML text of a value.
+/// Writes a value as YAML text.
 ///
 /// # Errors
 /// [`WriteError`] if the library cannot write the value.
@@ -133,7 +133,7 @@ impl<'a> Fault<'a> {
         Diagnostic::at(self.source.name(), self.source.text(), range, message)
     }
 
-    /// This fault, moved to the first name after a bracket, and that name.
+    /// Returns this fault, moved to the first name after a bracket, and that name.
     fn at_first_name(self) -> (Self, &'a str) {
         let scalar = self.source.scalar_from(self.offset);
         let offset = scalar.map_or(self.offset, |scalar| scalar.range.start);
@@ -198,7 +198,7 @@ impl<'a> Fault<'a> {
         })
     }
 
-    /// Error for a named choice with unexpected or missing settings, or for several choices.
+    /// Returns the error for unexpected or missing settings of a choice, or for several choices.
     fn wrong_settings(self, unexpected: &str, wanted: &str) -> Option<Diagnostic> {
         let (fault, name) = self.at_first_name();
         match (unexpected, wanted) {

@@ -1,4 +1,4 @@
-//! Extent of a scalar, by the rules of its style.
+//! Finds the end of a scalar, by the rules of its YAML style.
 
 use super::Diagnostic;
 use super::scan::{Scalar, Scanner, Style};
@@ -59,7 +59,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// The first column that belongs to the current block.
+    /// Returns the first column that belongs to the current block.
     fn least_column(&self) -> usize {
         self.indents.last().map_or(0, |indent| indent + 1)
     }
@@ -123,7 +123,7 @@ impl Scanner<'_> {
         self.keep(start..end, Style::Block);
     }
 
-    /// The explicit indentation of a block header such as `|2-`.
+    /// Returns the explicit indentation of a block header such as `|2-`.
     fn stated_indent(&self) -> Option<usize> {
         let digit = (1..=2).find_map(|ahead| self.byte(ahead).filter(u8::is_ascii_digit))?;
         Some(self.indents.last().copied().unwrap_or(0) + usize::from(digit - b'0'))

@@ -25,7 +25,7 @@ pub(crate) enum Style {
 }
 
 impl Scalar {
-    /// The byte range of the value, if it is verbatim: without escapes or folded lines.
+    /// Returns the byte range of the value, if it is verbatim: without escapes or folded lines.
     pub(crate) fn verbatim(&self, text: &str) -> Option<Range<usize>> {
         let Range { start, end } = self.range;
         let (inside, altered) = match self.style {
@@ -43,7 +43,7 @@ impl Scalar {
     }
 }
 
-/// The scalars of a text in order, or the reason for refusing the text.
+/// Returns the scalars of a text in order, or the reason for refusing the text.
 pub(crate) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Diagnostic> {
     let mut scanner = Scanner {
         name,
@@ -247,7 +247,7 @@ impl Scanner<'_> {
         !self.open.is_empty()
     }
 
-    /// Column in bytes: only ASCII text precedes a block key or dash on its line.
+    /// Returns the column in bytes: only ASCII text precedes a block key or dash on its line.
     pub(crate) fn column(&self) -> usize {
         self.at - self.line_start
     }
@@ -305,7 +305,7 @@ impl Scanner<'_> {
             .with_label(&format!("no matching `{closing}`")))
     }
 
-    /// Error for a bracket closed by one of another kind. The first bracket is the unclosed one.
+    /// Returns the error, at the opening bracket, for a closing bracket of another kind.
     pub(crate) fn crossed(&self, start: usize, byte: u8) -> Diagnostic {
         let (bracket, byte) = (&self.text[start..=start], byte as char);
         let closing = Place::of(self.text, self.here());

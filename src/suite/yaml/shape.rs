@@ -193,7 +193,7 @@ pub(crate) fn finite<E: de::Error>(value: f64, expected: &str) -> Result<f64, E>
 
 const FENCE: char = '\u{1f}';
 
-/// Error that refuses a value during deserialization: message, label and help.
+/// Returns an error that refuses a value during deserialization: message, label and help.
 ///
 /// `label` and `help` may be empty. [`read`](super::read()) shows the three texts unchanged, at the
 /// position of the innermost value being parsed.
@@ -202,7 +202,7 @@ pub fn refuse<E: de::Error>(message: &str, label: &str, help: &str) -> E {
     E::custom(format!("{FENCE}{message}{FENCE}{label}{FENCE}{help}{FENCE}"))
 }
 
-/// Message, label and help, if `error` is the text of a refusal.
+/// Returns message, label and help, if `error` is the text of a refusal.
 pub(crate) fn refused(error: &str) -> Option<[&str; 3]> {
     let mut parts = error.split(FENCE).skip(1);
     Some([parts.next()?, parts.next()?, parts.next()?])

@@ -84,7 +84,7 @@ impl Source {
         Ok(paths)
     }
 
-    /// Name of the folder that contains a file, which is the group of a suite.
+    /// Returns the name of the folder that contains a file, which is the group of a suite.
     pub fn group_of(file: &Path) -> String {
         let folder = file.parent().and_then(Path::file_name);
         folder.unwrap_or_default().to_string_lossy().into_owned()
@@ -94,32 +94,32 @@ impl Source {
         Self::group_of(Path::new(&self.name))
     }
 
-    /// The file name, as given by the user.
+    /// Returns the file name, as given by the user.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The text of the file, without byte order mark.
+    /// Returns the text of the file, without byte order mark.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// A diagnostic at a position in this file.
+    /// Returns a diagnostic at a position in this file.
     pub fn diagnostic(&self, place: Place, message: &str) -> Diagnostic {
         Diagnostic::at(&self.name, &self.text, place.bytes(), message)
     }
 
-    /// The first scalar that starts at or after byte `offset`.
+    /// Returns the first scalar that starts at or after byte `offset`.
     pub(crate) fn scalar_from(&self, offset: usize) -> Option<&Scalar> {
         self.scalars.get(self.scalars.partition_point(|scalar| scalar.range.start < offset))
     }
 
-    /// The scalar that starts at byte `offset`.
+    /// Returns the scalar that starts at byte `offset`.
     pub(crate) fn scalar_at(&self, offset: usize) -> Option<&Scalar> {
         self.scalar_from(offset).filter(|scalar| scalar.range.start == offset)
     }
 
-    /// The byte range of the token at `offset`: a scalar, or any other single character.
+    /// Returns the byte range of the token at `offset`: a scalar, or any other single character.
     pub(crate) fn token_at(&self, offset: usize) -> Range<usize> {
         self.scalar_at(offset).map_or(offset..offset + 1, |scalar| scalar.range.clone())
     }
@@ -144,7 +144,7 @@ fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Diagnostic> {
     limited(name, File::open(path).map_err(|error| unreadable(&error))?)
 }
 
-/// All bytes of a reader, up to the maximum. The size may be unknown in advance, or grow.
+/// Reads all bytes of a reader, up to the maximum. The size may be unknown in advance, or grow.
 fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     let mut bytes = Vec::new();
     let read = reader.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);

@@ -1,4 +1,4 @@
-//! Repeatability checks: repeated sampling, half-length step, new subject, resumed run.
+//! Repeatability checks: repeated sampling, a half-length step, a new subject, a resumed run.
 
 use super::course::ROUNDING;
 use super::record::{Breach, RunState, difference, largest, record};
@@ -102,9 +102,9 @@ pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breac
     breaches
 }
 
-/// Counters and sums that differ between two states with equal samples.
+/// Describes counters and sums that differ between two states with equal samples.
 fn counted(wanted: &RunState, seen: &RunState) -> Option<String> {
-    // Compared as text, because a NaN equals an expected NaN.
+    // The states are compared as text, because a NaN must equal an expected NaN.
     let text = |state: &RunState| (format!("{:?}", state.counters), format!("{:?}", state.totals));
     let ((a, b), (c, d)) = (text(wanted), text(seen));
     match (a == c, b == d) {

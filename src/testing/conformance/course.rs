@@ -9,11 +9,11 @@ use crate::subject::Samples;
 /// Maximum relative rounding error of numbers passed to a solver.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// Maximum relative difference between the body volume and the weights of all sample points, which
+/// Maximum relative difference between the body volume and the sum of all sample weights. Solvers
 /// may resolve the rim differently.
 const RIM: f64 = 0.1;
 
-/// Breaches due to columns of wrong size and numbers that are not finite.
+/// Returns breaches due to columns of wrong size and numbers that are not finite.
 pub(super) fn counts(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let (d, n) = (problem.dimension, samples.len());
     if samples.dimension != d {
@@ -40,7 +40,7 @@ pub(super) fn counts(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     breaches
 }
 
-/// Breaches due to wrong labels, weights and motion in the initial state.
+/// Returns breaches due to wrong labels, weights and motion in the initial state.
 pub(super) fn start(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let mut breaches = weights(problem, samples);
     breaches.extend(labels(problem, samples));
@@ -57,7 +57,7 @@ fn is_of_particles(problem: &LevelProblem, samples: &Samples) -> bool {
     wanted.len() == samples.label.len() && pairs.all(|(a, b)| (a - b).abs() <= near)
 }
 
-/// A breach due to labels outside the grid.
+/// Returns a breach due to labels outside the grid.
 fn labels(problem: &LevelProblem, samples: &Samples) -> Option<Breach> {
     let (grid, d) = (&problem.grid, problem.dimension);
     let near = ROUNDING * grid.h;
@@ -93,9 +93,9 @@ fn weights(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     vec![Breach::new("weights", wanted, format!("{sum:e} m^D"))]
 }
 
-/// Breaches due to displacements and velocities that differ from those of the particles. Velocities
-/// may be those half a step before the start, which differ by less than half of the largest
-/// velocity.
+/// Returns breaches due to displacements and velocities that differ from those of the particles.
+/// Velocities may be those half a step before the start, which differ by less than half of the
+/// largest velocity.
 fn motion(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let particles = &problem.particles;
     let mut breaches = Vec::new();
@@ -118,7 +118,7 @@ fn motion(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     breaches
 }
 
-/// Breaches due to labels, weights or sizes that change, and numbers that are not finite.
+/// Returns breaches due to labels, weights or sizes that change, and numbers that are not finite.
 pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
     let first = &states[0].samples;
     let mut breaches = Vec::new();
@@ -150,7 +150,7 @@ pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
     breaches
 }
 
-/// A breach due to work that does not grow with each step.
+/// Returns a breach if the work does not grow with each step.
 pub(super) fn work(states: &[RunState]) -> Option<Breach> {
     let work: Vec<u64> = states.iter().map(|state| state.counters.transfers).collect();
     let step = (1..work.len()).find(|step| work[*step] <= work[step - 1])?;
@@ -160,7 +160,7 @@ pub(super) fn work(states: &[RunState]) -> Option<Breach> {
     Some(Breach::new("work counters", wanted, seen))
 }
 
-/// Breaches due to counters that do not count the run so far.
+/// Returns breaches due to counters that disagree with the run so far.
 pub(super) fn counters(problem: &LevelProblem, states: &[RunState]) -> Vec<Breach> {
     let given = problem.particles.len() as u64;
     let volumes = problem.particles.volume.iter().zip(&problem.particles.reference_volume);
@@ -198,7 +198,7 @@ pub(super) fn counters(problem: &LevelProblem, states: &[RunState]) -> Vec<Breac
     breaches
 }
 
-/// A breach if the total mass differs from that of the particles.
+/// Returns a breach if the total mass differs from that of the particles.
 pub(super) fn totals(problem: &LevelProblem, states: &[RunState]) -> Option<Breach> {
     let mass: f64 = problem.particles.mass.iter().sum();
     let is_off = |seen: f64| !((seen - mass).abs() <= ROUNDING * mass);
@@ -211,7 +211,7 @@ pub(super) fn totals(problem: &LevelProblem, states: &[RunState]) -> Option<Brea
     ))
 }
 
-/// The smallest det F of all points; infinite if the subject does not report F.
+/// Returns the smallest det F of all points; infinite if the subject does not report F.
 fn smallest_j(samples: &Samples) -> f64 {
     let d = samples.dimension;
     let all = samples.deformation_gradient.chunks_exact(d * d);

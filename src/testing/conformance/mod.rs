@@ -26,8 +26,8 @@ const STEPS: usize = 6;
 const SUITES: [&str; 4] =
     ["vibrating-bar", "mms-periodic-bar-sin", "translating-body", "mms-axis-aligned-2d"];
 
-/// All breaches of the contract on the coarsest level of the first built-in suite that the solver
-/// supports; empty if there are none.
+/// Returns all breaches of the contract on the coarsest level of the first built-in suite that the
+/// solver supports; empty if there are none.
 ///
 /// ```no_run
 /// # use mpm_verify::prelude::*;
@@ -51,7 +51,7 @@ pub fn conformance(solver: &dyn SolverFactory) -> Vec<Breach> {
     vec![Breach::new("problem", wanted, refused.join("; "))]
 }
 
-/// All breaches of the contract on the coarsest level of `suite`; empty if there are none.
+/// Returns all breaches of the contract on the coarsest level of `suite`; empty if there are none.
 pub fn conformance_on(solver: &dyn SolverFactory, suite: &Suite) -> Vec<Breach> {
     examined(solver, suite).unwrap_or_else(|why| {
         let wanted = format!("a solver that can be put to `{}`", suite.name);
@@ -59,7 +59,7 @@ pub fn conformance_on(solver: &dyn SolverFactory, suite: &Suite) -> Vec<Breach> 
     })
 }
 
-/// All breaches of the contract on the coarsest level of `suite`.
+/// Returns all breaches of the contract on the coarsest level of `suite`.
 ///
 /// # Errors
 /// One line with the reason why the solver cannot run the suite.
@@ -70,7 +70,7 @@ pub(crate) fn examined(
     Ok(breaches(solver, &problem(solver, suite)?))
 }
 
-/// The coarsest level of a suite.
+/// Returns the coarsest level of a suite.
 ///
 /// # Errors
 /// One line with the reason why the solver cannot run the suite.

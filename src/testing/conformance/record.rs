@@ -33,7 +33,7 @@ pub(super) fn record(
     Ok(())
 }
 
-/// Name, numbers and width of every sample column. The width is the number of values per point.
+/// Returns name, numbers and width of every sample column; width is the number of values per point.
 pub(super) fn columns(samples: &Samples) -> [(&'static str, &[f64], usize); 8] {
     let d = samples.dimension;
     [
@@ -65,7 +65,7 @@ pub(super) fn difference(wanted: &Samples, seen: &Samples, tolerance: f64) -> Op
     })
 }
 
-/// The largest magnitude of a column.
+/// Returns the largest magnitude of a column.
 pub(super) fn largest(column: &[f64]) -> f64 {
     column.iter().fold(0.0, |most: f64, number| most.max(number.abs()))
 }

@@ -1,4 +1,4 @@
-//! Recorded runs, figures of recorded runs, and vector fields.
+//! Recorded runs, quantities computed from them, and vector fields.
 
 use crate::external::LevelProblem;
 use crate::subject::{Samples, Subject};
@@ -16,12 +16,12 @@ pub(super) struct Course {
 /// A sample column of a state.
 pub(super) type Field = fn(&Samples) -> &[f64];
 
-/// Displacements (m).
+/// Returns the displacements (m).
 pub(super) fn displacement(samples: &Samples) -> &[f64] {
     &samples.displacement
 }
 
-/// Velocities (m/s).
+/// Returns the velocities (m/s).
 pub(super) fn velocity(samples: &Samples) -> &[f64] {
     &samples.velocity
 }
@@ -39,8 +39,8 @@ impl Course {
         self.states.push(samples);
     }
 
-    /// Sets displacements and velocities of the first state to the initial fields. A solver with
-    /// its own sample points does not report them.
+    /// Sets displacements and velocities of the first state to the initial fields, because a solver
+    /// with its own sample points does not report them at the start.
     pub(super) fn start(&mut self, displacement: &AffineField, velocity: &AffineField) {
         let d = self.problem.dimension;
         let Some(samples) = self.states.first_mut() else { return };
@@ -56,12 +56,12 @@ impl Course {
         samples.velocity = at_labels(velocity);
     }
 
-    /// Index of the last state.
+    /// Returns the index of the last state.
     pub(super) fn last(&self) -> usize {
         self.states.len() - 1
     }
 
-    /// Mean over the body of a vector column in state `k`.
+    /// Returns the mean over the body of a vector column in state `k`.
     pub(super) fn mean(&self, field: Field, k: usize) -> [f64; 3] {
         let (samples, d) = (&self.states[k], self.problem.dimension);
         let (mut sum, mut all) = ([0.0; 3], 0.0);
@@ -74,12 +74,12 @@ impl Course {
         sum.map(|sum| sum / all)
     }
 
-    /// Largest distance between a point's vector and `wanted` in state `k`.
+    /// Returns the largest distance between a point's vector and `wanted` in state `k`.
     pub(super) fn farthest(&self, field: Field, k: usize, wanted: [f64; 3]) -> f64 {
         self.points(field, k).map(|(_, vector)| size(minus(vector, wanted))).fold(0.0, f64::max)
     }
 
-    /// Label and vector of every point in state `k`; components beyond the dimension are zero.
+    /// Returns label and vector of every point in state `k`; components on missing axes are zero.
     pub(super) fn points(
         &self,
         field: Field,
@@ -93,7 +93,7 @@ impl Course {
     }
 }
 
-/// Least-squares line `y = a + b x`: a, b, and the largest distance from the line.
+/// Fits a least-squares line `y = a + b x`. Returns a, b, and the largest distance from the line.
 pub(super) fn line(x: &[f64], y: &[f64]) -> (f64, f64, f64) {
     let n = x.len() as f64;
     let (mx, my) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
@@ -151,12 +151,12 @@ pub(super) struct AffineField {
 }
 
 impl AffineField {
-    /// A uniform field.
+    /// Creates a uniform field.
     pub(super) fn uniform(value: [f64; 3]) -> Self {
         Self { value, ..Self::default() }
     }
 
-    /// The field at a position (m).
+    /// Evaluates the field at a position (m).
     pub(super) fn at(&self, place: [f64; 3]) -> [f64; 3] {
         let from = minus(place, self.centre);
         std::array::from_fn(|i| {
@@ -168,7 +168,7 @@ impl AffineField {
         *self == Self { centre: self.centre, ..Self::default() }
     }
 
-    /// The field as one formula of X, Y, Z for each component.
+    /// Formats the field as one formula of X, Y, Z for each component.
     pub(super) fn formulas(&self, dimension: usize) -> Vec<String> {
         let term = |i: usize, j: usize| {
             let (slope, axis, centre) = (self.gradient[i][j], ["X", "Y", "Z"][j], self.centre[j]);
@@ -181,7 +181,7 @@ impl AffineField {
         (0..dimension).map(formula).collect()
     }
 
-    /// The field in units of value and length that are smaller by these factors.
+    /// Returns the field in units of value and length that are smaller by these factors.
     pub(super) fn scaled(&self, value: f64, length: f64) -> Self {
         Self {
             value: self.value.map(|x| x * value),

@@ -22,7 +22,7 @@ pub struct SolverFinding {
     pub weight: FindingWeight,
     /// Name of the finding, such as `gravity-left-on`.
     pub name: &'static str,
-    /// Observed figures.
+    /// Observed values.
     pub seen: String,
     /// Likely cause.
     pub cause: String,
@@ -48,7 +48,7 @@ impl SolverFinding {
 pub enum ExaminationResult {
     /// The examination was completed.
     Examined {
-        /// Measured figures.
+        /// Measured values.
         measured: String,
         /// The findings, if any.
         findings: Vec<SolverFinding>,
@@ -93,19 +93,19 @@ pub struct DoctorReport {
 }
 
 impl DoctorReport {
-    /// The findings of all examinations.
+    /// Returns the findings of all examinations.
     pub fn findings(&self) -> impl Iterator<Item = &SolverFinding> {
         self.examinations.iter().flat_map(|report| report.result.findings())
     }
 
-    /// The number of defects.
+    /// Returns the number of defects.
     pub fn defects(&self) -> usize {
         self.findings().filter(|finding| finding.weight == FindingWeight::Defect).count()
     }
 }
 
 impl ExaminationResult {
-    /// The findings; empty if the examination was not completed.
+    /// Returns the findings; empty if the examination was not completed.
     pub fn findings(&self) -> &[SolverFinding] {
         match self {
             Self::Examined { findings, .. } => findings,
@@ -118,7 +118,7 @@ impl ExaminationResult {
 pub(super) const MASS_THRESHOLD: &str = "a threshold on the mass of nodes, below which they get no velocity: it must \
      be zero, or far below the mass of a particle times the smallest weight";
 
-/// The report of all examinations as text.
+/// Formats the report of all examinations.
 pub fn page(report: &DoctorReport) -> String {
     let mut lines = Vec::new();
     let settings = report.settings.iter().map(|(name, value)| format!("{name}: {value}"));
@@ -168,7 +168,7 @@ fn finding_lines(lines: &mut Vec<String>, finding: &SolverFinding) {
     row(lines, "  look at", &finding.look_at);
 }
 
-/// The overall result in one sentence.
+/// Returns the overall result in one sentence.
 fn verdict(report: &DoctorReport) -> String {
     if let Some(why) = &report.silent {
         return format!("verdict: {} cannot be examined: {why}", report.solver);

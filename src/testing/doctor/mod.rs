@@ -5,7 +5,7 @@
 //! finding       findings, and the report as text
 //! scene         small scenes, passed to the solver like those of suites
 //! patient       capabilities of a solver, its runs, and the type of an examination
-//! course        recorded runs, their figures, and vector fields
+//! course        recorded runs, quantities computed from them, and vector fields
 //! motion/       causes of errors in uniform motion
 //! examination/  one file for each examination
 //! ```
@@ -52,7 +52,7 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
     report
 }
 
-/// Why no examination is possible, from the result of the first examination.
+/// Returns why no examination is possible, from the result of the first examination.
 fn silent(first: &ExaminationResult) -> Option<String> {
     match first {
         ExaminationResult::Examined { findings, .. } => {
@@ -93,7 +93,7 @@ fn broke(seen: String) -> SolverFinding {
     )
 }
 
-/// The first examination with defects on which this examination depends.
+/// Returns the first examination with defects on which this examination depends.
 fn ground(examination: &Examination, report: &DoctorReport) -> Option<&'static str> {
     let is_ground = |made: &&ExaminationReport| examination.after.contains(&made.examination);
     let has_defect = |made: &&ExaminationReport| {

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 /// Result of an examination.
 #[derive(Default)]
 pub(super) struct Examined {
-    /// Measured figures.
+    /// Measured values.
     pub(super) measured: String,
     pub(super) findings: Vec<SolverFinding>,
 }
@@ -44,7 +44,7 @@ impl Examined {
 }
 
 impl Patient<'_> {
-    /// Maximum relative error of a motion that is exact except for rounding.
+    /// Returns the maximum relative error of a motion that is exact except for rounding.
     pub(super) fn rounding(&self) -> f64 {
         match self.solver.precision() {
             Precision::Double => 1e-9,
@@ -53,7 +53,7 @@ impl Patient<'_> {
         }
     }
 
-    /// The first scene that the solver supports among these dimensions and laws, in this order.
+    /// Returns the first scene that the solver supports, in order of `dimensions`, then `laws`.
     pub(super) fn able(
         &self,
         dimensions: &[usize],
@@ -63,7 +63,7 @@ impl Patient<'_> {
         self.able_with(dimensions, laws, scene, &|_| {})
     }
 
-    /// [`Patient::able`] for scenes with additional requirements, set by `more`.
+    /// Like [`Patient::able`], for scenes with additional requirements, set by `more`.
     pub(super) fn able_with(
         &self,
         dimensions: &[usize],

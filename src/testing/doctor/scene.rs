@@ -24,7 +24,7 @@ pub(super) const ANY: [&str; 7] =
 /// Cell size (m): a power of two, so lattice points can lie on cell faces without rounding.
 pub(super) const H: f64 = 0.125;
 
-/// Stiffness factor without visible effect, even at nodes whose mass is only a rounding error.
+/// Stiffness factor with negligible effect, even at nodes whose mass is only a rounding error.
 pub(super) const SOFT: f64 = 1e-24;
 
 /// Names of the faces of a box, lower and higher face of each axis.
@@ -62,8 +62,8 @@ pub(super) struct BoxScene {
 }
 
 impl BoxScene {
-    /// A soft body at rest with `cells` cells along each axis, starting at `from`, and `margin`
-    /// empty cells around it.
+    /// Creates a soft body at rest with `cells` cells along each axis, starting at `from`, and
+    /// `margin` empty cells around it.
     pub(super) fn of_cells(kind: Kind, from: [f64; 3], cells: f64, margin: f64) -> Self {
         let (dimension, law) = kind;
         let low = from[..dimension].to_vec();
@@ -81,7 +81,7 @@ impl BoxScene {
             grid: (grid_low, grid_high),
             young: 0.1,
             poisson: 0.3,
-            // Must not be a power, product or ratio of the other figures, see `fall::factors`.
+            // Must not be a power, product or ratio of the other numbers, see `fall::factors`.
             density: 1.7,
             velocity: AffineField::default(),
             displacement: AffineField::default(),
@@ -92,42 +92,42 @@ impl BoxScene {
         }
     }
 
-    /// This scene with twice as many steps of half the length.
+    /// Returns this scene with twice as many steps of half the length.
     pub(super) fn with_half_the_step(&self) -> Self {
         Self { dt: 0.5 * self.dt, steps: 2 * self.steps, ..self.clone() }
     }
 
-    /// This scene with `steps` steps, during which dilatational waves travel `cells` cells.
+    /// Returns this scene with `steps` steps, during which dilatational waves travel `cells` cells.
     pub(super) fn with_waves(self, cells: f64, steps: u64) -> Self {
         let dt = cells * self.h / self.wave_speed() / steps as f64;
         Self { steps, dt, ..self }
     }
 
-    /// This scene with negligible stiffness.
+    /// Returns this scene with negligible stiffness.
     pub(super) fn soft(&self) -> Self {
         Self { young: SOFT * self.young, ..self.clone() }
     }
 
-    /// Centre of the body (m).
+    /// Returns the centre of the body (m).
     pub(super) fn centre(&self) -> [f64; 3] {
         let (low, high) = &self.body;
         std::array::from_fn(|i| if i < self.dimension { 0.5 * (low[i] + high[i]) } else { 0.0 })
     }
 
-    /// Lame's parameters lambda and mu (Pa).
+    /// Returns Lame's parameters lambda and mu (Pa).
     pub(super) fn lame(&self) -> (f64, f64) {
         let (young, poisson) = (self.young, self.poisson);
         let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
         (lambda, young / (2.0 * (1.0 + poisson)))
     }
 
-    /// Speed of dilatational waves (m/s).
+    /// Returns the speed of dilatational waves (m/s).
     pub(super) fn wave_speed(&self) -> f64 {
         let (lambda, mu) = self.lame();
         ((lambda + 2.0 * mu) / self.density).sqrt()
     }
 
-    /// This scene in different units of length, time and mass.
+    /// Returns this scene in different units of length, time and mass.
     pub(super) fn scaled(&self, length: f64, time: f64, mass: f64) -> Self {
         let by = |all: &[f64]| all.iter().map(|x| x * length).collect::<Vec<f64>>();
         let volume = (0..self.dimension).fold(1.0, |product, _| product * length);
@@ -146,7 +146,7 @@ impl BoxScene {
         }
     }
 
-    /// The material in suite notation.
+    /// Formats the material in suite notation.
     fn material(&self) -> String {
         let Self { law, young, poisson, density, .. } = self;
         let bulk = young / (3.0 * (1.0 - 2.0 * poisson));
@@ -159,7 +159,7 @@ impl BoxScene {
         format!("{{{law}: {{{parameters}, density: {density:e}}}}}")
     }
 
-    /// The scene as the text of a suite with this method.
+    /// Formats the scene as the text of a suite with this method.
     fn text(&self, method: &str) -> String {
         let (from, to) = &self.body;
         let (low, high) = &self.grid;
@@ -194,7 +194,7 @@ impl BoxScene {
         )
     }
 
-    /// The scene as a problem, with its requirements. The state is sampled after every step.
+    /// Converts the scene to a problem with its requirements, with a sample after every step.
     ///
     /// # Errors
     /// One line with the reason why the scene is not a valid problem.
@@ -214,7 +214,7 @@ impl BoxScene {
         suite.map_err(|diagnostic| diagnostic.to_string().into())
     }
 
-    /// A run of this crate's MPM with PIC and the named basis, to show averaging alone.
+    /// Runs this crate's MPM with PIC and the named basis, to show averaging alone.
     ///
     /// # Errors
     /// One line with the reason why this run is not possible.

@@ -28,7 +28,7 @@ pub(super) struct Gate {
 }
 
 impl Gate {
-    /// The tests for all files. Fails if the folder contains no suites.
+    /// Returns the tests for all files, or a failing test if the folder contains no suites.
     pub(super) fn trials(&self) -> Vec<Trial> {
         let shown = self.folder.display();
         let nothing = |why: String| vec![broken("suites::exist", why)];
@@ -37,7 +37,7 @@ impl Gate {
             Ok(files) => files,
             Err(error) => return nothing(format!("{shown}: {error}")),
         };
-        // In parallel: checking an exact solution takes 0.1 s, and there may be many suites.
+        // The files are checked in parallel, because checking an exact solution takes 0.1 s.
         let found: Vec<_> = files.par_iter().map(|file| self.of_file(file)).collect();
         let (mut trials, mut suites) = (Vec::new(), Vec::new());
         for (cases, suite) in found {
@@ -52,7 +52,7 @@ impl Gate {
         trials
     }
 
-    /// The tests of the snapshots of all suites together.
+    /// Returns the tests of the snapshots of all suites together.
     fn of_all(&self, suites: Vec<Arc<SharedSuite>>) -> [Trial; 2] {
         let suites: Arc<[Arc<SharedSuite>]> = suites.into();
         let trial = |name: &'static str, text: fn(&[SuiteOutcome]) -> String| {
@@ -80,7 +80,7 @@ impl Gate {
         }
     }
 
-    /// The snapshot folder of a suite, given by the relative path of its file.
+    /// Returns the snapshot folder of a suite, given by the relative path of its file.
     fn snapshots_of(&self, file: &Path) -> PathBuf {
         let folder = file.parent().unwrap_or(Path::new(""));
         self.snapshots.join(folder.strip_prefix(&self.folder).unwrap_or(Path::new("")))
@@ -103,7 +103,7 @@ impl Gate {
     }
 }
 
-/// `suite` with `solver` in place of its methods.
+/// Returns `suite` with `solver` in place of its methods.
 ///
 /// # Errors
 /// One line with the reason why the solver cannot run the suite.
@@ -185,7 +185,7 @@ impl SharedSuite {
     }
 }
 
-/// The test that compares the report of a suite.
+/// Creates the test that compares the report of a suite.
 fn report(suite: &Arc<SharedSuite>) -> Trial {
     let of_report = Arc::clone(suite);
     Trial::ignorable_test(format!("{}::report", suite.suite.name), move || {
@@ -193,7 +193,7 @@ fn report(suite: &Arc<SharedSuite>) -> Trial {
     })
 }
 
-/// The tests of the cases of a suite, with the listed methods or with `solver`.
+/// Creates the tests of the cases of a suite, with the listed methods or with `solver`.
 fn trials(
     suite: Suite,
     snapshots: &Path,
@@ -268,7 +268,7 @@ impl Comparator for ReportDrift {
 
 static CASES: Mutex<Vec<(Duration, String)>> = Mutex::new(Vec::new());
 
-/// Number of cases and suites in the list of the slowest.
+/// Maximum number of cases, and of suites, in the list of the slowest.
 const SHOWN: usize = 10;
 
 /// Records the run time of a case.
@@ -276,7 +276,7 @@ pub(super) fn record_time(time: Duration, case: &str) {
     CASES.lock().unwrap_or_else(PoisonError::into_inner).push((time, case.to_string()));
 }
 
-/// The slowest cases and suites; empty if there are only a few cases.
+/// Returns the slowest cases and suites; empty if there are only a few cases.
 pub(super) fn slowest_cases() -> String {
     let mut cases = CASES.lock().unwrap_or_else(PoisonError::into_inner).clone();
     if cases.len() <= SHOWN {

@@ -1,8 +1,8 @@
 //! Compiles a syntax tree to a program: resolves names, inlines functions, folds constants.
 //!
 //! Registers are allocated like a stack. Compiling a node at register `at` writes only to `at` and
-//! above. It returns the location of the value: this register, a variable, a lower register with an
-//! argument or an index, or a constant.
+//! above, and returns the location of the value: this register, a variable, a lower register with
+//! an argument or an index, or a constant.
 //!
 //! User functions are inlined at their calls.
 //!
@@ -170,7 +170,7 @@ impl<'a> ProgramBuilder<'a> {
     }
 }
 
-/// The first register at or above `at` that does not contain `operand`.
+/// Returns the first register at or above `at` that does not contain `operand`.
 fn above(operand: Operand, at: usize) -> usize {
     match operand {
         Operand::Register(register) if register >= at => register + 1,
@@ -178,7 +178,7 @@ fn above(operand: Operand, at: usize) -> usize {
     }
 }
 
-/// A binary operation; powers with a constant integer exponent become multiplications.
+/// Creates a binary operation; powers with a constant integer exponent become multiplications.
 fn binary(function: Binary, left: Operand, right: Operand) -> Action {
     match (function, right) {
         (Binary::Power, Operand::Constant(exponent)) => match whole(exponent) {
@@ -327,7 +327,7 @@ impl<'a> ProgramBuilder<'a> {
         Ok(term)
     }
 
-    /// The value of a sum's bound.
+    /// Returns the value of a sum's bound.
     fn bound(
         &mut self,
         frame: &mut Frame<'a>,
@@ -344,8 +344,8 @@ impl<'a> ProgramBuilder<'a> {
         Err(FormulaError::new(frame.expr.node(node).span.clone(), message))
     }
 
-    /// Removes the loop that begins at `start` if it can be evaluated immediately: if it has no
-    /// terms, or if it reads only constants and its own registers.
+    /// Replaces the loop that begins at `start` by its value if the loop has no terms, or if it
+    /// reads only constants and its own registers.
     fn settle(&mut self, start: usize, at: usize, terms: f64) -> Operand {
         let own = |operand| match operand {
             Operand::Constant(_) => true,

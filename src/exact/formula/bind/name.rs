@@ -1,4 +1,4 @@
-//! Meaning of names in a formula, and suggestions for unknown names.
+//! Resolves names in a formula, and suggests corrections for unknown names.
 
 use super::{Frame, ProgramBuilder};
 use crate::exact::formula::ast::Node;
@@ -11,7 +11,7 @@ use crate::nearest::{by_nearness, nearest};
 const LISTED: usize = 8;
 
 impl<'a> ProgramBuilder<'a> {
-    /// The value of a name.
+    /// Returns the location of the value of a name.
     pub(super) fn name(
         &mut self,
         frame: &Frame<'a>,
@@ -45,7 +45,7 @@ impl<'a> ProgramBuilder<'a> {
         Err(FormulaError::unknown(span, name).help(help))
     }
 
-    /// The error for a call of `name` if it is not a function.
+    /// Returns the error for a call of `name` if it is not a function.
     pub(super) fn not_a_function(&self, frame: &Frame, node: &Node, name: &str) -> FormulaError {
         let local = frame.locals.iter().any(|(local, _)| *local == name);
         let role = match frame.function {
@@ -67,7 +67,7 @@ impl<'a> ProgramBuilder<'a> {
             .help(format!("write `{name}*(...)` to multiply"))
     }
 
-    /// Suggestions for `name`: the closest known name, otherwise the variables and constants.
+    /// Returns suggestions for `name`: the closest known name, or all variables and constants.
     fn instead(&self, frame: &Frame, name: &str) -> String {
         let known = frame.locals.iter().map(|(local, _)| *local);
         match (meant(name, known.chain(self.declared())), self.constants(name)) {
@@ -78,7 +78,7 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// The constants, sorted by similarity to `name`.
+    /// Returns the constants, sorted by similarity to `name`.
     fn constants(&self, name: &str) -> Option<String> {
         let sorted = by_nearness(name, self.scope.constants().map(|(known, _)| known));
         let listed: Vec<String> =
@@ -88,7 +88,7 @@ impl<'a> ProgramBuilder<'a> {
         (!listed.is_empty()).then(|| format!("declared: {}{more}", listed.join(", ")))
     }
 
-    /// All names that are valid in every formula and function.
+    /// Returns all names that are valid in every formula and function.
     fn declared(&self) -> impl Iterator<Item = &str> {
         let constants = self.scope.constants().map(|(name, _)| name);
         let declared = constants.chain(self.scope.tables()).chain(self.scope.functions());
@@ -97,7 +97,7 @@ impl<'a> ProgramBuilder<'a> {
 }
 
 impl Frame<'_> {
-    /// The local names of the formula or function, as text.
+    /// Returns the local names of the formula or function, as text.
     pub(super) fn listing(&self) -> String {
         let names: Vec<String> =
             self.locals.iter().map(|(local, _)| format!("`{local}`")).collect();
@@ -110,7 +110,7 @@ impl Frame<'_> {
     }
 }
 
-/// Names in other languages that are written differently here.
+/// Names of other languages, each with the correct form in this language.
 const ELSEWHERE: &[(&str, &str)] = &[
     ("e", "there is no constant `e`: write `exp(1)`"),
     ("log", "the natural logarithm is `ln`"),
@@ -118,13 +118,13 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("heaviside", "the unit step is `step`"),
 ];
 
-/// Advice for a name from another language.
+/// Returns advice for a name from another language.
 pub(in crate::exact::formula) fn elsewhere(name: &str) -> Option<String> {
     let known = ELSEWHERE.iter().find(|(foreign, _)| *foreign == name);
     known.map(|(_, help)| (*help).to_owned())
 }
 
-/// The text "did you mean" with the closest candidate, if any is similar.
+/// Returns the text "did you mean" with the closest candidate, if any is similar.
 pub(in crate::exact::formula) fn meant<'a>(
     name: &str,
     candidates: impl Iterator<Item = &'a str>,

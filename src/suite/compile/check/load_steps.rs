@@ -1,5 +1,5 @@
-//! Checks of suites with load steps instead of time steps. Refuses keys of a motion in time, and
-//! loads, conditions and laws that the quasi-static solver does not support.
+//! Checks of suites that use load steps instead of time steps. They refuse keys that need a time,
+//! and loads, boundary conditions and laws that the quasi-static solver does not support.
 
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{COORDINATES, Evaluator};
@@ -9,7 +9,7 @@ use crate::suite::scene::EffectName;
 use crate::suite::scene::load::ListedLoad;
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Refuses load steps with keys of a motion in time, and quasi-static methods without load steps.
+/// Refuses load steps with keys that need a time, and quasi-static methods without load steps.
 ///
 /// # Errors
 /// A diagnostic at the key, with the reason.
@@ -75,7 +75,7 @@ pub(crate) fn refuse_time(
     }
 }
 
-/// Refuses a scene for which load steps are meaningless, or which the quasi-static solver does not
+/// Refuses a scene in which load steps are meaningless, or that the quasi-static solver does not
 /// support.
 ///
 /// # Errors
@@ -150,10 +150,10 @@ fn is_held(scene: &Scene, axis: usize) -> bool {
     scene.faces.iter().any(holds)
 }
 
-/// Conditions on faces that do not depend on time or on the motion.
+/// Names of the face conditions that the quasi-static solver supports.
 const KNOWN_CONDITIONS: [&str; 4] = ["free", "fixed", "roller", "periodic"];
 
-/// Why the quasi-static solver cannot apply a load; `None` if it can.
+/// Returns the reason why the quasi-static solver cannot apply `load`; `None` if it can.
 fn against_load(load: &ListedLoad, dimension: usize) -> Option<&'static str> {
     match load.effect {
         EffectName::Damping | EffectName::LocalDamping | EffectName::ArtificialViscosity => {
@@ -179,7 +179,7 @@ fn against_load(load: &ListedLoad, dimension: usize) -> Option<&'static str> {
     of_displacement.then_some("it depends on the displacement, and the tangent has no such term")
 }
 
-/// Paths of the loads in the file, in the order of the scene.
+/// Returns the paths of the loads in the file, in the order of `scene`.
 fn listed_paths(spec: &ConvergenceSpec, scene: &Scene) -> Vec<Path> {
     let mut stated: Vec<(EffectName, Path)> = spec
         .scene

@@ -1,5 +1,5 @@
 //! Checks that involve several keys. They refuse features that the solvers, the loads or the exact
-//! solution do not support. Sizes, time steps and judged sums have separate files.
+//! solution do not support. Checks of sizes, time steps and judged sums are in separate files.
 
 pub(crate) mod load_steps;
 pub(crate) mod size;
@@ -90,8 +90,8 @@ pub(crate) fn refuse_law_unknown_to_fem(
     Ok(())
 }
 
-/// Refuses unsupported combinations with the loads of the scene, and the FEM if it does not support
-/// one of the loads.
+/// Refuses a study that one of its loads does not support, and the FEM if it does not support all
+/// loads.
 pub(crate) fn refuse_foreign(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -109,7 +109,7 @@ pub(crate) fn refuse_foreign(
     Ok(())
 }
 
-/// Refuses the FEM, as method or reference, for a scene with an effect that it does not support.
+/// Refuses the FEM, as method or reference, for a scene with this unsupported `effect`.
 fn refuse_fem_without(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

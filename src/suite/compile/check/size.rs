@@ -14,7 +14,7 @@ const MOST: f64 = 5e7;
 /// Distance (cells) between a fixed face and the grid face that is treated as rounding error.
 const ROUNDING: f64 = 1e-6;
 
-/// Paths of the keys that determine a level's size and time step.
+/// Paths of the keys that determine the size and time step of a level.
 pub(crate) struct LevelPaths {
     pub(crate) size: Path,
     pub(crate) dt: Path,
@@ -54,8 +54,8 @@ fn fits(
     sets(evaluator, path, scene, level)
 }
 
-/// Refuses a fine grid that is not a valid level, or whose particles need too much memory at all
-/// instants together.
+/// Refuses a reference run on a fine grid if the grid is not a valid level, or if the particles at
+/// all instants together need too much memory.
 pub(crate) fn fine_grid(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -91,7 +91,7 @@ fn vacant(
     Err(evaluator.diagnostic(path, &message).with_label(label))
 }
 
-/// Name and amount of the quantity that exceeds its limit; `None` if there is none.
+/// Returns name and amount of a quantity that exceeds its limit; `None` if there is none.
 pub(crate) fn too_large(scene: &Scene, level: LevelPlan) -> Option<(&'static str, f64)> {
     let amounts = [("nodes", nodes(scene, level.h)), ("particles", particles(scene, level))];
     amounts.into_iter().find(|(_, amount)| *amount > MOST || amount.is_nan())
@@ -105,7 +105,7 @@ pub(crate) fn particles(scene: &Scene, level: LevelPlan) -> f64 {
     (0..scene.dimension()).map(|axis| along(scene, axis, level).max(1.0)).product()
 }
 
-/// Number of particles along an axis, before rounding.
+/// Returns the number of particles along an axis, before rounding.
 fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension())).unwrap_or(1) as f64;
     (scene.to[axis] - scene.from[axis]) * per_axis / level.h
@@ -176,7 +176,7 @@ fn sets(
     Ok(())
 }
 
-/// Limits the memory of the reference, which stores its state at every instant.
+/// Refuses an FEM reference whose states at all instants need too much memory.
 fn reference(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
     let Some(fine) = &plan.reference else { return Ok(()) };
     let stored = fine.cells as f64 * plan.instants as f64;

@@ -7,7 +7,7 @@ use crate::suite::scene::grid_size::cell_size;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 
-/// Label of a level that is not finer than the previous level.
+/// Label under the caret for a level that is not finer than the previous level.
 pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
 
 /// A stated time step (s), and the clock computed from it.
@@ -18,8 +18,8 @@ struct StatedStep {
 }
 
 /// Checks that every level and the reference have valid time steps. If time is refined, the steps
-/// must decrease from level to level. Instants shared with a computed reference must not change the
-/// step by more than the tolerance.
+/// must decrease from level to level. Instants that a run shares with a computed reference must not
+/// change its step by more than the tolerance.
 pub(crate) fn refuse_unusable(
     evaluator: &Evaluator<'_>,
     plan: &ConvergencePlan,
@@ -72,7 +72,7 @@ fn usable(
     })
 }
 
-/// Refuses a level whose actual step equals the previous one, which can happen in a short run.
+/// Refuses a level whose actual step equals that of the previous level, as in a short run.
 fn finer(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -92,7 +92,7 @@ fn finer(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses instants that change a step by more than the tolerance.
+/// Refuses instants that change the step of `case` by more than the tolerance.
 fn as_wanted(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -11,7 +11,7 @@ use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{JudgedSum, SumNeed};
 use std::sync::Arc;
 
-/// The judged sum and its exact value, if `judge` names a sum.
+/// Returns the judged sum and its exact value; `None` if the judged quantity is not a sum.
 ///
 /// # Errors
 /// The reason why a method or the exact solution does not define the sum.
@@ -131,7 +131,7 @@ fn rotation(
     Ok(())
 }
 
-/// Indices of the walls whose reaction is judged.
+/// Returns the indices of the walls whose reaction is judged.
 fn walls(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

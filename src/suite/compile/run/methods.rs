@@ -9,18 +9,18 @@ use crate::suite::model::method::Method;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use std::collections::BTreeMap;
 
-/// A method whose name is not final.
+/// A method before its name is final.
 pub(crate) struct MethodDraft {
     /// Index of the entry in `methods`.
     entry: usize,
     pub(crate) method: Method,
-    /// Name of the external solver, if the method is one.
+    /// Name of the solver; `None` for built-in methods.
     solver: Option<String>,
-    /// For each setting, whether it is part of the name.
+    /// Whether each setting is part of the name, in the order of [`settings`].
     said: Vec<bool>,
 }
 
-/// A method, with the name that starts the names of its cases.
+/// A method, and the first part of the names of its cases.
 pub(crate) struct NamedMethod {
     pub(crate) name: String,
     pub(crate) method: Method,
@@ -28,7 +28,7 @@ pub(crate) struct NamedMethod {
 }
 
 impl MethodDraft {
-    /// Name of the method's cases.
+    /// Returns the first part of the names of the method's cases.
     fn name(&self) -> String {
         let (subject, settings) = settings(&self.method);
         let subject = self.solver.as_deref().unwrap_or(subject);
@@ -38,7 +38,7 @@ impl MethodDraft {
     }
 }
 
-/// First part of the method's name, and the settings in the order of names.
+/// Returns the first part of the method's name, and its settings in the order of the name.
 fn settings(method: &Method) -> (&'static str, Vec<String>) {
     match *method {
         Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
@@ -68,8 +68,8 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
     }
 }
 
-/// The methods of entry number `entry`, one for each combination of list values. A setting is part
-/// of the name if the entry lists several values, or if it has no default.
+/// Compiles entry number `entry` to methods, one for each combination of list values. A setting is
+/// part of the name if the entry lists several values, or if the setting has no default.
 pub(crate) fn methods(
     evaluator: &Evaluator<'_>,
     entry: usize,
@@ -165,7 +165,7 @@ pub(crate) fn methods(
     Ok(drafts)
 }
 
-/// Refuses keys of dynamics in an entry with `scheme: quasi_static`, and other schemes in its list.
+/// Refuses an entry that combines `scheme: quasi_static` with keys or schemes of dynamics.
 fn refuse_keys_of_dynamics(
     evaluator: &Evaluator<'_>,
     entry: usize,
@@ -199,7 +199,7 @@ fn refuse_keys_of_dynamics(
     }
 }
 
-/// Number of methods in an entry.
+/// Returns the number of methods in an entry.
 pub(crate) fn count(spec: &MethodSpec) -> usize {
     let lengths = match spec {
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => vec![
@@ -225,7 +225,7 @@ pub(crate) fn count(spec: &MethodSpec) -> usize {
     lengths.into_iter().fold(1, usize::saturating_mul)
 }
 
-/// The methods with their final names. Refuses an empty list, and equal methods.
+/// Gives the methods their final names. Refuses an empty list, and equal methods.
 pub(crate) fn named(
     evaluator: &Evaluator<'_>,
     mut drafts: Vec<MethodDraft>,
@@ -248,14 +248,14 @@ pub(crate) fn named(
     Ok(named)
 }
 
-/// Distinguishes methods of equal name: adds the settings in which they differ. Unique names do not
-/// change; equal methods keep equal names.
+/// Makes equal names of different methods unique by adding the settings in which the methods
+/// differ. Unique names do not change; equal methods keep equal names.
 fn tell_apart(drafts: &mut [MethodDraft]) {
     while say_differences(drafts) {}
 }
 
-/// Adds one more setting to equal names. Returns whether a name has changed, because the new name
-/// may equal that of another method.
+/// Adds settings to equal names. Returns whether a name has changed: the new name may equal that of
+/// another method, so this step must be repeated.
 fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {
@@ -276,17 +276,17 @@ fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     longer
 }
 
-/// All pairs; the second element varies fastest.
+/// Returns all pairs of elements; the second element varies fastest.
 fn product<A: Copy, B: Copy>(first: &[A], second: &[B]) -> Vec<(A, B)> {
     first.iter().flat_map(|a| second.iter().map(move |b| (*a, *b))).collect()
 }
 
-/// The values of an optional list.
+/// Returns the values of an optional list, or only `default` if the list is absent.
 fn choices<T: Copy>(list: Option<&OneOrMany<T>>, default: T) -> Vec<T> {
     list.map_or(vec![default], |list| list.as_slice().to_vec())
 }
 
-/// Length of an optional list; 1 if absent.
+/// Returns the length of an optional list; 1 if absent.
 fn length<T>(list: Option<&OneOrMany<T>>) -> usize {
     list.map_or(1, |list| list.as_slice().len())
 }
@@ -296,7 +296,7 @@ fn many<T>(list: Option<&OneOrMany<T>>) -> bool {
     length(list) > 1
 }
 
-/// Checks the name of a solver.
+/// Checks the name of a solver and returns it.
 fn solver_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<String, Diagnostic> {
     if is_solver_name(name) {
         return Ok(name.to_owned());
@@ -306,7 +306,7 @@ fn solver_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<Str
     Err(diagnostic.with_label(&label))
 }
 
-/// The theoretical order of a solver; default 2.
+/// Returns the stated theoretical order of a solver; 2 by default.
 fn stated_order(
     evaluator: &Evaluator<'_>,
     path: &Path,

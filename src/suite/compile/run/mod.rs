@@ -1,4 +1,4 @@
-//! Compiles the run: levels, time steps, methods, and the cases as the product of all lists.
+//! Compiles the run: levels, time steps, methods, and the cases as all combinations of list values.
 
 pub(crate) mod methods;
 pub(crate) mod places;
@@ -24,7 +24,8 @@ const MOST_CASES: usize = 1000;
 /// Maximum number of load steps in a run.
 const MOST_LOAD_STEPS: f64 = 1e5;
 
-/// The ends of the runs: part of the case name, and value (s, or number of load steps).
+/// Compiles the ends of the runs. Returns for each end its text in case names, and its value (s, or
+/// number of load steps).
 pub(crate) fn ends(
     evaluator: &Evaluator<'_>,
     run: &RunSpec,
@@ -45,7 +46,7 @@ pub(crate) fn ends(
     }
 }
 
-/// The numbers of load steps.
+/// Compiles the numbers of load steps.
 fn load_steps(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
@@ -66,7 +67,7 @@ fn load_steps(
     Ok(counts)
 }
 
-/// The end times of the runs (s).
+/// Compiles the end times of the runs (s).
 fn until(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
@@ -86,7 +87,7 @@ fn until(
     Ok(ends)
 }
 
-/// All cases of a suite, without expectations.
+/// Compiles all cases of a suite, without expectations.
 pub(crate) fn cases(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -119,7 +120,7 @@ pub(crate) fn cases(
     Ok(drafts.into_iter().map(case).collect())
 }
 
-/// The cases of `plan`, each with its expectation.
+/// Returns the cases of `plan`, each with its expectation.
 pub(crate) fn expected(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -145,7 +146,7 @@ struct Draft {
     against: Against,
 }
 
-/// The references of the study, each with its suffix in case names.
+/// Returns the truths of the study, each with its suffix in case names.
 fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     let truths = [
         plan.has_formulas().then_some((Against::Exact, "-vs-exact")),
@@ -156,8 +157,8 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     truths.into_iter().flatten().chain(nothing).collect()
 }
 
-/// The cases of one method, for all run ends and references. A case name includes an end or a
-/// reference only if there are several.
+/// Returns the cases of one method, for all run ends and truths. A case name includes the end or
+/// the truth only if there are several.
 fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)]) -> Vec<Draft> {
     let mut drafts = Vec::new();
     for (text, until_value) in until {
@@ -205,7 +206,7 @@ fn combined(
     })
 }
 
-/// Refuses too many combinations of list values before computing them.
+/// Refuses too many combinations of list values before they are computed.
 fn few(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -222,7 +223,7 @@ fn few(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses invalid combinations.
+/// Refuses methods that the scene or the study does not support.
 fn possible(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -272,7 +273,8 @@ fn possible(
     }
 }
 
-/// Why the scene's walls cannot be combined with a consistent mass matrix; `None` if they can.
+/// Returns the reason why the scene's walls cannot be combined with a consistent mass matrix;
+/// `None` if they can.
 fn against_consistent_mass(plan: &ConvergencePlan) -> Option<&'static str> {
     plan.scene.faces.iter().find_map(|face| face.hold.against_consistent_mass())
 }
@@ -287,8 +289,8 @@ fn stretched(plan: &ConvergencePlan) -> bool {
     scene.faces.iter().any(|face| face.hold.is_periodic() && apart(face))
 }
 
-/// The default law of an FEM case, which is the law of the material. The check `fem_support` has
-/// already refused materials without such a law.
+/// Returns the default law of an FEM case, which is the law of the material. The check
+/// `fem_support` has already refused materials without such a law.
 fn own_law(plan: &ConvergencePlan) -> EquationName {
     law_of_bar(&plan.scene.material).unwrap_or_default()
 }

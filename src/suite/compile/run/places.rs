@@ -7,17 +7,17 @@ use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Maximum displacement of a particle as a share of the spacing: midway between two particles.
+/// Maximum displacement of a particle, as a share of the spacing: halfway to the next particle.
 const MOST: f64 = 0.5;
 
-/// Maximum random displacement as a share of the spacing, if a face carries a load. Below this
-/// value, the particle layer at the face is distinct from the next layer.
+/// Maximum random displacement as a share of the spacing if a face carries a load. With this limit,
+/// the particle layer at the face remains distinct from the next layer.
 const MOST_AT_LOADS: f64 = 0.25;
 
-/// The default seed.
+/// The default seed of random displacements.
 const SEED: u64 = 1;
 
-/// Stated offsets of particles from their lattice.
+/// Compiles the stated offsets of particles from their lattice.
 pub(crate) fn scatter(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -65,7 +65,7 @@ pub(crate) fn scatter(
     Ok(scatter)
 }
 
-/// The observed point, which must be in the body.
+/// Compiles the observed point, which must be in the body.
 pub(crate) fn observed(
     evaluator: &Evaluator<'_>,
     spec: &ObserveSpec,

@@ -11,7 +11,7 @@ use crate::suite::scene::grid_size::cell_size;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{Axis, Clock};
 
-/// The FEM reference, if `spec` states one.
+/// Compiles the FEM reference, if `spec` states one.
 ///
 /// # Errors
 /// A diagnostic about a missing key, or about a scene that is not one-dimensional.
@@ -45,12 +45,12 @@ pub(crate) fn reference(
     }))
 }
 
-/// Minimum ratio of the finest time step to that of the same-method reference run. The start of the
-/// reference run is second-order accurate; a second-order error on the finest level is then known
-/// to 1/64.
+/// Minimum ratio of the time step on the finest level to that of the same-method reference run. The
+/// start of the reference run is second-order accurate. For a second-order method, the error of the
+/// reference run is then 1/64 of that on the finest level.
 const SHORTER: f64 = 8.0;
 
-/// Reference run by the same method, if the suite states one.
+/// Compiles the reference run by the same method, if the suite states one.
 pub(crate) fn same_method(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -95,7 +95,7 @@ pub(crate) fn same_method(
     }
 }
 
-/// The reduced time step (s).
+/// Returns the time step of the reference run (s), and refuses one that is too long.
 fn shorter(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -120,8 +120,8 @@ fn shorter(
     Ok(dt)
 }
 
-/// Refuses a fine grid with fewer than [`FINE_GRID`] times the cells of the finest level. Its own
-/// error would not be negligible.
+/// Refuses a fine grid with fewer than [`FINE_GRID`] times the cells of the finest level, because
+/// the error on such a grid is not negligible.
 fn finer(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -137,7 +137,7 @@ fn finer(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// `level` with the cell size and the time step for its number of cells.
+/// Returns `level` with the cell size and the time step for its number of cells.
 fn with_step(
     evaluator: &Evaluator<'_>,
     path: &Path,

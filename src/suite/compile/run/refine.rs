@@ -18,7 +18,7 @@ struct Located<T> {
     at: Path,
 }
 
-/// The levels of a suite, and the positions in the file for diagnostics about each level.
+/// Compiles the levels of a suite, and the positions in the file for diagnostics about each level.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -60,7 +60,7 @@ pub(crate) fn plan(
     Ok((plan, (0..count).filter_map(place).collect()))
 }
 
-/// Refuses an expectation for a full run if there is no full run.
+/// Refuses an expectation for a full run if the suite has no additional levels for a full run.
 fn no_idle_expectation(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -72,7 +72,7 @@ fn no_idle_expectation(
     Err(diagnostic.with_help("list its levels under `full` in `refine`"))
 }
 
-/// The entry for level `k`: its own, or the single entry shared by all levels.
+/// Returns the entry for level `k`: its own, or the single entry shared by all levels.
 fn of_level<T>(entries: &[Located<T>], k: usize) -> Option<&Located<T>> {
     entries.get(k).or_else(|| entries.first().filter(|_| entries.len() == 1))
 }
@@ -81,7 +81,7 @@ fn is_list(spec: Option<&OneOrMany<NumberText>>) -> bool {
     spec.is_some_and(|list| list.as_slice().len() > 1)
 }
 
-/// The refined axis. Only cells and time steps may both be lists, with one entry per level.
+/// Returns the refined axis. Only cells and time steps may both be lists, with one entry per level.
 fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic> {
     let path = Path::top("refine");
     let [cells, dt, ppc] = [Some(&spec.cells), spec.dt.as_ref(), spec.ppc.as_ref()].map(is_list);
@@ -112,7 +112,7 @@ fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic
 
 pub(crate) const STEP_OF_EACH_H: &str = "or give the time step in `run`, as a formula of h";
 
-/// The entries of a key of `refine`. If the key is refined, the entries of `full` follow.
+/// Returns the entries of a key of `refine`. If the key is refined, the entries of `full` follow.
 fn listed<'w>(spec: &'w ConvergenceSpec, key: Axis, refined: Axis) -> Vec<Located<&'w NumberText>> {
     let refine = &spec.refine;
     let (name, list) = match key {
@@ -131,7 +131,7 @@ fn listed<'w>(spec: &'w ConvergenceSpec, key: Axis, refined: Axis) -> Vec<Locate
     all
 }
 
-/// Counts that must increase from level to level.
+/// Evaluates counts, which must increase from level to level.
 fn counts(
     evaluator: &Evaluator<'_>,
     texts: &[Located<&NumberText>],
@@ -166,7 +166,7 @@ fn equally_spaced(
     Err(evaluator.diagnostic(&ppc.at, &message).with_label(&label))
 }
 
-/// The time steps: one step in `run`, or a list in `refine`.
+/// Compiles the time steps: one step in `run`, or a list in `refine`.
 fn steps(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -205,10 +205,10 @@ fn steps(
     texts.into_iter().map(bind).collect()
 }
 
-/// Share of the stable time step for `auto`.
+/// Share of the stable time step that `auto` selects.
 const AUTO: f64 = 0.5;
 
-/// The share of the stable time step, if the step of `spec` at `path` is automatic.
+/// Returns the share of the stable time step, if the step of `spec` at `path` is automatic.
 pub(crate) fn stable_share(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -223,8 +223,8 @@ pub(crate) fn stable_share(
     }
 }
 
-/// The step (s) as a formula of h: the stated step, or the preliminary value of an automatic step,
-/// which does not depend on particles.
+/// Returns the step (s) as a formula of h: the stated step, or the preliminary value of an
+/// automatic step, which does not depend on particles.
 pub(crate) fn step_formula(
     evaluator: &Evaluator<'_>,
     path: &Path,

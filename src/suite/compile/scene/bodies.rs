@@ -11,7 +11,7 @@ use crate::suite::yaml::{Diagnostic, NumberText, Path};
 /// Maximum number of bodies in a scene.
 const MOST: usize = 100;
 
-/// The keys of one body.
+/// The keys of one body, and their path.
 pub(crate) struct Listed<'w> {
     /// Path of the map that contains these keys.
     pub(crate) at: Path,
@@ -22,7 +22,7 @@ pub(crate) struct Listed<'w> {
     pub(crate) initial_velocity: Option<&'w Vec<NumberText>>,
 }
 
-/// The keys of each body of a scene.
+/// Returns the keys of each body of a scene.
 pub(crate) fn listed<'w>(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -94,7 +94,7 @@ fn refuse_beside(
     Ok(())
 }
 
-/// Friction coefficient of the contact between bodies, if there is contact.
+/// Compiles the friction coefficient of the contact between bodies, if there is contact.
 pub(crate) fn contact(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -17,7 +17,7 @@ use crate::suite::scene::load::LoadSpec;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// One body with its conditions and loads.
+/// Compiles one body with its conditions and loads.
 pub(crate) fn body(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -102,7 +102,7 @@ fn dimension(
     }
 }
 
-/// The faces of a box or a quadrilateral, in their order.
+/// Compiles the faces of a box or a quadrilateral, in axis order.
 fn faces(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -114,7 +114,7 @@ fn faces(
     Ok(holds.into_iter().enumerate().map(build).collect())
 }
 
-/// Boundary conditions of all faces, in their order.
+/// Compiles the boundary conditions of all faces, in axis order.
 fn holds(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -153,8 +153,8 @@ fn both_ends(
     Ok(())
 }
 
-/// Handles a body at rest: its faces are at rest unless periodic. Refuses keys that fix or move the
-/// body, and other bodies. `path` is the path of the map that contains the body.
+/// Replaces the free faces of a body at rest by faces at rest. Refuses keys that fix, load or move
+/// the body, and a list of bodies. `path` is the path of the map that contains the body.
 fn settle(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -193,7 +193,7 @@ fn settle(
     }
 }
 
-/// The stated plane state; default plane strain.
+/// Compiles the stated plane state; the default is plane strain.
 fn plane(
     evaluator: &Evaluator<'_>,
     path: &Path,

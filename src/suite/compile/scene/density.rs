@@ -8,12 +8,12 @@ use crate::suite::model::Scene;
 use crate::suite::scene::load::EffectName;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Path of the density of a body.
+/// Returns the path of the density of a body.
 fn path(own: &Listed<'_>) -> Path {
     own.at.then("material").then(own.material.name()).then("density")
 }
 
-/// The density, if it is a number; `None` for a formula of the coordinates.
+/// Compiles a density that is a number; returns `None` for a formula of the coordinates.
 ///
 /// # Errors
 /// A diagnostic about a density that is not positive.
@@ -29,13 +29,13 @@ pub(crate) fn uniform(
     }
 }
 
-/// Whether a number could not be computed because its formula contains a coordinate.
+/// Whether `diagnostic` reports that a coordinate is an unknown name in the formula of a number.
 pub(crate) fn names_coordinate(diagnostic: &Diagnostic) -> bool {
     let names = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
     COORDINATES.iter().any(names)
 }
 
-/// The varying density of a body whose shape is that of `scene`.
+/// Compiles the varying density of a body with the shape of `scene`.
 ///
 /// # Errors
 /// A diagnostic about the formula, a position in the body with a density that is not positive, or a
@@ -77,7 +77,7 @@ fn not_positive(
     evaluator.unusable(path, text, &message, label)
 }
 
-/// Why a part of the scene does not support a varying density; `None` if all parts do.
+/// Returns why a part of the scene does not support a varying density; `None` if all parts do.
 fn unsupported(scene: &Scene) -> Option<&'static str> {
     if scene.mapped.is_some() || scene.outline.as_ref().is_some_and(|o| o.ball().is_none()) {
         return Some("masses are integrated in a box or a round body only");

@@ -8,7 +8,7 @@ use crate::mpm::{Contradiction, MaterialPlan, MaterialSpec, Range};
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time, shown};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// The material.
+/// Compiles the material at `path`.
 pub(crate) fn material(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -33,7 +33,7 @@ pub(crate) fn material(
     Ok(material)
 }
 
-/// A diagnostic about a parameter that varies in space, with advice on the alternative.
+/// Adds help to a diagnostic about a parameter that varies in space.
 fn uniform(diagnostic: Diagnostic) -> Diagnostic {
     if !names_coordinate(&diagnostic) {
         return diagnostic;
@@ -99,11 +99,11 @@ fn poissons_ratio(
     Err(evaluator.unusable(path, text, &message, "expected a number above -1 and below 0.5"))
 }
 
-/// Stress components, each with its row and column.
+/// Names of stress components, each with row and column of the tensor.
 const COMPONENTS: [(&str, usize, usize); 6] =
     [("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("yz", 1, 2), ("xz", 0, 2)];
 
-/// The initial displacement (m); empty if not stated.
+/// Compiles the initial displacement (m); empty if not stated.
 ///
 /// # Errors
 /// A diagnostic about a formula, or about a `material` that cannot start deformed.
@@ -120,7 +120,7 @@ pub(crate) fn displacement(
     evaluator.vector(&path, texts, dimension, &coordinates_and_time(dimension))
 }
 
-/// The initial velocity (m/s); empty if not stated.
+/// Compiles the initial velocity (m/s); empty if not stated.
 ///
 /// # Errors
 /// A diagnostic about a formula.
@@ -135,7 +135,7 @@ pub(crate) fn velocity(
         .map_or(Ok(Vec::new()), |texts| evaluator.vector(&path, texts, dimension, &variables))
 }
 
-/// The initial stress of the reference configuration.
+/// Compiles the initial stress of the reference configuration.
 ///
 /// # Errors
 /// A diagnostic about a `material` without initial stress, about a component on a missing axis, or
@@ -168,14 +168,14 @@ pub(crate) fn stress(
     Ok(InitialStress::new(components))
 }
 
-/// The stress components that a scene of this dimension can state.
+/// Returns text with the stress components that a scene of this dimension can state.
 fn known(dimension: usize) -> String {
     let inside = COMPONENTS.iter().filter(|(_, i, j)| *i.max(j) < dimension);
     let names: Vec<String> = inside.map(|(name, ..)| format!("`{name}`")).collect();
     format!("components: {}", names.join(", "))
 }
 
-/// Refuses features that the law of `material` does not support. In the message, `lacks` follows
+/// Refuses a feature that the law of `material` does not support. In the message, `lacks` follows
 /// the name of the law.
 fn admit(
     evaluator: &Evaluator<'_>,

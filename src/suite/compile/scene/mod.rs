@@ -67,7 +67,7 @@ fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), 
     Ok(())
 }
 
-/// The scene of all `bodies`. A single body is the scene itself.
+/// Combines all `bodies` into one scene. A single body is the scene itself.
 fn together(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -155,7 +155,7 @@ fn overlap(one: &Scene, other: &Scene) -> bool {
         }
 }
 
-/// Distance of a position from a body (m).
+/// Returns the distance of a position from a body (m).
 fn distance(body: &Scene, place: &[f64]) -> f64 {
     if let Some(outline) = &body.outline {
         return outline.distance(place);
@@ -164,7 +164,7 @@ fn distance(body: &Scene, place: &[f64]) -> f64 {
     ends.fold(0.0, |all, ((from, to), x)| libm::hypot(all, x.clamp(*from, *to) - x))
 }
 
-/// The polygon of a plane body with straight sides; `None` for other bodies.
+/// Returns the polygon of a plane body with straight sides; `None` for other bodies.
 fn polygon(body: &Scene) -> Option<Polygon> {
     let ([left, bottom], [right, top]) = (&body.from[..], &body.to[..]) else { return None };
     let corners = match &body.outline {

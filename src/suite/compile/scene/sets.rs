@@ -8,10 +8,10 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::{Scene, face::FACES};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Share of a box that is treated as rounding error.
+/// Volumes up to this share of a box count as rounding errors.
 const SLIVER: f64 = 1e-12;
 
-/// The particle sets, without loads.
+/// Compiles the particle sets, without loads.
 pub(crate) fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -44,7 +44,7 @@ fn refuse_face_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Resul
     Err(evaluator.diagnostic_at_key(path, &message).with_help("give the set another name"))
 }
 
-/// Refuses a set that contains no part of the body.
+/// Refuses a set outside the bounding box of the body.
 fn refuse_outside(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -66,7 +66,7 @@ fn refuse_outside(
     Ok(())
 }
 
-/// Refuses a set that contains no part of the body, for bodies that are not boxes.
+/// Refuses a set that contains no part of a body that is not a box.
 fn refuse_beside(
     evaluator: &Evaluator<'_>,
     path: &Path,

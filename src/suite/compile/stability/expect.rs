@@ -6,7 +6,7 @@ use crate::suite::model::stability::SetupTemplate;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{FigureBounds, RunFigure, StabilityExpectation};
 
-/// The figures that an entry of `expect` bounds.
+/// Returns the measured quantities that an entry of `expect` bounds.
 pub(crate) fn named(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -24,7 +24,7 @@ pub(crate) fn named(
     spec.figures.as_slice().iter().map(find).collect()
 }
 
-/// Expectations from entry `i` of `expect`, one for each of the `rows` of parameter values.
+/// Compiles entry `i` of `expect` to expectations, one for each of the `rows` of parameter values.
 pub(crate) fn rows(
     evaluator: &Evaluator<'_>,
     template: &SetupTemplate,
@@ -76,7 +76,8 @@ fn row(
     })
 }
 
-/// Refuses to expect a limit that is not sought, or a result without a run.
+/// Refuses an entry without expectations, a bound on a limit in a study that determines no limit,
+/// and bounds on runs in a study that determines a limit.
 fn refuse_idle(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -130,7 +131,7 @@ fn wanted(
     Ok(FigureBounds { is, above, below })
 }
 
-/// One-line summary of an entry.
+/// Returns a one-line summary of an entry.
 pub(crate) fn summary(spec: &StabilityExpectSpec, predicted: bool) -> String {
     let mut parts = Vec::new();
     if let Some(verdicts) = &spec.verdict {

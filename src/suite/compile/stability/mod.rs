@@ -60,7 +60,7 @@ pub(crate) fn plan(
     Ok(StabilityPlan { template, swept, values, sought, frozen, figures, cases })
 }
 
-/// Name and values of the swept parameter.
+/// Returns name and values of the swept parameter.
 fn sweep(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -86,7 +86,7 @@ fn sweep(
     Ok((name.clone(), values))
 }
 
-/// Refuses to sweep or seek an undeclared parameter.
+/// Refuses an undeclared parameter in `sweep` or `critical`.
 fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -103,7 +103,7 @@ fn declared(
     Err(diagnostic.with_help(&suggestion("parameters", name, &known)))
 }
 
-/// The parameter whose limit is sought, and its range.
+/// Returns the parameter whose limit is sought, and its range.
 fn sought(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -125,7 +125,7 @@ fn sought(
     Err(evaluator.diagnostic(&path.then("to"), &message).with_label("expected a larger number"))
 }
 
-/// Refuses too many combinations of list values before computing them.
+/// Refuses too many combinations of list values before they are computed.
 fn few(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<(), Diagnostic> {
     let mut all = 0_usize;
     for (i, spec) in spec.methods.iter().enumerate() {
@@ -138,7 +138,7 @@ fn few(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<(), Diagnostic
     Ok(())
 }
 
-/// The product of the lists of `methods`.
+/// Compiles all combinations of the lists in `methods`.
 fn drafts(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

@@ -32,7 +32,7 @@ pub(crate) struct RunSetup {
     /// exist.
     pub(crate) rule: Option<f64>,
     pub(crate) steps: u64,
-    /// Number of steps of a full run.
+    /// Number of steps in a full run.
     pub(crate) full_steps: u64,
     pub(crate) frozen: bool,
     /// Amplitude of the random perturbation at the start.
@@ -41,7 +41,7 @@ pub(crate) struct RunSetup {
 }
 
 impl SetupTemplate {
-    /// The evaluator of the suite with `values` instead of the declared values.
+    /// Returns the evaluator of the suite with `values` instead of the declared values.
     pub(crate) fn evaluator(
         &self,
         values: &ParameterValues<'_>,
@@ -53,13 +53,13 @@ impl SetupTemplate {
         Ok(Evaluator::new(&self.source, &parameters, &self.spec.functions)?.0)
     }
 
-    /// The set-up of a run for these values.
+    /// Computes the set-up of a run for these values.
     pub(crate) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, Diagnostic> {
         setup(&self.evaluator(values)?, &self.spec)
     }
 }
 
-/// The set-up in `spec`.
+/// Computes the set-up that `spec` states.
 pub(crate) fn setup(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -126,7 +126,7 @@ pub(crate) fn setup(
     Ok(setup)
 }
 
-/// Number of consecutive steps of each length; 1 if all steps have equal length.
+/// Returns the number of consecutive steps of each length; 1 if all steps have equal length.
 fn turns(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<usize, Diagnostic> {
     const MOST: u64 = 1000;
     let Some(text) = &spec.run.every else { return Ok(1) };
@@ -204,14 +204,15 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     Err(diagnostic.with_help("remove what the scene states of it; `perturb` starts the run"))
 }
 
-/// Maximum energy of a stable run, relative to the initial energy. It allows for the exchange
-/// between velocities and stresses after a random start just below the limit of a leapfrog scheme.
+/// Maximum energy of a stable run, relative to the initial energy. This limit allows for the energy
+/// exchange between velocities and stresses after a random start just below the stability limit of
+/// a leapfrog scheme.
 const STABLE_BELOW: f64 = 1e3;
 
 /// Energy above which a run is unstable, relative to the initial energy.
 const UNSTABLE_ABOVE: f64 = 1e8;
 
-/// Scales and bounds of the runs of `scene`.
+/// Returns scales and bounds for the runs of `scene`.
 fn scales(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -239,7 +240,7 @@ fn scales(
     Ok(Scales { speed, modulus, stable_below, unstable_above, centred, null_space })
 }
 
-/// Whether a requested figure needs the grid's null space, implemented for one body only.
+/// Whether a requested quantity needs the grid's null space, implemented for one body only.
 fn of_null_space(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

@@ -12,7 +12,7 @@ use crate::suite::model::Scene;
 use crate::suite::scene::boundary::thermal::ThermalFace;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 
-/// The heat problem of a body at rest; `None` if the body moves.
+/// Compiles the heat problem of a body at rest; returns `None` if the body moves.
 pub(crate) fn conduction(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -100,8 +100,8 @@ fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagn
     }
 }
 
-/// The heat problem of `scene` with the temperature at `path`, not yet checked. `None` if the suite
-/// has neither heat nor temperature.
+/// Compiles the heat problem of `scene` with the temperature at `path`, which is not checked yet.
+/// Returns `None` if the suite has neither heat nor temperature.
 pub(crate) fn problem(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -191,7 +191,7 @@ fn refuse_methods_without_heat(
     Ok(())
 }
 
-/// Inputs of a heat problem in addition to the scene.
+/// Inputs of a heat problem other than the scene.
 pub(crate) struct ConductionInputs {
     /// Deformation of the body.
     pub(crate) motion: Option<Motion>,

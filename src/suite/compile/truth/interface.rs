@@ -11,7 +11,7 @@ use crate::suite::model::Scene;
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
-/// Help for two bodies whose exact motions separate or slide.
+/// Help for two bodies without contact whose exact motions separate or slide.
 const CONTACT: &str = "bodies without `contact` share one velocity field and stick together: if \
                        they may part or slide, add `contact: {friction: 0}` to `scene`";
 
@@ -31,7 +31,7 @@ pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Resul
     Err(diagnostic.with_help("state a solution under `exact`, or bound what the run keeps"))
 }
 
-/// Checks the `problems` of all bodies with `check`, and the conditions on the faces between them.
+/// Checks the `problems` of all bodies with `check`, and the conditions on their common faces.
 ///
 /// # Errors
 /// A diagnostic from `check`, a diagnostic about a violation (from `diagnostic`), or a diagnostic
@@ -79,7 +79,7 @@ pub(crate) fn refuse_violated_conditions(
     Ok(())
 }
 
-/// Neighbouring bodies along an axis: both indices, and the axis.
+/// Returns the pairs of neighbouring bodies: the indices of both bodies, and the axis.
 fn pairs(problems: &[Problem]) -> Vec<(usize, usize, usize)> {
     let mut pairs = Vec::new();
     let d = problems.first().map_or(0, Problem::dimension);
@@ -99,7 +99,7 @@ fn pairs(problems: &[Problem]) -> Vec<(usize, usize, usize)> {
     pairs
 }
 
-/// Refuses bodies that touch other than with whole faces.
+/// Refuses bodies that touch with parts of their faces only.
 fn refuse_other_touch(
     evaluator: &Evaluator<'_>,
     at: &Path,

@@ -17,11 +17,11 @@ use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use conduction::ConductionInputs;
 use tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
 
-/// Maximum number of operations in a formula of a solution. Before any run, the formula is
-/// evaluated about 30000 times with all its derivatives.
+/// Maximum number of operations in a formula of a solution. The limit is needed because the check
+/// before a run evaluates the formula about 30000 times with all its derivatives.
 const MOST_OPERATIONS: u64 = 5000;
 
-/// The problem of the stated formulas, if any. The solution is checked later.
+/// Compiles the problem of the stated formulas, if any. The solution is checked later.
 ///
 /// # Errors
 /// A diagnostic about contradicting keys, or about a formula.
@@ -90,7 +90,7 @@ pub(crate) fn refuse_violated(
     )
 }
 
-/// The problem of the scene with the formulas at `path`, not yet checked.
+/// Compiles the problem of the scene with the formulas at `path`, not yet checked.
 fn solution(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -113,7 +113,7 @@ fn solution(
     Ok(Problem { heat, tolerance, linearised, ..problem(scene, equation, motion, until) })
 }
 
-/// The equation for checking a formula, which must be that of the scene's material.
+/// Returns the equation for checking a formula, which must be that of the scene's material.
 fn equation(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -140,7 +140,7 @@ fn equation(
     Err(evaluator.diagnostic(path, &message).with_help(help))
 }
 
-/// The problem whose body force is computed from the stated motion.
+/// Compiles the problem whose body force is computed from the stated motion.
 fn manufactured(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -185,7 +185,7 @@ fn manufactured(
     Ok(Some(Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) }))
 }
 
-/// The scene as a continuum problem, with the motion to check.
+/// Converts the scene to a continuum problem with the `motion` to check.
 fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Problem {
     Problem {
         from: scene.from.clone(),
@@ -244,7 +244,7 @@ fn motion(
     Ok(Motion::new(components))
 }
 
-/// A face with its condition. The load on a free face determines the condition.
+/// Returns a face with its condition. On a free face, the condition is determined by the load.
 fn face(scene: &Scene, number: usize) -> Face {
     let SceneFace { name, axis, high, hold } = &scene.faces[number];
     let loaded =
@@ -277,19 +277,19 @@ fn refuse_truth_of_mapped(
     }
 }
 
-/// The equation of motion for a material, found by the name of the material. Some laws restrict the
-/// motion: J2 needs monotonic loading, and a fluid must be at rest.
+/// Returns the equation of motion for a material, selected by the name of the material. Some laws
+/// restrict the motion: J2 needs monotonic loading, and a fluid must be at rest.
 pub(crate) fn equation_of(material: &MaterialPlan) -> Option<Equation> {
     Equation::of_material(material.name(), |key| material.parameter(key))
 }
 
-/// The equation for manufactured forces, or the reason why the law has none.
+/// Returns the equation for manufactured forces, or the reason why the law has none.
 fn manufactured_law(material: &MaterialPlan) -> Result<Equation, &'static str> {
     material.properties().depends_on_deformation_alone()?;
     equation_of(material).ok_or("the law has no equation")
 }
 
-/// Name of the FEM bar's law for a material, if there is one.
+/// Returns the name of the FEM bar's law for a material, if there is one.
 pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
     let name = equation_of(material)?.name();
     BarLaw::find(name).and(EquationName::find(name))
@@ -341,8 +341,8 @@ fn refuse_equilibrium_with(
     }
 }
 
-/// Refuses walls and sets with prescribed velocity. Their final positions do not follow from their
-/// velocity at the end.
+/// Refuses walls and sets with prescribed velocity in an equilibrium study. The velocity at the end
+/// of a run does not determine their final positions.
 fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let scene_path = Path::top("scene");
     if let Some(face) = scene.faces.iter().find(|face| face.hold.is_driven()) {
@@ -377,8 +377,8 @@ pub(crate) fn is_truthless(plan: &ConvergencePlan) -> bool {
     !plan.has_formulas() && plan.reference.is_none() && !is_truth(plan.same_method)
 }
 
-/// Whether a same-method reference is sufficient as the only truth of a suite. With shorter steps,
-/// it measures only the error of the time step, and an exact solution is needed in addition.
+/// Whether a same-method reference is sufficient as the only truth of a suite. A reference with
+/// shorter steps is not, because it shows only the error of the time step.
 pub(crate) fn is_truth(same_method: Option<SameMethod>) -> bool {
     matches!(same_method, Some(SameMethod::FineGrid(_)))
 }

@@ -17,13 +17,13 @@ pub(crate) trait BoundaryKeys {
     /// The first error in the keys.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic>;
 
-    /// Whether the face coincides with the opposite one.
+    /// Whether the face coincides with the opposite face.
     fn is_periodic(&self) -> bool {
         false
     }
 }
 
-/// A condition without parameters is its own specification.
+/// A condition without parameters is its own set of keys.
 impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
     fn compile(&self, _: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
         Ok(Arc::new(*self))
@@ -44,12 +44,12 @@ pub(crate) struct FaceEntry<'a> {
 }
 
 impl FaceEntry<'_> {
-    /// A formula of the coordinates and t, at `path`.
+    /// Compiles a formula of the coordinates and t at `path`.
     pub(crate) fn scalar(&self, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
         self.evaluator.formula(path, text, &coordinates_and_time(self.dimension))
     }
 
-    /// One formula of the coordinates and t for each component.
+    /// Compiles one formula of the coordinates and t for each component.
     pub(crate) fn vector(&self, texts: &[NumberText]) -> Result<Vec<Formula>, Diagnostic> {
         let variables = coordinates_and_time(self.dimension);
         self.evaluator.vector(&self.path, texts, self.dimension, &variables)
@@ -60,43 +60,43 @@ impl FaceEntry<'_> {
 pub(crate) struct FaceSite<'a, const D: usize> {
     pub(crate) grid: &'a Grid<D>,
     pub(crate) basis: BasisName,
-    /// Axis of the normal, and which end of that axis.
+    /// Axis of the normal, and the end of the axis at which the face lies.
     pub(crate) at: (usize, Side),
 }
 
 /// Converts a condition of a scene to a condition of the solver.
 pub(crate) trait BuildBoundary<const D: usize> {
-    /// The condition on the nodes of the face at `site`; `None` if the nodes are free.
+    /// Returns the condition on the nodes of the face at `site`; `None` if the nodes are free.
     fn build(&self, _site: &FaceSite<'_, D>) -> Option<Box<dyn Boundary<D>>> {
         None
     }
 }
 
 in_every_dimension! {
-    /// [`BuildBoundary`] for any dimension.
+    /// Implementation of [`BuildBoundary`] in every dimension.
     BuildBoundaries: BuildBoundary
 }
 
 /// Compiled boundary condition on the motion of one face of the body.
 pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
-    /// Name in suites.
+    /// Returns the name in suites.
     fn name(&self) -> &'static str;
 
-    /// Numbers for external solvers; empty if the name describes the condition completely.
+    /// Returns the numbers for external solvers; empty if the name describes the condition fully.
     fn numbers(&self) -> LoadNumbers {
         LoadNumbers::default()
     }
 
-    /// Verb phrase after "the left face" in messages.
+    /// Returns the verb phrase after "the left face" in messages.
     fn verb(&self) -> &'static str;
 
-    /// Text for the report row of the face; empty for no row.
+    /// Returns the text for the report row of the face; empty for no row.
     fn row(&self) -> String {
         self.name().to_owned()
     }
 
-    /// Priority where faces share a node: the condition with the larger number applies. A face with
-    /// a prescribed velocity does not override a fixed face.
+    /// Returns the priority at nodes that several faces share: the condition with the largest
+    /// number applies. A fixed face has priority over a face with a prescribed velocity.
     fn strength(&self) -> u8 {
         0
     }
@@ -121,7 +121,7 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         false
     }
 
-    /// Whether the face always stays at the end of the grid.
+    /// Whether the body face always stays on the grid face.
     fn stays(&self) -> bool {
         false
     }
@@ -136,18 +136,19 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         false
     }
 
-    /// Why the condition cannot be combined with several bodies; `None` if it can.
+    /// Returns why the condition cannot be combined with several bodies; `None` if it can.
     fn against_several_bodies(&self) -> Option<&'static str> {
         None
     }
 
-    /// Why the condition cannot be combined with a consistent mass matrix; `None` if it can.
+    /// Returns the reason why the condition cannot be combined with a consistent mass matrix;
+    /// `None` if it can.
     fn against_consistent_mass(&self) -> Option<&'static str> {
         None
     }
 }
 
-/// The condition in D dimensions on the nodes of the face at `site`.
+/// Builds the condition in D dimensions on the nodes of the face at `site`.
 pub(crate) fn build<const D: usize>(
     condition: &Arc<dyn BoundaryCondition>,
     site: &FaceSite<'_, D>,

@@ -4,7 +4,7 @@ use super::contract::{BoundaryCondition, BuildBoundary, FaceSite};
 use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Fixed};
 
-/// u = 0.
+/// The condition u = 0 on a face.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FixedFace;
 

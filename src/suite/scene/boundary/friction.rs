@@ -26,7 +26,7 @@ impl BoundaryKeys for FrictionSpec {
     }
 }
 
-/// The friction coefficient mu.
+/// A frictional wall with this coefficient of friction.
 #[derive(Debug)]
 struct FrictionFace(f64);
 

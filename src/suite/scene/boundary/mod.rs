@@ -1,7 +1,7 @@
-//! Family of boundary conditions on the faces of a body. A new member needs one file, its `mod`
-//! line and one line below; its condition on grid nodes is a file in the solver's family. Suites
-//! cannot state two of the conditions: a face without condition is a [`FreeFace`], or a
-//! [`FaceAtRest`] if the body does not move.
+//! Boundary conditions on the faces of a body. A new condition needs a file in this folder, its
+//! `mod` line and a line in `conditions!` below; its condition on grid nodes is a file of the
+//! solver. Two conditions have no name in suites: a face without a stated condition is a
+//! [`FreeFace`], or a [`FaceAtRest`] if the body does not move.
 
 mod contract;
 mod fixed;
@@ -15,16 +15,16 @@ mod velocity;
 pub(crate) use contract::{BoundaryCondition, BoundaryKeys, FaceEntry, FaceSite, build};
 pub(crate) use unstated::{FaceAtRest, FreeFace};
 
-/// Declares a family of conditions. The lines
+/// Declares the names of conditions in suites. For example, the lines
 ///
 /// `/// No displacement.`
 /// `Fixed = "fixed" is fixed::FixedFace;`
 ///
-/// `/// A wall that presses and does not pull, with a coefficient of friction.`
+/// `/// A frictional wall.`
 /// `Friction = "friction" of friction::FrictionSpec;`
 ///
-/// define the names of conditions in suites: the first form is for a condition without value, the
-/// second for a condition with a value. Both types implement the trait of the keys.
+/// declare a condition without a value (`is`) and a condition with a value (`of`). Both types
+/// implement the trait of the keys, such as [`BoundaryKeys`].
 macro_rules! conditions {
     ($(#[$family:meta])* $spec:ident: $contract:ident;
      $($(#[$meta:meta])* $member:ident = $text:literal
@@ -38,7 +38,7 @@ macro_rules! conditions {
         }
 
         impl $spec {
-            /// The name of the condition, and its keys.
+            /// Returns the name of the condition, and its keys.
             pub(crate) fn named(&self) -> (&'static str, &dyn $contract) {
                 match self {
                     $(

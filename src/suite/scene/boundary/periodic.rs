@@ -3,7 +3,7 @@
 use super::contract::{BoundaryCondition, BuildBoundary};
 use crate::exact::{Condition, FacePoint, Violation};
 
-/// The face has the state of the opposite face, one period away.
+/// A face with the state of the opposite face, one period away.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PeriodicFace;
 

@@ -4,7 +4,7 @@ use super::contract::{BoundaryCondition, BuildBoundary, FaceSite};
 use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Roller};
 
-/// u . n = 0, without tangential traction.
+/// The condition u . n = 0 on a face, without tangential traction.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RollerFace;
 

@@ -5,7 +5,7 @@ use super::contract::{BoundaryCondition, BuildBoundary};
 use super::fixed::FixedFace;
 use crate::exact::{Condition, FacePoint, Violation};
 
-/// P n = 0, unless a load acts on the face.
+/// The condition P n = 0, unless a load acts on the face.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FreeFace;
 
@@ -31,7 +31,7 @@ impl BoundaryCondition for FreeFace {
 
 impl<const D: usize> BuildBoundary<D> for FreeFace {}
 
-/// u = 0 everywhere.
+/// The condition on the faces of a body with u = 0 everywhere.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FaceAtRest;
 

@@ -24,7 +24,7 @@ impl BoundaryKeys for VelocitySpec {
 #[derive(Debug)]
 struct MovingFace(Vec<Formula>);
 
-/// `u_t = v(X, t)`.
+/// Requires `u_t = v(X, t)`.
 impl Condition for MovingFace {
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
         (0..point.dimension()).try_for_each(|i| point.velocity(i, point.value(&self.0[i])))

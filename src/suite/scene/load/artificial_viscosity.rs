@@ -55,7 +55,7 @@ impl LoadKeys for ViscositySpec {
     }
 }
 
-/// Coefficients of the linear and the quadratic term, and the wave speed at rest (m/s).
+/// Coefficients of the linear and the quadratic term, and the wave speed in the body at rest (m/s).
 #[derive(Debug)]
 struct ViscosityLoad {
     linear: f64,
@@ -63,7 +63,7 @@ struct ViscosityLoad {
     speed: f64,
 }
 
-/// No term of the equation of motion: artificial viscosity belongs to the method.
+/// Artificial viscosity belongs to the method, so it adds no term to the equation of motion.
 impl Term for ViscosityLoad {}
 
 impl SceneLoad for ViscosityLoad {

@@ -9,7 +9,7 @@ use crate::suite::scene::numbers::{LoadNumbers, of_displacement, of_place_and_ti
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Maximum number of operations (sums unrolled) of a formula that is precomputed per position.
+/// Maximum number of operations, with unrolled sums, of a formula precomputed per position.
 const MOST_OPERATIONS: u64 = 5000;
 
 /// Force per unit mass (m/s2), formulas of the coordinates, t and the displacement.
@@ -35,7 +35,7 @@ impl LoadKeys for BodyForceSpec {
 struct BodyForceLoad(Vec<Formula>);
 
 impl BodyForceLoad {
-    /// The force in D dimensions as a function of the particle displacements.
+    /// Returns the force in D dimensions as a function of the particle displacements.
     fn of_displacement<const D: usize>(&self, particles: &Particles<D>) -> BodyForce<D> {
         let formulas = self.0.clone();
         let force = BodyForce::new(Box::new(move |t, particles: &Particles<D>, b| {
@@ -49,8 +49,8 @@ impl BodyForceLoad {
         force.with_stiffness(self.stiffness(particles))
     }
 
-    /// Upper bound on the largest eigenvalue (1/s2) of the symmetric part of -db/du, over all
-    /// `particles` at the start. Computed from Gershgorin circles.
+    /// Computes an upper bound on the largest eigenvalue (1/s2) of the symmetric part of -db/du,
+    /// over all `particles` at the start, from Gershgorin circles.
     fn stiffness<const D: usize>(&self, particles: &Particles<D>) -> f64 {
         let of = |label: &Vector<D>, x: &Vector<D>| {
             let u = space(&(x - label));
@@ -69,7 +69,7 @@ impl BodyForceLoad {
     }
 }
 
-/// The vector, padded with zeros to three components.
+/// Returns the vector, padded with zeros to three components.
 fn space<const D: usize>(vector: &Vector<D>) -> [f64; 3] {
     std::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0))
 }

@@ -30,7 +30,7 @@ macro_rules! names {
         }
 
         impl EffectName {
-            /// The effects that this effect requires.
+            /// Returns the effects that this effect requires.
             pub fn needs(self) -> &'static [Self] {
                 match self {
                     $(Self::$member => &[$($(Self::$need),+)?],)+
@@ -72,7 +72,7 @@ pub(crate) enum LoadTarget {
 }
 
 impl LoadTarget {
-    /// Number of the face; `None` if the load does not act on a face.
+    /// Returns the number of the face; `None` if the load does not act on a face.
     pub(crate) fn face(self) -> Option<usize> {
         match self {
             Self::Face(number) => Some(number),
@@ -109,7 +109,7 @@ impl From<BuildError> for SubjectError {
 
 /// Converts a load to an effect of the solver.
 pub(crate) trait BuildEffect<const D: usize> {
-    /// The effect on the body at `site`.
+    /// Builds the effect on the body at `site`.
     ///
     /// # Errors
     /// The reason why the effect cannot be built.
@@ -117,43 +117,43 @@ pub(crate) trait BuildEffect<const D: usize> {
 }
 
 in_every_dimension! {
-    /// [`BuildEffect`] for any dimension.
+    /// Implementation of [`BuildEffect`] in every dimension.
     BuildEffects: BuildEffect
 }
 
 /// A load or effect of a scene, with all numbers computed.
 pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
-    /// Part of the scene on which the load acts.
+    /// Returns the part of the scene on which the load acts.
     fn target(&self) -> LoadTarget {
         LoadTarget::Body
     }
 
-    /// Numbers for external solvers; empty if the load cannot be passed to them.
+    /// Returns the numbers for external solvers; empty if the load cannot be passed to them.
     fn numbers(&self) -> LoadNumbers {
         LoadNumbers::default()
     }
 
-    /// Rows of name and value for reports.
+    /// Returns rows of name and value for reports.
     fn rows(&self) -> Vec<(String, String)>;
 
-    /// The boundary condition of the exact solution that the load imposes on its face.
+    /// Returns the boundary condition of the exact solution that the load imposes on its face.
     fn condition(self: Arc<Self>) -> Option<Arc<dyn Condition>> {
         None
     }
 
-    /// Tension (Pa) as a function of t that the load applies to the end of a bar at `x` (m).
-    /// `outwards` is the sign of the outward normal.
+    /// Returns the tension (Pa), as a function of t, that the load applies to the end of a bar at
+    /// `x` (m). `outwards` is the sign of the outward normal.
     fn tension(&self, _x: f64, _outwards: f64) -> Option<TimeFunction> {
         None
     }
 
-    /// Force per reference area (Pa) on the undeformed face, for `values` of the coordinates and t.
-    /// Empty if the load does not act on a face.
+    /// Returns the force per reference area (Pa) on the undeformed face, for `values` of the
+    /// coordinates and t. Empty if the load does not act on a face.
     fn traction(&self, _values: &[f64]) -> Vec<f64> {
         Vec::new()
     }
 
-    /// The heat conduction; `None` for other loads.
+    /// Returns the heat conduction; `None` for other loads.
     fn heat(&self) -> Option<&SceneHeat> {
         None
     }

@@ -29,7 +29,7 @@ impl LoadKeys for DampingSpec {
         Ok(Arc::new(DampingLoad(entry.evaluator.formula(&entry.path, &self.0, &["t"])?)))
     }
 
-    /// Refuses a rate that becomes negative.
+    /// Refuses a rate that is negative at any time of the run.
     fn check(&self, entry: &LoadEntry<'_>, study: &StudyFacts) -> Result<(), Diagnostic> {
         let LoadEntry { evaluator, path, .. } = entry;
         let rate = evaluator.formula(path, &self.0, &["t"])?;
@@ -51,11 +51,11 @@ impl LoadKeys for DampingSpec {
     }
 }
 
-/// The damping rate alpha(t) (1/s).
+/// Damping with the rate alpha(t) (1/s).
 #[derive(Debug)]
 struct DampingLoad(Formula);
 
-/// `-alpha u_t`.
+/// Adds the term `-alpha u_t` to the equation of motion.
 impl Term for DampingLoad {
     fn resistance(&self, t: f64, velocity: f64, _: &dyn Fn() -> f64) -> f64 {
         -self.0.eval(&[t]) * velocity

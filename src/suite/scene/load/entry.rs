@@ -21,8 +21,8 @@ pub(crate) struct StudyFacts {
 
 /// Keys of a load: one entry of `loads`.
 pub(crate) trait LoadKeys {
-    /// Example YAML for a load of strength `s` (zero: no effect) with vector value `vector`, on the
-    /// face `right` or the set `some`. Used by tests of the load family.
+    /// Returns example YAML for a load of strength `s` (zero: no effect) with vector value
+    /// `vector`, on the face `right` or the set `some`. Used by tests of all loads.
     fn example(vector: &str) -> String
     where
         Self: Sized;
@@ -41,17 +41,17 @@ pub(crate) trait LoadKeys {
         Ok(())
     }
 
-    /// Name of the feature that the FEM of this crate lacks, if it lacks the load.
+    /// Returns a name for the load if the FEM of this crate does not support it; otherwise `None`.
     fn lacked_by_fem(&self) -> Option<&'static str> {
         None
     }
 
-    /// Why the load is invalid for this plane state; `None` if it is valid.
+    /// Returns the reason why the load is invalid for this plane state; `None` if it is valid.
     fn against_plane(&self, _: PlaneState) -> Option<&'static str> {
         None
     }
 
-    /// Name of the face on which the load acts.
+    /// Returns the name of the face on which the load acts.
     fn face(&self) -> Option<&str> {
         None
     }
@@ -82,7 +82,7 @@ pub(crate) struct LoadEntry<'a> {
 }
 
 impl LoadEntry<'_> {
-    /// Number of space dimensions.
+    /// Returns the number of space dimensions.
     pub(crate) fn dimension(&self) -> usize {
         self.scene.dimension()
     }
@@ -95,7 +95,7 @@ impl LoadEntry<'_> {
         Ok(())
     }
 
-    /// One formula of t for each component.
+    /// Compiles one formula of t for each component.
     pub(crate) fn of_time(
         &self,
         path: &Path,
@@ -104,7 +104,7 @@ impl LoadEntry<'_> {
         self.evaluator.vector(path, texts, self.dimension(), &["t"])
     }
 
-    /// One formula of the coordinates and t for each component.
+    /// Compiles one formula of the coordinates and t for each component.
     pub(crate) fn of_place_and_time(
         &self,
         path: &Path,
@@ -114,8 +114,8 @@ impl LoadEntry<'_> {
         self.evaluator.vector(path, texts, d, &coordinates_and_time(d))
     }
 
-    /// One formula for each component. Variables are the coordinates and t, and the displacement if
-    /// one of the formulas uses it.
+    /// Compiles one formula for each component. Variables are the coordinates and t, and the
+    /// displacement if one of the formulas uses it.
     pub(crate) fn of_displacement(
         &self,
         path: &Path,
@@ -131,12 +131,12 @@ impl LoadEntry<'_> {
         self.evaluator.vector(path, texts, d, &[&coordinates_and_time(d)[..], u].concat())
     }
 
-    /// One formula of the coordinates and t.
+    /// Compiles one formula of the coordinates and t.
     pub(crate) fn scalar(&self, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
         self.evaluator.formula(path, text, &coordinates_and_time(self.dimension()))
     }
 
-    /// The face called `name`, which must be free.
+    /// Returns the face called `name`, which must be free.
     pub(crate) fn free_face(&self, name: &str) -> Result<LoadedFace, Diagnostic> {
         let Self { evaluator, scene, .. } = self;
         let path = self.path.then("on");
@@ -152,7 +152,7 @@ impl LoadEntry<'_> {
         Err(evaluator.diagnostic(&path, &format!("the face `{name}` {has}")))
     }
 
-    /// The rim called `name` of a body without faces, which must be free.
+    /// Returns the rim called `name` of a body without faces. The rim must be free.
     pub(crate) fn free_rim(&self, name: &str) -> Result<Circle, Diagnostic> {
         let Self { evaluator, scene, .. } = self;
         let path = self.path.then("on");
@@ -171,7 +171,7 @@ impl LoadEntry<'_> {
         }
     }
 
-    /// The set called `name`, which must not carry another load.
+    /// Returns the set called `name`, which must not carry another load.
     pub(crate) fn free_set(&self, name: &str) -> Result<LoadedSet, Diagnostic> {
         let path = self.path.then("on");
         let number = set_number(self.evaluator, &path, name, &self.scene.sets)?;
@@ -194,7 +194,7 @@ pub(crate) struct LoadedFace {
 }
 
 impl LoadedFace {
-    /// Report row for the load on this face.
+    /// Returns the report row for the load on this face.
     pub(crate) fn row(self, load: &str, placement: Placement) -> (String, String) {
         let place = match placement {
             Placement::Particles => "",
@@ -203,7 +203,7 @@ impl LoadedFace {
         (self.name.to_owned(), format!("{load}{place}"))
     }
 
-    /// Axis of the normal, and which end of that axis.
+    /// Returns the axis of the normal, and the end of the axis at which the face lies.
     pub(crate) fn place(self) -> (usize, Side) {
         (self.number / 2, if self.number % 2 == 1 { Side::High } else { Side::Low })
     }
@@ -218,14 +218,14 @@ pub(crate) struct LoadedSet {
 }
 
 impl LoadedSet {
-    /// Report row for the load on this set.
+    /// Returns the report row for the load on this set.
     pub(crate) fn row(&self, load: &str) -> (String, String) {
         let Region { name, from, to } = &self.region;
         let corner = |c: &[f64]| c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
         (format!("set {name}"), format!("({}) to ({}) m, {load}", corner(from), corner(to)))
     }
 
-    /// Indices of the particles in the set.
+    /// Returns the indices of the particles in the set.
     ///
     /// # Errors
     /// [`BuildError::EmptySet`] if the set contains no particles.
@@ -258,7 +258,7 @@ fn refuse_surface_load(
     Err(evaluator.diagnostic(path, &message).with_help(&help))
 }
 
-/// Index of the set called `name`.
+/// Returns the index of the set called `name`.
 fn set_number(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -20,7 +20,7 @@ use crate::suite::scene::face::face;
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use std::sync::Arc;
 
-/// Name of the temperature in the formula of a source.
+/// Name of the temperature in the formula of a heat source.
 const TEMPERATURE: &str = "T";
 
 /// Conduction of heat, and the conditions on the faces.
@@ -83,7 +83,7 @@ impl LoadKeys for HeatSpec {
     }
 }
 
-/// The heat source. A suite may declare a name `T`, unless the source uses `T`.
+/// Compiles the heat source. A suite may declare a name `T`, unless the source uses `T`.
 fn source(entry: &LoadEntry<'_>, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
     let evaluator = entry.evaluator;
     let mut variables = coordinates_and_time(entry.dimension());
@@ -122,7 +122,7 @@ impl SceneLoad for SceneHeat {
 }
 
 impl<const D: usize> BuildEffect<D> for SceneHeat {
-    /// Also initialises the particle temperatures.
+    /// Builds the heat conduction, and initialises the particle temperatures.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         let start = initial::<D>(site.heat, self.initial.as_ref());
         let heat = Heat::new(self.conductivity, self.capacity, site.particles, |x0| {
@@ -140,7 +140,7 @@ impl<const D: usize> BuildEffect<D> for SceneHeat {
     }
 }
 
-/// The initial temperature: stated in the scene, otherwise from the exact solution.
+/// Returns the initial temperature: stated in the scene, otherwise from the exact solution.
 fn initial<const D: usize>(
     problem: Option<&Conduction>,
     stated: Option<&Formula>,
@@ -154,7 +154,7 @@ fn initial<const D: usize>(
     }
 }
 
-/// The heat source that the scene states.
+/// Returns the heat source that the scene states.
 fn stated<const D: usize>(formula: &Formula) -> HeatSource<D> {
     let formula = formula.clone();
     Box::new(move |t, particles, into| {
@@ -165,13 +165,13 @@ fn stated<const D: usize>(formula: &Formula) -> HeatSource<D> {
     })
 }
 
-/// The heat source computed from the stated temperature.
+/// Returns the heat source computed from the stated temperature.
 fn manufactured<const D: usize>(made: &Conduction, particles: &Particles<D>) -> HeatSource<D> {
     let mut forcing = HeatForcing::new(made, particles.x0.iter().map(Vector::as_slice));
     Box::new(move |t, _, into| forcing.at(t, into))
 }
 
-/// All faces of the body; faces that the keys do not name are insulated.
+/// Compiles the conditions on all faces of the body; faces that the keys do not name are insulated.
 fn faces(
     entry: &LoadEntry<'_>,
     spec: &Ordered<ThermalSpec>,
@@ -218,7 +218,7 @@ fn on_grid(
     Err(diagnostic.with_help("hold it (`fixed` or `roller`), or leave it insulated"))
 }
 
-/// The thermal conditions for the solver.
+/// Builds the thermal conditions for the solver.
 fn build_faces<const D: usize>(
     faces: &[ThermalFace],
     site: &BodySite<'_, D>,

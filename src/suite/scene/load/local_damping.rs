@@ -31,7 +31,7 @@ impl LoadKeys for LocalDampingSpec {
         Ok(Arc::new(LocalDampingLoad(share)))
     }
 
-    /// Refuses a manufactured force, which local damping would oppose as well.
+    /// Refuses a manufactured force, because local damping would also oppose that force.
     fn check(&self, entry: &LoadEntry<'_>, study: &StudyFacts) -> Result<(), Diagnostic> {
         if !study.manufactured {
             return Ok(());
@@ -46,11 +46,11 @@ impl LoadKeys for LocalDampingSpec {
     }
 }
 
-/// The damping share zeta.
+/// Local damping with the share zeta of the unbalanced force.
 #[derive(Debug)]
 struct LocalDampingLoad(f64);
 
-/// `-zeta |Div P / rho0 + b| sign(u_t)`, component by component (Cundall 1987).
+/// Adds `-zeta |Div P / rho0 + b| sign(u_t)` to each component of the equation (Cundall 1987).
 impl Term for LocalDampingLoad {
     fn resistance(&self, _: f64, velocity: f64, unbalanced: &dyn Fn() -> f64) -> f64 {
         let sign = if velocity == 0.0 { 0.0 } else { velocity.signum() };

@@ -1,6 +1,5 @@
-//! Family of loads and effects of a scene. A new member needs one file and one line of `members`.
-//! If the solver has no corresponding effect yet, the member also needs a file in the solver's
-//! family.
+//! Loads and effects of a scene. A new load needs a file in this folder and a line in `members`. If
+//! the solver has no corresponding effect yet, that effect also needs a file in the solver.
 
 mod contract;
 mod entry;
@@ -14,7 +13,7 @@ use crate::suite::evaluator::Evaluator;
 use crate::suite::scene::Scene;
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Declares the load family from the lines of [`each_effect`](crate::members). The type of the keys
+/// Declares the loads from the lines of [`each_effect`](crate::members). The type of the keys
 /// implements [`LoadKeys`].
 macro_rules! loads {
     ($(
@@ -33,8 +32,8 @@ macro_rules! loads {
         }
 
         impl EffectName {
-            /// Example entry of `loads` with this effect and strength `s`, in `dimension`
-            /// dimensions. The load acts on the whole body, the face `right` or the set `some`.
+            /// Returns an example entry of `loads` with this effect and strength `s`, in
+            /// `dimension` dimensions. The load acts on the body, face `right` or set `some`.
             pub fn example(self, dimension: usize) -> String {
                 let vector = vec!["s*(1 + t)"; dimension].join(", ");
                 let vector = format!("[{vector}]");
@@ -46,14 +45,14 @@ macro_rules! loads {
         }
 
         impl LoadSpec {
-            /// The effect of the entry.
+            /// Returns the effect of the entry.
             pub(crate) fn effect(&self) -> EffectName {
                 match self {
                     $(Self::$member(_) => EffectName::$member,)+
                 }
             }
 
-            /// The keys of the entry.
+            /// Returns the keys of the entry.
             pub(crate) fn keys(&self) -> &dyn LoadKeys {
                 match self {
                     $(Self::$member(keys) => keys,)+
@@ -66,7 +65,7 @@ macro_rules! loads {
 each_effect!(loads);
 
 impl LoadSpec {
-    /// Path of the value of the entry with this `number` in `loads`.
+    /// Returns the path of the value of the entry with this `number` in `loads`.
     pub(crate) fn path(&self, number: usize) -> Path {
         Path::top("scene").then("loads").then(number).then(self.effect().name())
     }
@@ -81,7 +80,7 @@ fn refuse_incomplete(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<()
     })
 }
 
-/// Adds the loads to a scene that has none, in the order in which solvers apply them.
+/// Adds the loads to a scene without loads, in the order in which solvers apply them.
 pub(crate) fn add(
     evaluator: &Evaluator<'_>,
     spec: &[LoadSpec],

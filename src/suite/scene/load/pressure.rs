@@ -79,7 +79,7 @@ impl Term for PressureLoad {
     }
 }
 
-/// `P n = -p J F^-T n`: normal to the deformed surface.
+/// Requires `P n = -p J F^-T n`: the load is normal to the deformed surface.
 impl Condition for PressureLoad {
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
         let (p, area) = (point.value(&self.value), point.present_area());

@@ -57,7 +57,7 @@ struct SetForceLoad {
     density: f64,
 }
 
-/// A force f on a set of volume V is a body force `f/(rho0 V)` inside the set and zero outside.
+/// Adds a force f on a set of volume V as a body force `f/(rho0 V)` in the set.
 impl Term for SetForceLoad {
     fn stated(&self, i: usize, label: &[f64], t: f64, _: &[f64; 3]) -> f64 {
         if !self.set.region.holds(label) {

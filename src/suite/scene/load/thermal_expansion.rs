@@ -45,8 +45,8 @@ impl LoadKeys for ExpansionSpec {
     }
 }
 
-/// Young's modulus (Pa) and Poisson's ratio if the law is in rate form; `None` if the law depends
-/// on the total deformation.
+/// Returns Young's modulus (Pa) and Poisson's ratio for a law in rate form; `None` for a law whose
+/// stress depends only on the deformation gradient.
 ///
 /// # Errors
 /// A diagnostic if the material supports no thermal stress in the dimension of the scene.
@@ -75,7 +75,7 @@ fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
     Ok(None)
 }
 
-/// The expansion; and for a law in rate form, Young's modulus (Pa) and Poisson's ratio.
+/// The expansion, with Young's modulus (Pa) and Poisson's ratio for a law in rate form.
 #[derive(Debug)]
 struct ExpansionLoad(Expansion, Option<(f64, f64)>);
 

@@ -54,7 +54,7 @@ struct TractionLoad {
 
 impl Term for TractionLoad {}
 
-/// `P n = p0(X, t)`.
+/// Requires `P n = p0(X, t)`.
 impl Condition for TractionLoad {
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation> {
         let pulled = |i| point.traction(i, "loaded", point.value(&self.value[i]));

@@ -20,7 +20,7 @@ fn survives(text: &str) {
     }
 }
 
-/// Text of characters that have a meaning in YAML.
+/// Generates text of characters that have a meaning in YAML.
 fn yaml_like() -> impl Strategy<Value = String> {
     let token = prop_oneof![
         8 => prop::sample::select(vec![
@@ -33,7 +33,7 @@ fn yaml_like() -> impl Strategy<Value = String> {
     prop::collection::vec(token, 0..40).prop_map(|tokens| tokens.concat())
 }
 
-/// The sample with a few ranges replaced.
+/// Generates the sample with a few ranges replaced.
 fn mutated() -> impl Strategy<Value = String> {
     let change = (any::<prop::sample::Index>(), 0usize..6, yaml_like());
     prop::collection::vec(change, 1..4).prop_map(|changes| {
@@ -47,7 +47,7 @@ fn mutated() -> impl Strategy<Value = String> {
     })
 }
 
-/// The paths of all non-empty scalars.
+/// Collects the paths of all non-empty scalars.
 fn paths(value: &Value, path: &mut Vec<Step>, all: &mut Vec<Vec<Step>>) {
     match value {
         Value::Mapping(map) => {

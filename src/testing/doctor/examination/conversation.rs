@@ -54,7 +54,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(format!("{n} points in {d}-D, law {law}, {STEPS} steps"), findings))
 }
 
-/// Largest difference of a column at the end, relative to the largest value of the column.
+/// Returns the largest difference of a column at the end, relative to its largest value.
 fn difference(field: Field, a: &Course, b: &Course) -> f64 {
     let (last, other) = (a.last(), b.last());
     let pairs = field(&a.states[last]).iter().zip(field(&b.states[other]));
@@ -123,7 +123,7 @@ fn grouped_under_acceleration(
         Err(Hindrance::Broke(_)) => return Ok(None),
         Err(lacks) => return Err(lacks),
     };
-    // Examinations of forces report a body that fails.
+    // The examinations of forces report a run that fails.
     if stepwise.failure.is_some() {
         return Ok(None);
     }

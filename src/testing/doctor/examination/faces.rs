@@ -15,8 +15,8 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Distance (cells) by which particles reach beyond a face. A node beyond the face has only this
-/// share of a regular nodal mass.
+/// Distance (cells) of the outermost particles from a cell face that they have crossed. The next
+/// node has only this share of a regular nodal mass.
 const SLIVER: f64 = 1.0 / (1_u64 << 44) as f64;
 
 /// Maximum strain of a rigid body due to rounding errors.
@@ -62,7 +62,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(stiff.measured, finding.into_iter().collect()))
 }
 
-/// Finding on a soft body in rigid motion whose columns show a strain.
+/// Returns a finding if the columns of a soft body in rigid motion show a strain.
 fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
     let course = patient.run(scene)?;
     let (lambda, mu) = scene.lame();

@@ -16,10 +16,10 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Gravity (m/s2). It differs from that of the earth, which may be a default of the solver.
+/// Gravity (m/s2), different from that of the earth, which may be a default of the solver.
 const GRAVITY: f64 = 3.7;
 
-/// Maximum relative difference between a figure and the pattern that explains it.
+/// Maximum relative difference between a measured value and the pattern that explains it.
 const NEAR: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -56,7 +56,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, findings))
 }
 
-/// Finding on velocities other than g t.
+/// Returns a finding if the velocities differ from g t.
 fn of_speed(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
     let (last, d) = (course.last(), course.problem.dimension);
     let end = course.times[last];
@@ -156,7 +156,7 @@ pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, Strin
     ("gravity-scaled", cause.to_owned())
 }
 
-/// Finding on positions other than g t^2/2, if the velocities have no defect.
+/// Returns a finding if the positions differ from g t^2/2 and the velocities have no defect.
 fn of_distance(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
     let (last, dt, axis) = (course.last(), course.problem.dt, course.problem.dimension - 1);
     let end = course.times[last];

@@ -19,11 +19,12 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Force per unit mass at the start (m/s2), and its rate (m/s3).
+/// Force per unit mass at the start (m/s2).
 const FORCE: f64 = 0.8;
+/// Growth rate of the force per unit mass (m/s3).
 const RATE: f64 = 6.0;
 
-/// Maximum relative difference between a figure and the pattern that explains it.
+/// Maximum relative difference between a measured value and the pattern that explains it.
 const NEAR: f64 = 0.1;
 
 /// Recorded requests: times (s) and reference positions (m).
@@ -130,7 +131,7 @@ fn run(
     }
 }
 
-/// Finding on requests for times outside the run.
+/// Returns a finding if the solver requests forces for times outside the run.
 fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
     let end = scene.steps as f64 * scene.dt;
@@ -153,7 +154,7 @@ fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     })
 }
 
-/// Finding on requests for current positions of particles instead of reference positions.
+/// Returns a finding if the solver requests forces at current instead of reference positions.
 fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
     if asked.is_empty() {
@@ -184,7 +185,7 @@ fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     })
 }
 
-/// Finding on forces with a wrong factor or from wrong times.
+/// Returns a finding if forces have a wrong factor or are those of wrong times.
 fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     let (last, dt) = (course.last(), course.problem.dt);
     let end = course.times[last];
@@ -241,8 +242,8 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     ))
 }
 
-/// Finding on a force that grows along X, which gives each point a different velocity after one
-/// step.
+/// Returns a finding if a force that grows along X does not give each point its own velocity after
+/// one step.
 fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     let (mut x, mut v, mut across) = (Vec::new(), Vec::new(), 0.0_f64);
     for (label, speed) in course.points(velocity, 1) {

@@ -31,7 +31,7 @@ const STRETCHED: f64 = 0.5;
 /// Initial displacement gradient of a body that starts deformed.
 const START: [[f64; 3]; 3] = [[0.1, -0.3, 0.0], [0.2, 0.0, -0.1], [0.0, 0.1, 0.1]];
 
-/// Maximum error of a component, relative to the largest one; rate forms have a step error.
+/// Maximum error of a component, relative to the largest one. Laws in rate form have a step error.
 const NEAR: f64 = 0.04;
 
 const STEPS: u64 = 25;
@@ -111,8 +111,8 @@ fn starts_deformed(course: &Course, scene: &BoxScene) -> bool {
         && off <= 0.3 * course.farthest(displacement, 0, [0.0; 3])
 }
 
-/// The momentum flux in a body stretched to 1.5 times its length, relative to the flux according to
-/// the law. Forces must use the current particle volumes.
+/// Examines the momentum flux in a body stretched to 1.5 times its length, relative to the flux
+/// according to the law. Forces must use the current particle volumes.
 fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFinding>), Hindrance> {
     let cells = if kind.0 == 3 { 8.0 } else { 12.0 };
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
@@ -145,7 +145,7 @@ fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFindi
     Ok((ratio, finding))
 }
 
-/// A body whose displacement gradient grows to `GRADIENT`.
+/// Creates a body whose displacement gradient grows to `GRADIENT`.
 fn scene(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 4.0 } else { 6.0 };
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
@@ -154,14 +154,14 @@ fn scene(kind: Kind) -> BoxScene {
     BoxScene { young: SOFT.sqrt() * scene.young, ..scene }
 }
 
-/// The body of `scene` with the initial displacement gradient `START`.
+/// Creates the body of `scene` with the initial displacement gradient `START`.
 fn deformed(kind: Kind) -> BoxScene {
     let scene = scene(kind);
     let displacement = field(&scene, &|i, j| START[i][j]);
     BoxScene { displacement, ..scene }
 }
 
-/// The field with this gradient relative to the centre of the body.
+/// Creates the field with this gradient relative to the centre of the body.
 fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineField {
     let d = scene.dimension;
     let gradient = std::array::from_fn(|i| {
@@ -170,7 +170,7 @@ fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineFiel
     AffineField { gradient, centre: scene.centre(), ..AffineField::default() }
 }
 
-/// F in the middle of the body at the end, row by row, from a least-squares fit of displacements.
+/// Fits F in the middle of the body at the end, row by row, to displacements (least squares).
 fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
     let (d, centre) = (scene.dimension, scene.centre());
     let is_near =
@@ -192,7 +192,7 @@ fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
     f
 }
 
-/// Stress (Pa) and F, row by row, of a body with the deformation gradient `f`.
+/// Returns stress (Pa) and F, row by row, of a body with the deformation gradient `f`.
 fn law_at(scene: &BoxScene, f: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Hindrance> {
     let d = scene.dimension;
     let displacement = field(scene, &|i, j| f[i * d + j] - f64::from(u8::from(i == j)));
@@ -202,7 +202,7 @@ fn law_at(scene: &BoxScene, f: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Hindrance
     Ok((particles.stress[..d * d].to_vec(), particles.deformation_gradient[..d * d].to_vec()))
 }
 
-/// Maximum error of a component, relative to the largest component of `expected`.
+/// Returns the maximum error of a component, relative to the largest component of `expected`.
 fn error(tensor: &[f64], expected: &[f64]) -> f64 {
     let scale = expected.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
     let differences = tensor.iter().zip(expected).map(|(a, b)| (a - b).abs());
@@ -292,9 +292,9 @@ fn of_stress(
     ))
 }
 
-/// Stress (Pa), row by row, for a displacement gradient that grows linearly in time up to the
-/// deformation gradient `f`. Uses the Jaumann rate of linear elasticity: sigma' = C : D + W sigma -
-/// sigma W, with the spin W. `None` if the body becomes inverted.
+/// Computes the stress (Pa), row by row, for a displacement gradient that grows linearly in time up
+/// to the deformation gradient `f`. Uses the Jaumann rate of linear elasticity,
+/// `sigma' = C : D + W sigma - sigma W`, with the spin W. `None` if the body becomes inverted.
 fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Option<Vec<f64>> {
     const PARTS: u64 = 400;
     let d = scene.dimension;

@@ -30,8 +30,9 @@ pub(super) const ENDS: Examination = Examination {
     examine: examine_ends,
 };
 
-/// Length (cells) along the periodic axis: of a moving body, and of one whose ends push each other.
+/// Length (cells) of a moving body along the periodic axis.
 const CELLS: f64 = 4.0;
+/// Length (cells), along the periodic axis, of a body whose ends push each other.
 const LONG: f64 = 12.0;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -49,7 +50,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(all)
 }
 
-/// A body that moves along the periodic axis `axis`.
+/// Creates a body that moves along the periodic axis `axis`.
 fn along(kind: Kind, axis: usize) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);
     scene.grid.0[axis] = scene.body.0[axis];
@@ -76,8 +77,8 @@ fn examine_ends(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(all)
 }
 
-/// Share of its momentum that the upper half of a body loses across the ends of a periodic axis.
-/// The body is stretched at a constant rate, so its ends move towards each other.
+/// Returns the share of momentum that the upper half of a body loses across the ends of a periodic
+/// axis. The body is stretched at a constant rate, so its ends move towards each other.
 fn lost_at_ends(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<f64, Hindrance> {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);
     scene.body.1[axis] = scene.body.0[axis] + LONG * H;

@@ -38,7 +38,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let mut findings = Vec::new();
     if !(way <= tolerance && speed <= tolerance) {
         let claims_double = patient.solver.precision() == Precision::Double;
-        // Far less than one step of any real acceleration.
+        // Any real acceleration causes far more in one step.
         let is_noise = claims_double && way.max(speed) <= 1e-5;
         findings.push(if is_noise { single(way, speed) } else { cause(&course) });
     } else if let Some(failure) = &course.failure {
@@ -104,7 +104,7 @@ fn cause(course: &Course) -> SolverFinding {
     )
 }
 
-/// Finding on points that move differently.
+/// Returns the finding for points that move differently.
 fn apart(course: &Course) -> SolverFinding {
     let (last, d) = (course.last(), course.problem.dimension);
     let centre = {

@@ -29,7 +29,7 @@ const SHEAR: f64 = 1.0;
 /// Initial stretch in one dimension.
 const STRETCH: f64 = 0.05;
 
-/// Maximum relative error of the force. Waves are near, and the state has changed slightly.
+/// Maximum relative error of the force, because waves are near and the state has changed slightly.
 const NEAR: f64 = 0.12;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -81,7 +81,7 @@ fn scene(kind: Kind) -> BoxScene {
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// A body that starts at 1.5 times its length. Three particles per cell and axis become two.
+/// Creates a body of 1.5 times its length. Three particles per cell and axis become two.
 fn stretched(kind: Kind) -> BoxScene {
     let mut scene = scene(kind);
     scene.ppc = 3;
@@ -136,7 +136,7 @@ impl Forces {
         }
     }
 
-    /// The delay, formatted in tenths of a step.
+    /// Formats the delay in tenths of a step.
     fn shown_delay(&self) -> String {
         shown(libm::round(10.0 * self.late) / 10.0 + 0.0)
     }

@@ -157,7 +157,7 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
     Ok(Examined::new(measured, Vec::new()))
 }
 
-/// A soft body that moves about its centre.
+/// Creates a soft body that moves about its centre.
 fn scene(kind: Kind, motion: SlowMotion) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.271, 0.391, 0.141], 4.0, 3.0);
     let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
@@ -191,8 +191,8 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
     Losses { first: share(0, 1), later: share(1, last) / (last - 1) as f64, unit }
 }
 
-/// Finding on the losses of a stretch, of a rotation, and of a stretched body an eighth of the
-/// size, compared with the averaging losses of each basis.
+/// Compares the losses of a stretch, of a rotation, and of a stretched body an eighth of the size
+/// with the averaging losses of each basis.
 fn cause(
     stretch: Losses,
     rotation: Losses,
@@ -218,9 +218,8 @@ fn cause(
     let defect = |name, cause| Some(SolverFinding::defect(name, seen.clone(), cause, look_at));
     let is_alike = |a: f64, b: f64| (a - b).abs() <= KEPT + NEAR * a.abs().max(b.abs());
     if stretch.later.abs() <= KEPT && rotation.later > KEPT {
-        // A transposed matrix loses twice as much as averaging. It does so from the second step on
-        // if the matrix starts at zero, and also in the first step if it starts with the velocity
-        // gradient.
+        // A transposed matrix loses twice as much as averaging: in every step if the matrix starts
+        // with the velocity gradient, and in every step except the first if it starts at zero.
         let averaged = averaging.iter().map(|l| l.first).fold(0.0, f64::max);
         let is_twice = rotation.later > 1.2 * rotation.first || rotation.first > 1.15 * averaged;
         return if is_twice {
@@ -278,7 +277,7 @@ fn cause(
     ))
 }
 
-/// Remark on averaging in the first step only.
+/// Returns a remark if the transfer averages in the first step only.
 fn first_step(stretch: Losses, rotation: Losses) -> Option<SolverFinding> {
     let first = stretch.first.max(rotation.first);
     (first > 10.0 * KEPT).then(|| {

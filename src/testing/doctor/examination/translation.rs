@@ -12,7 +12,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Velocity (m/s). The body leaves the unit cube, beyond 1 and below 0.
+/// Velocity (m/s). The body moves to coordinates above 1 and below 0.
 pub(super) const VELOCITY: [f64; 3] = [0.25, -0.15625, 0.125];
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {

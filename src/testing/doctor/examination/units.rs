@@ -59,7 +59,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, finding.into_iter().collect()))
 }
 
-/// Largest difference of displacements at the end, relative to the largest displacement.
+/// Returns the largest difference of final displacements, relative to the largest displacement.
 fn difference(plain: &Course, scaled: &Course, length: f64) -> f64 {
     let last = plain.last();
     let (a, b) = (&plain.states[last].displacement, &scaled.states[last].displacement);

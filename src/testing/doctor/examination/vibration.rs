@@ -1,10 +1,11 @@
 //! Examination of a free vibrating body, whose energy must not grow.
 //!
 //! A body that starts with a uniform stretch rate vibrates for two periods. Its kinetic energy
-//! stays near or below the initial value for two kinds of schemes: the strain is computed from the
-//! velocity after the forces (USL, MUSL), or the forces from the stress after the strain (USF). If
-//! both are computed from the beginning of the step, as in forward Euler, each step multiplies the
-//! amplitude of a mode of frequency w by `sqrt(1 + w2 dt2)`.
+//! stays near or below the initial value for two kinds of schemes: those that compute the strain
+//! from the velocity after the forces (USL, MUSL), and those that compute the forces from the
+//! stress after the strain (USF). If a scheme computes both from the beginning of the step, as in
+//! forward Euler, each step multiplies the amplitude of a mode of frequency w by
+//! `sqrt(1 + w2 dt2)`.
 
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
@@ -21,7 +22,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 /// Length of the body (cells).
 const CELLS: f64 = 6.0;
 
-/// Number of periods of the lowest mode. In each period, waves travel to the other end and back.
+/// Number of periods of the lowest mode. In one period, a wave travels to the other end and back.
 const PERIODS: f64 = 2.0;
 
 /// Distance that waves travel in one step (cells).
@@ -69,7 +70,7 @@ fn scene(kind: Kind) -> BoxScene {
     scene.with_waves(travel, libm::ceil(travel / COURANT) as u64)
 }
 
-/// Kinetic energy divided by density in state `k` (m5/s2 in 3-D).
+/// Returns the kinetic energy divided by density in state `k` (m5/s2 in 3-D).
 fn kinetic_energy(course: &Course, k: usize) -> f64 {
     let weights = course.states[0].weight.iter();
     weights.zip(course.points(velocity, k)).map(|(weight, (_, v))| 0.5 * weight * dot(v, v)).sum()

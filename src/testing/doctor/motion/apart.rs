@@ -11,12 +11,12 @@ use std::f64::consts::SQRT_2;
 /// Distance from the rim (cells) within which the support of basis functions reaches nodes outside.
 const RIM: f64 = 1.6;
 
-/// Causes that are visible for any size of the error: position limits and cell changes.
+/// Returns a cause that is visible for any size of the error: a position limit or cell changes.
 pub(super) fn plain(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     limit(motion).or_else(|| light_nodes(motion)).or_else(|| crossing(motion))
 }
 
-/// The cause of a deviation that is larger than rounding.
+/// Returns the cause of a deviation that is larger than rounding.
 pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
     let soft = motion.scene.soft();
     let course = motion.patient.run(&soft)?;
@@ -42,9 +42,9 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
     Ok(slowed.unwrap_or_else(|| weights(motion, low, high, (way, speed))))
 }
 
-/// Finding on non-uniform drag: points slow down by different amounts, at a rate that does not
-/// depend on the step length. Wrong weights would cost a share of the speed per step instead. The
-/// body in `motion` has no stiffness, so points exert no forces on each other.
+/// Returns a finding if points slow down by different amounts at a rate that does not depend on the
+/// step length (non-uniform drag). Wrong weights would cost a share of the speed per step instead.
+/// The body in `motion` has no stiffness, so points exert no forces on each other.
 fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
@@ -77,14 +77,14 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
     )))
 }
 
-/// Smallest and largest share of the speed that points have lost in state `k`.
+/// Returns the smallest and largest share of the speed that points have lost in state `k`.
 fn lost(motion: &UniformMotion<'_>, k: usize) -> (f64, f64) {
     let v = motion.velocity;
     let losses = motion.course.points(velocity, k).map(|(_, seen)| 1.0 - dot(seen, v) / dot(v, v));
     losses.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)))
 }
 
-/// Smallest and largest displacement of points in the first step, relative to v dt.
+/// Returns the smallest and largest displacement of points in the first step, relative to v dt.
 fn first_share(motion: &UniformMotion<'_>) -> (f64, f64) {
     let v = motion.velocity;
     let scale = dot(v, v) * motion.course.times[1];
@@ -92,8 +92,8 @@ fn first_share(motion: &UniformMotion<'_>) -> (f64, f64) {
     shares.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)))
 }
 
-/// Finding on weights that do not sum to one. `soft` contains the relative errors of displacement
-/// and velocity in a run without stiffness.
+/// Returns the finding for weights that do not sum to one. `soft` contains the relative errors of
+/// displacement and velocity in a run without stiffness.
 fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) -> SolverFinding {
     let (way, speed) = motion.off();
     SolverFinding::defect(
@@ -114,7 +114,7 @@ fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) ->
     )
 }
 
-/// Finding on one end of the body that stops.
+/// Returns a finding if one end of the body stops.
 fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
     let (last, d) = (course.last(), course.problem.dimension);
@@ -142,7 +142,7 @@ fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     })
 }
 
-/// Finding on an error that begins when a particle first changes its cell.
+/// Returns a finding if the error begins when a particle first changes its cell.
 fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let course = &motion.course;
     let (h, origin) = (motion.scene.h, &course.problem.grid.origin);
@@ -178,7 +178,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     ))
 }
 
-/// Finding on an error that begins only at the rim.
+/// Returns a finding if the error begins only at the rim.
 fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
     let whole = size(v) * course.times[course.last()];

@@ -7,10 +7,10 @@ use crate::testing::doctor::course::{
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::Hindrance;
 
-/// Maximum relative difference between a figure and the pattern that explains it.
+/// Maximum relative difference between a measured value and the pattern that explains it.
 const NEAR: f64 = 0.02;
 
-/// The cause, if the motion matches a known pattern.
+/// Returns the cause, if the motion matches a known pattern.
 pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let course = &motion.course;
     let last = course.last();
@@ -26,7 +26,7 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>,
     if speed <= motion.patient.rounding() { Ok(way(motion)) } else { of_speed(motion) }
 }
 
-/// Finding on a vector with permuted components or wrong signs.
+/// Returns a finding if a vector has permuted components or wrong signs.
 fn turned(motion: &UniformMotion<'_>, column: &str, seen: [f64; 3]) -> Option<SolverFinding> {
     let d = motion.course.problem.dimension;
     let wanted = motion.velocity;
@@ -46,7 +46,7 @@ fn turned(motion: &UniformMotion<'_>, column: &str, seen: [f64; 3]) -> Option<So
     ))
 }
 
-/// Finding on velocities that change.
+/// Returns a finding if velocities change.
 fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let shares = shares(motion);
     let last = shares[shares.len() - 1];
@@ -105,7 +105,7 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     }))
 }
 
-/// Remaining share of the speed in the direction of motion at each time.
+/// Returns the remaining share of the speed in the direction of motion at each time.
 fn shares(motion: &UniformMotion<'_>) -> Vec<f64> {
     shares_of(motion)
 }
@@ -116,7 +116,7 @@ fn shares_of(motion: &UniformMotion<'_>) -> Vec<f64> {
     (1..=motion.course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect()
 }
 
-/// Finding on displacements that do not follow from correct velocities.
+/// Returns a finding if displacements do not follow from correct velocities.
 fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v, dt) = (&motion.course, motion.velocity, motion.scene.dt);
     let t = &course.times[1..];
@@ -163,7 +163,7 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     ))
 }
 
-/// The likely cause of a factor.
+/// Returns the likely cause of a factor.
 fn units(factor: f64) -> &'static str {
     let log = libm::log10(factor.abs());
     if (log - libm::round(log)).abs() <= 1e-3 && libm::round(log) != 0.0 {
@@ -173,7 +173,7 @@ fn units(factor: f64) -> &'static str {
     }
 }
 
-/// Finding on a motion that matches no known pattern.
+/// Returns the finding for a motion that matches no known pattern.
 pub(super) fn unknown(motion: &UniformMotion<'_>) -> SolverFinding {
     let (course, d) = (&motion.course, motion.course.problem.dimension);
     let last = course.last();

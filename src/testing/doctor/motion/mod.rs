@@ -54,7 +54,7 @@ fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
     if as_one { Ok(as_one::unknown(motion)) } else { apart::cause(motion) }
 }
 
-/// Finding on noise above the level of double precision.
+/// Returns the finding for noise above the level of double precision.
 pub(super) fn single(way: f64, speed: f64) -> SolverFinding {
     SolverFinding::defect(
         "single-precision",

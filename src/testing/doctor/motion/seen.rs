@@ -18,7 +18,7 @@ pub(super) struct UniformMotion<'a> {
 }
 
 impl UniformMotion<'_> {
-    /// Largest errors of displacements, relative to the distance, and velocities, to the speed.
+    /// Returns the largest errors of displacements and velocities, relative to distance and speed.
     pub(super) fn off(&self) -> (f64, f64) {
         let most = |all: &dyn Fn(usize) -> f64| {
             (0..=self.course.last()).map(all).fold(0.0, f64::max) / size(self.velocity)
@@ -27,7 +27,7 @@ impl UniformMotion<'_> {
         (most(&|k| self.way_off(k)) / end, most(&|k| self.speed_off(k)))
     }
 
-    /// Largest error of a displacement (m) in state `k`.
+    /// Returns the largest error of a displacement (m) in state `k`.
     pub(super) fn way_off(&self, k: usize) -> f64 {
         let wanted = times(self.course.times[k], self.velocity);
         self.course.farthest(displacement, k, wanted)

@@ -128,7 +128,7 @@ pub(crate) fn fits(
     Ok(())
 }
 
-/// Lowest and highest corner of a box.
+/// Compiles the lowest and highest corner of a box.
 ///
 /// # Errors
 /// A diagnostic about a box that is empty, too small or too large.

@@ -6,10 +6,11 @@ use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Maximum number of corners of a polygon. Every lattice cell is intersected with all sides.
+/// Maximum number of corners of a polygon. It limits the run time, because every lattice cell is
+/// intersected with all sides.
 const MOST: usize = 100;
 
-/// The polygon whose corners are at `path`.
+/// Compiles the polygon whose corners are at `path`.
 ///
 /// # Errors
 /// A diagnostic if the corners do not form a simple polygon.
@@ -36,7 +37,7 @@ pub(super) fn polygon(
     Ok(Arc::new(polygon))
 }
 
-/// The corners (m) of a list, which must be distinct.
+/// Compiles a list of corners (m), which must be distinct.
 pub(super) fn corners(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -9,7 +9,7 @@ use crate::suite::scene::face::FACES;
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
-/// The quadrilateral in `spec` at `path`, and its outline.
+/// Compiles the quadrilateral in `spec` at `path`, and its outline.
 ///
 /// # Errors
 /// A diagnostic about corners that do not form a convex quadrilateral.
@@ -36,7 +36,7 @@ pub(super) fn quadrilateral(
     Ok((Arc::new(outline.map_err(|(_, side)| to_the_right(side))?), panel))
 }
 
-/// Refuses conditions and loads on faces of the bounding box that contain no whole side.
+/// Refuses conditions and loads on faces of the bounding box on which no whole side lies.
 ///
 /// # Errors
 /// A diagnostic about the first condition or load on such a face.

@@ -7,7 +7,7 @@ use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// The annulus at `path`.
+/// Compiles the annulus at `path`.
 ///
 /// # Errors
 /// A diagnostic about invalid rims.
@@ -27,7 +27,7 @@ pub(super) fn annulus(
     Err(diagnostic.with_label("expected a number above `inner`"))
 }
 
-/// The disk or ball at `path`.
+/// Compiles the disk or ball at `path`.
 ///
 /// # Errors
 /// A diagnostic about an invalid centre or radius.

@@ -49,7 +49,7 @@ pub(crate) struct ThermalFace {
 }
 
 impl ThermalFace {
-    /// The corresponding face of the exact heat problem.
+    /// Returns the corresponding face of the exact heat problem.
     pub(crate) fn exact(&self) -> HeatFace {
         let Self { name, axis, high, condition } = self;
         HeatFace { name, axis: *axis, high: *high, condition: condition.clone() }
@@ -58,21 +58,21 @@ impl ThermalFace {
 
 /// Converts a thermal condition of a scene to a condition of the solver.
 pub(crate) trait BuildThermal<const D: usize> {
-    /// The condition; `None` if no heat enters.
+    /// Returns the condition; `None` if no heat enters.
     fn build(&self) -> Option<Thermal<D>> {
         None
     }
 }
 
 in_every_dimension! {
-    /// [`BuildThermal`] for any dimension.
+    /// Implementation of [`BuildThermal`] in every dimension.
     BuildThermals: BuildThermal
 }
 
-/// Trait of thermal conditions on one face of the body, with all numbers computed. The
-/// implementations are in `suite/scene/boundary/thermal`.
+/// A thermal condition on one face of the body, with all numbers computed. The implementations are
+/// in `suite/scene/boundary/thermal`.
 pub(crate) trait HeatCondition: BuildThermals + ThermalCondition + 'static {
-    /// Text for the report row of the face; `None` for a periodic face.
+    /// Returns the text for the report row of the face; `None` for a periodic face.
     fn row(&self) -> Option<String>;
 }
 

@@ -30,7 +30,7 @@ impl ThermalKeys for ConvectionSpec {
     }
 }
 
-/// `-Q . n = coefficient (ambient - T)`, per reference area.
+/// The condition `-Q . n = coefficient (ambient - T)`, per reference area.
 #[derive(Debug)]
 struct Convection {
     /// Heat transfer coefficient (W/(K m^(D-1))).

@@ -22,7 +22,7 @@ impl ThermalKeys for FluxSpec {
     }
 }
 
-/// `-Q . n = value`, per reference area.
+/// The condition `-Q . n = value`, per reference area.
 #[derive(Debug)]
 struct GivenFlux(Formula);
 

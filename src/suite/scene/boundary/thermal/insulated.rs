@@ -7,7 +7,7 @@ use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
-/// `Q . n = 0`.
+/// The condition `Q . n = 0`.
 #[derive(Debug)]
 pub(crate) struct Insulated;
 
@@ -35,7 +35,7 @@ impl HeatCondition for Insulated {
 
 impl<const D: usize> BuildThermal<D> for Insulated {}
 
-/// The face has the temperature and heat flux of the opposite face.
+/// A face with the temperature and heat flux of the opposite face.
 #[derive(Debug)]
 pub(crate) struct PeriodicTemperature;
 

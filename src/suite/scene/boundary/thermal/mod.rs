@@ -1,5 +1,5 @@
-//! Family of thermal conditions on the faces of a heat-conducting body. A new member needs one
-//! file, its `mod` line and one line below.
+//! Thermal conditions on the faces of a heat-conducting body. A new condition needs a file in this
+//! folder, its `mod` line and a line in `conditions!` below.
 
 mod contract;
 mod convection;

@@ -22,7 +22,7 @@ impl ThermalKeys for TemperatureSpec {
     }
 }
 
-/// `T = value`.
+/// The condition `T = value`.
 #[derive(Debug)]
 struct GivenTemperature(Formula);
 

@@ -6,9 +6,10 @@ use crate::testing::doctor::course::{AffineField, Course, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::{BoxScene, H, Kind};
 
-/// Rates of stretch along the first axis and of shear (1/s). Strains stay below 1e-3. The body is
-/// compressed, because artificial viscosity acts in compression only.
+/// Rate of stretch along the first axis (1/s). The body is compressed, because artificial viscosity
+/// acts in compression only. Strains stay below 1e-3.
 pub(super) const STRETCH: f64 = -5e-3;
+/// Rate of shear (1/s).
 pub(super) const SHEAR: f64 = 4e-3;
 
 /// Half the width of the tube whose momentum is measured (cells).
@@ -36,7 +37,7 @@ pub(super) struct MeasuredModuli {
     pub(super) viscous_share: f64,
 }
 
-/// The scene, which the examination `units` also uses.
+/// Creates the scene, which the examination `units` also uses.
 pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
     // With a cell of 0.15 m and these particle numbers, no two defects cause the same factor.
@@ -53,8 +54,8 @@ pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// Moduli from the momentum of the two halves of tubes along the axes. The momentum in a run
-/// without stiffness (`soft`) is subtracted, so that averaging does not count as stress.
+/// Computes moduli from the momentum of the two halves of tubes along the axes. The momentum in a
+/// run without stiffness (`soft`) is subtracted, so that averaging does not count as stress.
 pub(super) fn moduli_by_momentum(
     course: &Course,
     soft: Option<&Course>,
@@ -90,9 +91,9 @@ pub(super) fn moduli_by_momentum(
     measured
 }
 
-/// The constant part (Pa) and the rate (Pa/s) of a stress, from its impulses (Pa s) at several
-/// times (s): least-squares fit of `constant t + rate t^2/2`, starting at the end of the first
-/// step.
+/// Computes the constant part (Pa) and the rate (Pa/s) of a stress from its impulses (Pa s) at
+/// several times (s): least-squares fit of `constant t + rate t^2/2`, starting at the end of the
+/// first step.
 pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) -> [f64; 2] {
     let (mut rows, mut ends) = ([[0.0; 2]; 2], [0.0; 2]);
     for k in 2..impulse.len() {
@@ -109,9 +110,9 @@ pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) 
     [constant, (ends[1] * rows[0][0] - ends[0] * rows[1][0]) / det]
 }
 
-/// Impulse (Pa s) at each time of the stress with normal i and force direction j. This is the
-/// momentum transferred from the upper to the lower half of a tube along axis i, divided by the
-/// area of the tube. It is computed only from velocities at reference positions.
+/// Computes the impulse (Pa s) at each time of the stress with normal i and force direction j. This
+/// is the momentum transferred from the upper to the lower half of a tube along axis i, divided by
+/// the area of the tube. It is computed only from velocities at reference positions.
 pub(in crate::testing::doctor) fn impulses(
     course: &Course,
     scene: &BoxScene,
@@ -146,8 +147,8 @@ pub(in crate::testing::doctor) fn impulses(
 /// Maximum relative error of a column. The column may be one step old, and waves are near.
 pub(super) const NEAR: f64 = 0.2;
 
-/// Growth of the column `stress` along the stretch, relative to its expected growth; `None` without
-/// this column.
+/// Returns the growth of the column `stress` along the stretch, relative to its expected growth;
+/// `None` without this column.
 pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
     let (lambda, mu) = scene.lame();
@@ -156,15 +157,15 @@ pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     Some((along(last)? - along(1)?) / ((lambda + 2.0 * mu) * STRETCH * time))
 }
 
-/// F_00 - 1 in the column `deformation_gradient`, relative to that of the motion; `None` without
-/// this column.
+/// Returns F_00 - 1 in the column `deformation_gradient`, relative to that of the motion; `None`
+/// without this column.
 pub(super) fn strain_factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
     let f = inside(course, scene, &course.states[last].deformation_gradient)?;
     Some((f[0] - 1.0) / (STRETCH * course.times[last]))
 }
 
-/// Findings on columns that disagree with the motion.
+/// Returns findings on columns that disagree with the motion.
 pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> {
     let (d, last) = (scene.dimension, course.last());
     let (samples, t) = (&course.states[last], course.times[last]);
@@ -192,7 +193,7 @@ pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> 
     found
 }
 
-/// Mean of a tensor column less than one cell from the middle; `None` without this column.
+/// Returns the mean of a tensor column within a cell of the middle; `None` without the column.
 pub(in crate::testing::doctor) fn inside(
     course: &Course,
     scene: &BoxScene,
@@ -204,8 +205,8 @@ pub(in crate::testing::doctor) fn inside(
     })
 }
 
-/// Mean of a tensor column (`d * d` numbers per point) over the points for whose label `is_near`
-/// returns true. `None` without this column, NaN without such points.
+/// Returns the mean of a tensor column (`d * d` numbers per point) over the points for whose label
+/// `is_near` returns true. `None` without this column, NaN without such points.
 pub(in crate::testing::doctor) fn mean_tensor(
     course: &Course,
     column: &[f64],
@@ -224,7 +225,7 @@ pub(in crate::testing::doctor) fn mean_tensor(
     Some(sum.into_iter().map(|sum| sum / count).collect())
 }
 
-/// Entry of several tensors with the largest magnitude; infinite if an entry is NaN.
+/// Returns the entry with the largest magnitude of several tensors; infinite if an entry is NaN.
 pub(in crate::testing::doctor) fn largest_entry(tensors: &[f64]) -> f64 {
     tensors.iter().fold(0.0, |most, x| if x.is_nan() { f64::INFINITY } else { x.abs().max(most) })
 }

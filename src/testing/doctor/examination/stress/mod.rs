@@ -58,7 +58,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(all)
 }
 
-/// Finding on a body in tension, if the same body in compression has none.
+/// Examines the body in tension. Returns a finding if the stress differs from that in compression.
 fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
     let mut stretched = scene.clone();
     stretched.velocity.gradient = scene.velocity.gradient.map(|row| row.map(|slope| -slope));
@@ -78,8 +78,8 @@ fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFi
     }))
 }
 
-/// The run of `scene` and its moduli. If the solver `averages` velocities, also a run without
-/// stiffness.
+/// Runs `scene` and measures its moduli. If the solver `averages` velocities, a run without
+/// stiffness is made as well.
 fn measure(
     patient: &Patient<'_>,
     scene: &BoxScene,
@@ -95,7 +95,7 @@ fn measure(
     Ok((course, measured))
 }
 
-/// The result for one scene, and the share of momentum transferred by averaging.
+/// Examines one scene. Also returns the share of momentum transferred by averaging.
 fn examine_scene(
     patient: &Patient<'_>,
     scene: &BoxScene,
@@ -128,7 +128,7 @@ fn examine_scene(
     Ok((examined, measured.averaged_share))
 }
 
-/// Findings that a viscosity can cause as well.
+/// Names of findings that a viscosity can cause as well.
 const UNNAMED: [&str; 3] = ["stress-scaled", "velocity-gradient-scaled", "moduli-differ"];
 
 fn viscosity(measured: &MeasuredModuli) -> SolverFinding {
@@ -157,7 +157,7 @@ fn describe(scene: &BoxScene, measured: &MeasuredModuli) -> String {
     )
 }
 
-/// Finding on total momentum that changes, although internal forces conserve it.
+/// Returns a finding if the total momentum changes, although internal forces conserve it.
 fn lost_momentum(
     patient: &Patient<'_>,
     course: &Course,

@@ -31,7 +31,8 @@ const SMOOTH: f64 = 0.2;
 /// Maximum missing part of a wall force under gravity, as a share of the weight of a cell.
 const WEIGHT: f64 = 0.3;
 
-/// Maximum excess of that force, as a share of the weight of a cell; averaging (PIC) has 0.14.
+/// Maximum excess of a wall force under gravity, as a share of the weight of a cell. Averaging
+/// (PIC) has an excess of 0.14.
 const CARRIED: f64 = 0.4;
 
 /// Maximum error of displacements in a uniform stretch. Correct clients with quadratic functions
@@ -54,12 +55,12 @@ const KINDS: [&str; 11] = [
     "wall-breaks-linear-fields",
 ];
 
-/// The defect that explains all others, with the affected faces; without a defect, the remark.
+/// Returns the defect that explains all others, with its faces; without a defect, the remark.
 pub(super) fn finding(walls: &[Wall]) -> Option<SolverFinding> {
     first_kind(walls, of_wall).or_else(|| uneven(walls)).or_else(|| first_kind(walls, of_stretch))
 }
 
-/// The first finding in the order of [`KINDS`], with the faces that show it.
+/// Returns the first finding in the order of [`KINDS`], with the faces that show it.
 fn first_kind(
     walls: &[Wall],
     judge: impl Fn(&Wall) -> Option<SolverFinding>,
@@ -78,8 +79,8 @@ fn first_kind(
     Some(finding)
 }
 
-/// Finding on two walls whose forces differ but should be equal: opposite faces with one condition,
-/// or one face with two conditions if nothing moves along the face.
+/// Returns a finding on two walls whose forces differ but should be equal: opposite faces with one
+/// condition, or one face with two conditions if nothing moves along the face.
 fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
     let axis = |wall: &Wall| FACES.iter().position(|pair| pair.contains(&wall.face));
     let differ =
@@ -104,7 +105,7 @@ fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
     ))
 }
 
-/// Finding on a wall that moves particles, or at which no force acts.
+/// Returns a finding if the wall moves particles, or if no force acts at the wall.
 fn of_absent_wall(wall: &Wall) -> Option<SolverFinding> {
     let seen = format!("forces over the expected ones are {}", wall.describe());
     if let Some(jump) = wall.jump.filter(|jump| !(jump.abs() <= 3.0)) {
@@ -203,7 +204,7 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
     of_sinking(wall, &seen).or_else(|| of_column(wall))
 }
 
-/// Finding on a wall into which a body sinks under gravity.
+/// Returns a finding if a body sinks into the wall under gravity.
 fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     let [sinking, halved] = wall.sinking?;
     // Averaging (PIC) also softens the wall, but softens it more with smaller steps.
@@ -228,8 +229,8 @@ fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     None
 }
 
-/// Finding on a column `stress` that does not show the wall force. A wrong order of the points is
-/// visible only where the stress is not uniform.
+/// Returns a finding if the column `stress` does not show the wall force. A wrong order of the
+/// points is visible only where the stress is not uniform.
 fn of_column(wall: &Wall) -> Option<SolverFinding> {
     let column = wall.column.filter(|column| !THROWN.contains(column))?;
     Some(SolverFinding::defect(
@@ -243,7 +244,7 @@ fn of_column(wall: &Wall) -> Option<SolverFinding> {
     ))
 }
 
-/// Remark on a wall near which linear fields are not reproduced.
+/// Returns a remark if linear fields are not reproduced near the wall.
 fn of_stretch(wall: &Wall) -> Option<SolverFinding> {
     let error = Some(wall.stretch).filter(|error| !(error.abs() <= STRETCH))?;
     Some(SolverFinding::remark(

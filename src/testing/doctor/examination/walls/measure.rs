@@ -5,8 +5,9 @@ use crate::testing::doctor::examination::stress::{constant_and_rate, mean_tensor
 use crate::testing::doctor::patient::{Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
 
-/// Length of the bar, and distance that waves travel (cells).
+/// Length of the bar (cells).
 const CELLS: f64 = 16.0;
+/// Distance that waves travel during a run (cells).
 pub(super) const TRAVEL: f64 = 7.0;
 
 /// Number of steps; waves travel a quarter of a cell per step.
@@ -15,10 +16,11 @@ const STEPS: u64 = 28;
 /// Speed of the bar, relative to the wave speed.
 const SPEED: f64 = 1e-3;
 
-/// For the stretched bar: distance that waves travel (cells), number of steps, and strain rate
-/// times the time in which a wave crosses a cell.
+/// Distance that waves travel in the stretched bar (cells).
 const STRETCH_TRAVEL: f64 = 4.0;
+/// Number of steps of the stretched bar.
 const STRETCH_STEPS: u64 = 16;
+/// Strain rate of the stretched bar, times the time in which a wave crosses a cell.
 const STRETCH_RATE: f64 = 1e-4;
 
 /// Gravity (m/s2), which causes a speed of this order during the run.
@@ -28,7 +30,7 @@ const GRAVITY: f64 = 1e-3;
 /// time in which a wave crosses one cell.
 pub(super) const SUNK: f64 = 0.1;
 
-/// Results of the runs for one wall; `None` if no run measures the figure.
+/// Results of the runs for one wall; `None` for a quantity that no run measures.
 #[derive(Debug, Clone)]
 pub(super) struct Wall {
     pub(super) face: &'static str,
@@ -44,7 +46,7 @@ pub(super) struct Wall {
     /// Immediate force under gravity, relative to the weight of one cell. This is the force that is
     /// missing at all times.
     pub(super) offset: Option<f64>,
-    /// Displacement through the wall, over that of a free body while a wave crosses a cell.
+    /// Displacement through the wall, relative to that of a free body while a wave crosses a cell.
     pub(super) through: Option<f64>,
     /// Largest displacement in the first step, relative to that due to the velocity.
     pub(super) jump: Option<f64>,
@@ -54,12 +56,13 @@ pub(super) struct Wall {
     /// Error of the displacements in a uniform stretch from the wall, relative to the displacement
     /// at a distance of one cell.
     pub(super) stretch: f64,
-    /// Column `stress` next to the wall at the end of the first run, over the expected value.
+    /// Column `stress` next to the wall at the end of the first run, relative to its expected
+    /// value.
     pub(super) column: Option<f64>,
 }
 
 impl Wall {
-    /// The forces as text for reports.
+    /// Formats the forces for reports.
     pub(super) fn describe(&self) -> String {
         let forces = [
             ("pushed", self.pushed),
@@ -76,7 +79,7 @@ impl Wall {
     }
 }
 
-/// The bar along `axis`, fixed at both ends.
+/// Creates the bar along `axis`, fixed at both ends.
 pub(super) fn bar(kind: Kind, axis: usize, condition: &'static str) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], if kind.0 == 3 { 3.0 } else { 4.0 }, 3.0);
     scene.body.1[axis] = scene.body.0[axis] + CELLS * H;
@@ -87,8 +90,8 @@ pub(super) fn bar(kind: Kind, axis: usize, condition: &'static str) -> BoxScene 
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// Both walls normal to `axis`: the bar has an initial velocity, moves along the wall, and falls.
-/// On the first axis, both signs of the velocity are tested.
+/// Examines both walls normal to `axis`: the bar has an initial velocity, moves along the wall, and
+/// falls. On the first axis, both signs of the velocity are tested.
 pub(super) fn walls_across(
     patient: &Patient<'_>,
     kind: Kind,
@@ -172,13 +175,13 @@ pub(super) fn walls_across(
     }))
 }
 
-/// Errors of the displacements within two cells of the walls at both ends of `axis`, relative to
-/// the displacement at a distance of one cell; positive away from the wall.
+/// Computes the errors of the displacements within two cells of the walls at both ends of `axis`,
+/// relative to the displacement at a distance of one cell; positive away from the wall.
 ///
 /// With the initial velocity `v = a (X - X_wall)` along the normal, a linear elastic bar stretches
 /// uniformly until a wave arrives from its free end, and every particle keeps its velocity. A
-/// method reproduces this if its basis functions represent a linear velocity up to the wall. They
-/// do not if nodes beyond the wall are fixed at zero, because the exact nodal values continue with
+/// method reproduces this if its basis functions represent a linear velocity up to the wall. This
+/// fails if nodes behind the wall are fixed at zero, because the exact nodal values continue with
 /// opposite sign.
 fn stretch_errors(
     patient: &Patient<'_>,
@@ -204,7 +207,7 @@ fn stretch_errors(
     }))
 }
 
-/// The bar with one wall, stretched from that wall.
+/// Creates the bar with one wall, stretched from that wall.
 fn stretched(kind: Kind, end: BarEnd, condition: &'static str) -> BoxScene {
     let mut scene = bar(kind, end.axis, condition);
     scene.faces = vec![(FACES[end.axis][usize::from(end.high)], condition)];
@@ -222,7 +225,7 @@ fn stretched(kind: Kind, end: BarEnd, condition: &'static str) -> BoxScene {
     scene.with_waves(STRETCH_TRAVEL, STRETCH_STEPS)
 }
 
-/// A broad body between two `fixed` walls normal to `axis`. It moves along the walls with a
+/// Creates a broad body between two `fixed` walls normal to `axis`. It moves along the walls with a
 /// thousandth of `c` (m/s), and the run ends before waves have crossed it.
 fn broad(kind: Kind, axis: usize, c: f64) -> BoxScene {
     let mut scene = bar(kind, axis, "fixed");
@@ -246,19 +249,19 @@ struct BarEnd {
 }
 
 impl BarEnd {
-    /// Sign of the outward normal.
+    /// Returns the sign of the outward normal.
     fn sign(self) -> f64 {
         if self.high { 1.0 } else { -1.0 }
     }
 
-    /// Distance of a position from the wall (m).
+    /// Returns the distance of a position from the wall (m).
     fn depth(self, scene: &BoxScene, label: [f64; 3]) -> f64 {
         let ends = (scene.body.0[self.axis], scene.body.1[self.axis]);
         if self.high { ends.1 - label[self.axis] } else { label[self.axis] - ends.0 }
     }
 
-    /// Velocity component `along` that this half has gained since the start, times the length of
-    /// the half. This is the impulse of the wall divided by the mass per length (m2/s).
+    /// Returns the velocity component `along` that this half has gained since the start, times the
+    /// length of the half. This is the impulse of the wall divided by the mass per length (m2/s).
     fn gained(self, course: &Course, scene: &BoxScene, along: usize, k: usize) -> f64 {
         let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
         let weights = &course.states[0].weight;
@@ -275,9 +278,9 @@ impl BarEnd {
         half * sum / volume
     }
 
-    /// Wall force on a body with uniform initial velocity, relative to `rho c v`, in the last three
-    /// quarters of the run. The first quarter is ignored, because averaging (PIC) increases the
-    /// force there.
+    /// Returns the wall force on a body with uniform initial velocity, relative to `rho c v`, in
+    /// the last three quarters of the run. The first quarter is ignored, because averaging (PIC)
+    /// increases the force there.
     fn force(self, course: &Course, scene: &BoxScene, along: usize, c: f64) -> f64 {
         let last = course.last();
         let late = last / 4..=last;
@@ -287,8 +290,8 @@ impl BarEnd {
         -slope / (c * scene.velocity.value[along])
     }
 
-    /// Wall force under gravity from rest: the immediate part relative to `rho h g`, and the
-    /// growing part relative to `rho c g t`.
+    /// Returns the wall force under gravity from rest: the immediate part relative to `rho h g`,
+    /// and the growing part relative to `rho c g t`.
     fn force_under_gravity(self, course: &Course, scene: &BoxScene, c: f64) -> [f64; 2] {
         let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
         let held: Vec<f64> = (0..=course.last())
@@ -298,8 +301,8 @@ impl BarEnd {
         [constant / (scene.h * GRAVITY), rate / (c * GRAVITY)]
     }
 
-    /// Mean normal stress (Pa) less than two cells from the wall at the end; `None` if the solver
-    /// does not report the column.
+    /// Returns the mean normal stress (Pa) less than two cells from the wall at the end; `None` if
+    /// the solver does not report the column.
     fn stress_column(self, course: &Course, scene: &BoxScene) -> Option<f64> {
         let d = scene.dimension;
         let is_near = |label: &[f64]| {
@@ -310,8 +313,8 @@ impl BarEnd {
         Some(mean[self.axis * (d + 1)])
     }
 
-    /// Displacement (m) along the axis at the wall at the end, extrapolated by a line through the
-    /// points less than two cells from the wall.
+    /// Returns the displacement (m) along the axis at the wall at the end, extrapolated by a line
+    /// through the points less than two cells from the wall.
     fn at_wall(self, course: &Course, scene: &BoxScene) -> f64 {
         let (mut depth, mut out) = (Vec::new(), Vec::new());
         for (label, u) in course.points(displacement, course.last()) {
