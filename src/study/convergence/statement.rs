@@ -1,4 +1,4 @@
-//! The rows that describe a convergence study, and the outcomes of cases that have not run.
+//! Describes a convergence study in rows, and creates the outcomes of cases that have not run.
 
 use crate::exact::heat::Conduction;
 use crate::study::describe::statement::{Rows, push, scene, stated, step_profile};
@@ -11,7 +11,7 @@ use crate::suite::model::{Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::verify::{self, Axis, CaseOutcome, Expectation, Gating, StepKind};
 
-/// Rows of the whole study.
+/// Rows that describe the whole study.
 pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     let mut rows = Rows::new();
     scene(&plan.scene, &mut rows);
@@ -134,7 +134,7 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     push(rows, "--full adds", &full);
 }
 
-/// Description of the particle positions.
+/// Describes the particle positions.
 fn placed(scatter: &LatticeOffsets) -> String {
     let LatticeOffsets { shift, perturb, seed } = scatter;
     if scatter.is_none() {
@@ -161,7 +161,7 @@ pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
     rows
 }
 
-/// The part of an outcome that is known before the case runs.
+/// Creates the part of an outcome that is known before the case runs.
 pub(crate) fn described(
     plan: &ConvergencePlan,
     case: &Case,
@@ -184,7 +184,7 @@ pub(crate) fn described(
     }
 }
 
-/// Outcome of a case that does not apply to its solver.
+/// Creates the outcome of a case that does not apply to its solver.
 pub(crate) fn not_applicable(
     plan: &ConvergencePlan,
     case: &Case,
@@ -194,7 +194,7 @@ pub(crate) fn not_applicable(
     described(plan, case, None).not_applicable(lacks, verb)
 }
 
-/// Outcome of a case that could not be set up.
+/// Creates the outcome of a case that could not be set up.
 pub(crate) fn refused(
     plan: &ConvergencePlan,
     case: &Case,

@@ -1,5 +1,5 @@
-//! Gradient studies compare the derivatives of a differentiable solver with its own values, with
-//! exact sensitivities, and over an interval of a parameter.
+//! Gradient studies check the derivatives of a differentiable solver. They are compared with the
+//! solver's own values, with exact sensitivities, and with values over an interval of a parameter.
 
 mod run;
 use self::run::GradientRun;
@@ -85,7 +85,7 @@ fn has_gradient(solver: &dyn SolverFactory, parameter: GradientParameter) -> boo
     solver.lacks(&of(vec![parameter.name()])).len() == without
 }
 
-/// Capabilities that a case requires and `solver` lacks.
+/// Lists the capabilities that a case requires and `solver` lacks.
 fn lacking(plan: &GradientPlan, case: &GradientCase, solver: &dyn SolverFactory) -> Vec<String> {
     let one = &plan.parameters[case.parameter];
     let mut gradients = vec![one.parameter.name()];
@@ -96,7 +96,7 @@ fn lacking(plan: &GradientPlan, case: &GradientCase, solver: &dyn SolverFactory)
     solver.lacks(&ProblemNeeds { gradients, ..needs(&plan.problem) })
 }
 
-/// The part of an outcome that is known before the case runs.
+/// Creates the part of an outcome that is known before the case runs.
 fn described(
     plan: &GradientPlan,
     case: &GradientCase,
@@ -115,7 +115,7 @@ fn described(
     }
 }
 
-/// Outcome of a case that has run.
+/// Creates the outcome of a case that has run.
 fn judged(described: CaseOutcome, case: &GradientCase, study: GradientStudy) -> CaseOutcome {
     let (state, reason) = study.state();
     let unmet = case.expected.as_ref().map_or(Vec::new(), |(terms, _)| terms.unmet(&study));
@@ -128,7 +128,7 @@ fn judged(described: CaseOutcome, case: &GradientCase, study: GradientStudy) -> 
     }
 }
 
-/// Outcome of a case whose solver failed.
+/// Creates the outcome of a case whose solver failed.
 fn failed(described: CaseOutcome, reason: &str) -> CaseOutcome {
     let reason = format!("the solver {reason}");
     let is_expected = described.expected.is_some();

@@ -58,7 +58,7 @@ impl CaseRunner for StabilityRunner<'_> {
             row
         };
         let rows: Vec<StabilityRow> = plan.values.par_iter().map(row).collect();
-        // If the solver refuses the problem, the case does not fail.
+        // If the solver rejects the problem, the case does not fail.
         let refused = rows.iter().find_map(|row| row.refused.clone());
         if let Some(reason) = refused.filter(|_| context.solver.is_some()) {
             return described(&run).not_applicable(vec![reason], "refuses the problem:");
@@ -89,10 +89,10 @@ impl CaseRunner for StabilityRunner<'_> {
     }
 }
 
-/// The part of an outcome that is known before the case runs.
+/// Creates the part of an outcome that is known before the case runs.
 fn described(run: &CaseRun<'_>) -> CaseOutcome {
     let case = run.case;
-    // Without a fixed face, settings of walls have no effect.
+    // If no face is fixed, settings of walls have no effect.
     let walls = run.setup(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
     let mut settings = case.method.settings();
     settings.retain(|(key, _)| walls || key != "walls");
@@ -132,7 +132,7 @@ fn outcome(run: &CaseRun<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
     }
 }
 
-/// Rows that describe the study, with the set-up of its first row.
+/// Rows that describe the study. The set-up is that of the first row.
 pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
     let mut rows = Rows::new();
     let first = |value: &f64| plan.template.setup(&[(&plan.swept, *value)]).ok();
