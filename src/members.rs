@@ -1,5 +1,5 @@
-//! Lists the members of families whose files are in two modules, one line per member. Each module
-//! declares its own files from these lines and does not name files of the other module.
+//! Lists the members of families whose files are in two modules, with one line for each member.
+//! Each module declares its own files from these lines and does not name files of the other module.
 
 /// Calls the macro `declare` with every material. A line
 ///

@@ -2,9 +2,7 @@
 //!
 //! - `small_strain`: the solver does not have the simplification of the exact solution, which is
 //!   linearised or for small strains.
-//!
 //! - `single_precision`: the external solver uses single precision.
-//!
 //! - `loose_tolerance`: the tolerance of a linearised solution is unnecessarily large.
 
 use super::subject::Preflight;

@@ -1,9 +1,7 @@
 //! Checks the number of levels that count for an order, and the positions of particles in the grid.
 //!
 //! - `few_levels`: too few levels count for an order.
-//!
 //! - `leaves_grid`: the motion leaves the grid.
-//!
 //! - `end_on_node`: the last particles of a box start exactly on nodes, and basis functions are
 //!   linear. A particle on a node belongs to the cell above. The node at the far end of this cell
 //!   has no mass, so conditions and forces on it have no effect.
