@@ -30,7 +30,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
 /// Runs the cases of a convergence study. Data that several cases need are computed only once: a
-/// reference, and manufactured forces at equal places and times.
+/// reference, and manufactured forces at equal points and times.
 pub(crate) struct ConvergenceRunner<'a> {
     plan: ConvergencePlan,
     /// Number of cases that have not run yet.
