@@ -245,7 +245,6 @@ fn steps_that_follow_the_cells_are_not_shortened() {
 
 /// A translation is run under a law that the solver does not support. The problem then uses a law
 /// of the solver.
-/// solver.
 #[test]
 fn a_translation_needs_no_particular_law() {
     let folder = folder("0");
