@@ -93,7 +93,7 @@ macro_rules! each_effect {
 }
 pub(crate) use each_effect;
 
-/// The key of a field, without the prefix of raw identifiers: `yield` for `r#yield`.
+/// Returns the key of a field, without the prefix of raw identifiers: `yield` for `r#yield`.
 pub(crate) fn key(field: &'static str) -> &'static str {
     field.trim_start_matches("r#")
 }

@@ -21,7 +21,7 @@ macro_rules! named {
             /// All members, in declaration order.
             pub const ALL: &[Self] = &[$(Self::$member),+];
 
-            /// Name of the member in suites and reports.
+            /// Returns the name of the member in suites and reports.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$member => $text,)+

@@ -19,7 +19,7 @@ pub(crate) enum TensorRank {
 }
 
 impl TensorRank {
-    /// Tensor rank of a field in `d` dimensions; a single number is a scalar.
+    /// Returns the tensor rank of a field in `d` dimensions; a single number is a scalar.
     fn of(field: &StateField, d: usize) -> Self {
         match field.components {
             1 => Self::Scalar,

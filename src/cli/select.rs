@@ -174,7 +174,7 @@ fn unknown(name: &str) -> Diagnostic {
     diagnostic.with_help(&help)
 }
 
-/// Names of local and built-in suites and groups.
+/// Returns the names of local and built-in suites and groups.
 pub(super) fn suite_names() -> Vec<String> {
     let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
     let groups = local.iter().map(|path| Source::group_of(path));
@@ -186,7 +186,7 @@ pub(super) fn suite_names() -> Vec<String> {
     names
 }
 
-/// All suites in a folder.
+/// Returns all suites in a folder.
 fn files_in(folder: &Path) -> Sources {
     let name = folder.display().to_string();
     match Source::files_in(folder) {

@@ -138,7 +138,7 @@ impl Capabilities {
 }
 
 impl Capabilities {
-    /// Boolean capabilities, in the order of [`ProblemNeeds::flags`].
+    /// Returns the boolean capabilities, in the order of [`ProblemNeeds::flags`].
     fn flags(&self) -> [bool; 11] {
         [
             self.manufactured,
@@ -187,7 +187,7 @@ impl Capabilities {
 }
 
 impl ProblemNeeds {
-    /// Boolean requirements, with the names of the corresponding capabilities.
+    /// Returns the boolean requirements, with the names of the corresponding capabilities.
     fn flags(&self) -> [(&'static str, bool); 11] {
         [
             ("manufactured", self.manufactured),

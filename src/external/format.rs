@@ -56,7 +56,7 @@ impl LevelProblem {
 }
 
 impl LevelProblem {
-    /// Number of components per particle of a column.
+    /// Returns the number of components per particle of a column.
     fn width(&self, column: &[f64]) -> usize {
         column.len() / self.particles.len().max(1)
     }

@@ -37,10 +37,10 @@ pub use program::{ProgramError, ProgramLimits, SolverProgram, protocol_schema, r
 
 /// Creates an external solver for any level of a suite.
 pub trait SolverFactory: Sync {
-    /// Name of the solver and of its cases in reports.
+    /// Returns the name of the solver and of its cases in reports.
     fn name(&self) -> &str;
 
-    /// Theoretical order in h of the displacement error for a smooth solution.
+    /// Returns the theoretical order in h of the displacement error for a smooth solution.
     fn formal_order(&self) -> f64 {
         2.0
     }
@@ -50,13 +50,13 @@ pub trait SolverFactory: Sync {
         Precision::Double
     }
 
-    /// Settings for reports, as rows of name and value.
+    /// Returns the settings for reports, as rows of name and value.
     fn settings(&self) -> Vec<(String, String)> {
         Vec::new()
     }
 
-    /// Hash of all inputs that affect the results, except the problem: the program and its
-    /// arguments. Later runs of a solver with the same hash use cached results. `None` (the
+    /// Returns the hash of all inputs that affect the results, except the problem: the program and
+    /// its arguments. Later runs of a solver with the same hash use cached results. `None` (the
     /// default): results are not cached.
     fn identity(&self) -> Option<u64> {
         None

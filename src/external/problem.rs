@@ -90,7 +90,7 @@ impl ProblemParticles {
     /// Names of the optional columns.
     pub(super) const OPTIONAL: [&str; 2] = ["hoop_stress", "initial_stress"];
 
-    /// Number of particles.
+    /// Returns the number of particles.
     pub fn len(&self) -> usize {
         self.mass.len()
     }
@@ -212,7 +212,8 @@ pub struct ProblemMaterial {
 }
 
 impl ProblemMaterial {
-    /// Value of the parameter with this key (SI units); NaN if the law does not have it.
+    /// Returns the value of the parameter with this key (SI units); NaN if the law does not have
+    /// it.
     pub fn parameter(&self, key: &str) -> f64 {
         let found = self.parameters.iter().find(|(name, _)| *name == key);
         found.map_or(f64::NAN, |(_, value)| *value)

@@ -83,7 +83,7 @@ impl ResultCache {
         Ok(result)
     }
 
-    /// First error that occurred when a result was written, as text.
+    /// Returns the first error that occurred when a result was written, as text.
     pub fn diagnostic(&self) -> Option<String> {
         Some(format!("{}: {}", self.folder.display(), self.first_error.get()?))
     }

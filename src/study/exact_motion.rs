@@ -32,8 +32,8 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
     format!("largest |u| {displacement:.3e} m, largest |grad u| {gradient:.3e}")
 }
 
-/// Points of the body on a regular lattice over its bounding box, with `intervals` intervals along
-/// each axis.
+/// Returns the points of the body on a regular lattice over its bounding box, with `intervals`
+/// intervals along each axis.
 pub(crate) fn raster(problem: &Problem, intervals: usize) -> Vec<Vec<f64>> {
     let point = |mut rest: usize| {
         let corners = problem.from.iter().zip(&problem.to);
@@ -110,13 +110,13 @@ impl Extremes {
         self.acceleration = self.acceleration.max(size(&now.acceleration));
     }
 
-    /// Largest absolute coordinate (m) that a point of the body reaches during the run.
+    /// Returns the largest absolute coordinate (m) that a point of the body reaches during the run.
     pub(crate) fn largest_coordinate(&self) -> f64 {
         let ends = self.reach.iter().flat_map(|(low, high)| [low.abs(), high.abs()]);
         ends.filter(|x| x.is_finite()).fold(0.0, f64::max)
     }
 
-    /// Largest displacement (m) along an axis.
+    /// Returns the largest displacement (m) along an axis.
     pub(crate) fn largest_displacement(&self) -> f64 {
         self.displacement.iter().fold(0.0, |a, b| a.max(*b))
     }

@@ -34,7 +34,7 @@ impl CaseRunner for ForceRunner<'_> {
     }
 }
 
-/// Rows that describe the study.
+/// Returns the rows that describe the study.
 fn rows(plan: &ForcePlan) -> Rows {
     let mut rows = Rows::new();
     push(&mut rows, "cells", &format!("two of size {} m, {} particles each", plan.cell, plan.ppc));

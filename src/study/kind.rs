@@ -22,17 +22,17 @@ pub type Progress<'a> = &'a (dyn Fn() + Sync);
 
 /// A plan whose cases can be described and run.
 pub(crate) trait Study: StudyPlan {
-    /// Rows of name and value that describe the study.
+    /// Returns the rows of name and value that describe the study.
     fn statement(&self) -> Rows;
 
-    /// Capabilities that the study requires of an external solver; `None` if no external solver can
-    /// run it.
+    /// Returns the capabilities that the study requires of an external solver; `None` if no
+    /// external solver can run it.
     fn needs(&self) -> Option<ProblemNeeds> {
         None
     }
 
-    /// Profile of a step of case number `_case` on the coarsest level, optionally without one
-    /// effect. `None` for a study without levels, or if the subject has no profile.
+    /// Returns the profile of a step of case number `_case` on the coarsest level, optionally
+    /// without one effect. `None` for a study without levels, or if the subject has no profile.
     fn profile(&self, _case: usize, _without: Option<Dispensable>) -> Option<Profile> {
         None
     }
@@ -58,10 +58,11 @@ pub(crate) type ShowRun<'a> = &'a mut dyn FnMut(ShownRun<'_>) -> Result<(), Seri
 
 /// Runs the cases of one study.
 pub(crate) trait CaseRunner: Send + Sync {
-    /// Number of progress units of all cases together.
+    /// Returns the number of progress units of all cases together.
     fn units(&self) -> u64;
 
-    /// Warnings that are found without a run. Their texts do not contain the name of the suite.
+    /// Returns the warnings that are found without a run. Their texts do not contain the name of
+    /// the suite.
     fn warnings(&self) -> Vec<StepWarning> {
         Vec::new()
     }
@@ -155,15 +156,15 @@ pub(crate) fn study(suite: &Suite) -> &dyn Study {
     found.unwrap_or_else(|| panic!("`{}` is of a kind of study that is not listed", suite.name))
 }
 
-/// Rows of name and value that describe the problem of a suite, for reports.
+/// Returns the rows of name and value that describe the problem of a suite, for reports.
 pub fn statement(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = head(suite);
     rows.extend(study(suite).statement());
     rows
 }
 
-/// Profile of a step of the case `name` on the coarsest level, optionally without one effect.
-/// `None` for a case without levels, or if the subject has no profile.
+/// Returns the profile of a step of the case `name` on the coarsest level, optionally without one
+/// effect. `None` for a case without levels, or if the subject has no profile.
 pub fn profile(suite: &Suite, name: &str, without: Option<Dispensable>) -> Option<Profile> {
     let case = suite.case_names().into_iter().position(|case| case == name)?;
     study(suite).profile(case, without)

@@ -58,13 +58,13 @@ impl<'a> Runner<'a> {
         Self { suite, context, cases: study(suite).runner(context) }
     }
 
-    /// Number of progress units of all cases together.
+    /// Returns the number of progress units of all cases together.
     pub fn units(&self) -> u64 {
         self.cases.units()
     }
 
-    /// Warnings that are found without a run. They are about steps that are longer than the
-    /// predicted stable time step or differ from the requested ones.
+    /// Returns the warnings that are found without a run. They are about steps that are longer than
+    /// the predicted stable time step or differ from the requested ones.
     pub fn warnings(&self) -> Vec<StepWarning> {
         let text = |warning: &StepWarning| format!("{}::{}", self.suite.name, warning.text);
         let named = |warning| StepWarning { text: text(&warning), ..warning };

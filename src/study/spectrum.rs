@@ -24,7 +24,7 @@ use std::sync::Arc;
 /// Relative phase error. Reports state the wavelength at which it is reached.
 const ONE_PERCENT: f64 = 0.01;
 
-/// Capabilities that a run requires of a solver.
+/// Returns the capabilities that a run requires of a solver.
 fn needs(plan: &SpectrumPlan) -> ProblemNeeds {
     of_scene(&plan.scene)
 }
@@ -37,8 +37,8 @@ struct WaveRun<'a> {
 }
 
 impl WaveRun<'_> {
-    /// Number of cells per wavelength for which the phase error is 1 %, at the Courant number of
-    /// each wave.
+    /// Returns the number of cells per wavelength for which the phase error is 1 %, at the Courant
+    /// number of each wave.
     fn cells_for_one_percent(&self) -> Vec<Option<f64>> {
         let mut known: Vec<(f64, Option<f64>)> = Vec::new();
         let of = |wave: &Wave| {
@@ -80,7 +80,7 @@ impl WaveRun<'_> {
         }
     }
 
-    /// Number of steps in the run of `wave`.
+    /// Returns the number of steps in the run of `wave`.
     fn steps(&self, wave: &Wave) -> u64 {
         let log_kept = self
             .case
@@ -261,7 +261,7 @@ fn outcome(described: CaseOutcome, case: &SpectrumCase, rows: Vec<SpectrumRow>) 
     }
 }
 
-/// Rows that describe the study.
+/// Returns the rows that describe the study.
 fn rows(plan: &SpectrumPlan) -> Rows {
     let mut rows = Rows::new();
     scene(&plan.scene, &mut rows);

@@ -51,7 +51,7 @@ impl Functional {
     pub const NAMES: [&'static str; 4] =
         ["mean_displacement", "mean_square_displacement", "kinetic_energy", "position_of"];
 
-    /// Name of the functional in suites and messages.
+    /// Returns the name of the functional in suites and messages.
     pub fn name(self) -> &'static str {
         let index = match self {
             Self::MeanDisplacement { .. } => 0,

@@ -31,27 +31,29 @@ pub trait Subject {
     /// and their order must not change during a run.
     fn sample(&self, samples: &mut Samples);
 
-    /// Counters of the run so far.
+    /// Returns the counters of the run so far.
     fn counters(&self) -> RunCounters;
 
-    /// Names of the passes of a step in order, for reports, such as `P2G(mass, momentum)`; empty by
-    /// default.
+    /// Returns the names of the passes of a step in order, for reports, such as `P2G(mass,
+    /// momentum)`; empty by default.
     fn passes(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// Fields of each body, for viewer files; empty if the subject reports only samples.
+    /// Returns the fields of each body, for viewer files; empty if the subject reports only
+    /// samples.
     fn fields(&self) -> Vec<BodyFields> {
         Vec::new()
     }
 
-    /// Conserved sums over the body; `None` by default.
+    /// Returns the conserved sums over the body; `None` by default.
     fn totals(&self) -> Option<Totals> {
         None
     }
 
-    /// Reaction of all fixed walls, or of one face. The face is given by the axis of its normal,
-    /// and `true` if it is at the high end. `None` by default, and before the first step.
+    /// Returns the reaction of all fixed walls, or of one face. The face is given by the axis of
+    /// its normal, and `true` if it is at the high end. `None` by default, and before the first
+    /// step.
     fn reaction(&self, _face: Option<(usize, bool)>) -> Option<Reaction> {
         None
     }
@@ -63,10 +65,10 @@ pub trait Subject {
         false
     }
 
-    /// Kinetic energy (J) of the part of the velocities that the discretisation does not resolve.
-    /// For particles, this part is in the null space of the map to the grid. The computation may
-    /// cost as much as tens of steps, so callers request this energy only for reports. `None` by
-    /// default.
+    /// Returns the kinetic energy (J) of the part of the velocities that the discretisation does
+    /// not resolve. For particles, this part is in the null space of the map to the grid. The
+    /// computation may cost as much as tens of steps, so callers request this energy only for
+    /// reports. `None` by default.
     fn null_space_energy(&self) -> Option<f64> {
         None
     }
@@ -132,7 +134,7 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// Number of labels, `n`.
+    /// Returns the number of labels, `n`.
     pub fn len(&self) -> usize {
         self.weight.len()
     }

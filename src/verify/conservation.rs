@@ -30,7 +30,7 @@ named! {
 }
 
 impl Conserved {
-    /// Name in running text.
+    /// Returns the name as written in running text.
     pub fn words(self) -> String {
         self.name().replace('_', " ")
     }
@@ -60,7 +60,7 @@ impl ConservationError {
     /// Drifts of a failed run: all NaN.
     pub const NONE: Self = Self([f64::NAN; Conserved::ALL.len()]);
 
-    /// Drift of `sum`.
+    /// Returns the drift of `sum`.
     pub fn of(&self, sum: Conserved) -> f64 {
         self.0[sum as usize]
     }

@@ -116,7 +116,7 @@ impl LevelOutcome {
         }
     }
 
-    /// Name of the level in its study, such as `64 cells` or `dt = 1e-3 s`.
+    /// Returns the name of the level in its study, such as `64 cells` or `dt = 1e-3 s`.
     pub fn name(&self, axis: Axis) -> String {
         match (axis, self.ppc) {
             (Axis::Time, _) => format!("dt = {} s", format_number(self.dt)),
@@ -127,8 +127,8 @@ impl LevelOutcome {
 }
 
 impl Convergence {
-    /// Exact displacement (m) of the observed point in 1-D at the end of the run; `None` without an
-    /// observed point or an exact solution.
+    /// Returns the exact displacement (m) of the observed point in 1-D at the end of the run;
+    /// `None` without an observed point or an exact solution.
     pub fn observed_exact(&self) -> Option<f64> {
         let exact = self.levels.last()?.run.observed_exact.as_deref()?;
         let [u] = exact else { return None };
@@ -142,12 +142,12 @@ impl Convergence {
         self.observed_exact().map(|exact| estimate.covers(exact))
     }
 
-    /// Verdict of the judge.
+    /// Returns the verdict of the judge.
     pub fn verdict(&self) -> Verdict {
         self.judgement.verdict
     }
 
-    /// Position of the observed point, as written in titles.
+    /// Returns the position of the observed point, as written in titles.
     pub fn place(&self) -> Option<String> {
         let coordinates: Vec<String> =
             self.observed_at.as_ref()?.iter().map(ToString::to_string).collect();
@@ -171,7 +171,7 @@ impl Convergence {
         }
     }
 
-    /// Velocity history at the observed label, from the finest level that has one.
+    /// Returns the velocity history at the observed label, from the finest level that has one.
     pub fn history(&self) -> Option<&History> {
         self.levels.iter().rev().find_map(|level| level.run.history.as_ref())
     }

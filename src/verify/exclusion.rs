@@ -40,8 +40,8 @@ pub fn single_precision_spacing(largest: f64) -> Option<f64> {
     is_normal.then(|| f64::from(largest) - f64::from(largest.next_down()))
 }
 
-/// Bound (m), in `norm`, on the accumulated rounding error of positions after `steps` steps. In
-/// each step positions are rounded to multiples of `spacing` (m).
+/// Returns the bound (m), in `norm`, on the accumulated rounding error of positions after `steps`
+/// steps. In each step positions are rounded to multiples of `spacing` (m).
 ///
 /// One rounding error is uniform in `[-spacing/2, spacing/2]`, with the root mean square
 /// `spacing/sqrt 12`. Increments change little from step to step and are rounded alike. In the
@@ -56,7 +56,7 @@ pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
 }
 
 impl LevelOutcome {
-    /// Reason why the level does not count for the observed order; `None` if it counts.
+    /// Returns the reason why the level does not count for the observed order; `None` if it counts.
     pub fn exclusion(&self) -> Option<Exclusion> {
         let is_steady = |spread: f64| spread <= MOST_SPREAD * self.error;
         if !self.usable {
@@ -74,7 +74,7 @@ impl LevelOutcome {
     }
 }
 
-/// Levels that are excluded for the reason `by`.
+/// Returns the levels that are excluded for the reason `by`.
 fn excluded(levels: &[LevelOutcome], by: Exclusion) -> Vec<&LevelOutcome> {
     levels.iter().filter(|level| level.exclusion() == Some(by)).collect()
 }
@@ -141,7 +141,7 @@ fn spread_remark(levels: &[LevelOutcome], axis: Axis) -> Option<String> {
     })
 }
 
-/// A number with two digits, as text.
+/// Formats a number with two digits.
 fn shown(value: Option<f64>) -> String {
     value.map_or("none".to_owned(), |value| format_number(rounded(value, 2)))
 }

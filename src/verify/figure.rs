@@ -76,28 +76,28 @@ macro_rules! case_figures {
             /// All measured values, in the order of declaration.
             pub const ALL: [Self; [$(stringify!($key)),+].len()] = [$(Self::$member),+];
 
-            /// Key of the bound in suites.
+            /// Returns the key of the bound in suites.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$member => stringify!($key),)+
                 }
             }
 
-            /// Text in reports.
+            /// Returns the description for reports.
             pub fn text(self) -> &'static str {
                 match self {
                     $(Self::$member => $text,)+
                 }
             }
 
-            /// Side on which the bound limits the value.
+            /// Returns the side on which the bound limits the value.
             pub fn bound_kind(self) -> BoundKind {
                 match self {
                     $(Self::$member => BoundKind::$bound,)+
                 }
             }
 
-            /// Part of a suite that the value requires.
+            /// Returns the part of a suite that the value requires.
             pub fn need(self) -> FigureNeed {
                 match self {
                     $(Self::$member => FigureNeed::$need,)+
@@ -115,29 +115,29 @@ macro_rules! case_figures {
 }
 each_case_figure!(case_figures);
 
-/// Largest judged error of the levels that count; NaN if one of these is NaN.
+/// Returns the largest judged error of the levels that count; NaN if one of these is NaN.
 fn largest_error(levels: &[LevelOutcome]) -> Option<f64> {
     counted(levels).map(|level| level.error).reduce(larger)
 }
 
-/// Smallest judged error of the levels that count; NaN if one of these is NaN.
+/// Returns the smallest judged error of the levels that count; NaN if one of these is NaN.
 fn smallest_error(levels: &[LevelOutcome]) -> Option<f64> {
     counted(levels).map(|level| level.error).reduce(|a, b| -larger(-a, -b))
 }
 
-/// Distance (m) between the observed point and its exact position, on the finest level.
+/// Returns the distance (m) between the observed point and its exact position, on the finest level.
 fn observed_error(levels: &[LevelOutcome]) -> Option<f64> {
     levels.last().and_then(|level| level.run.observed_error)
 }
 
-/// Largest speed near the end on the levels that count, relative to the wave speed. `None` if a
-/// level has no such speed, because the exact solution is not a state of rest.
+/// Returns the largest speed near the end on the levels that count, relative to the wave speed.
+/// `None` if a level has no such speed, because the exact solution is not a state of rest.
 fn residual_speed(levels: &[LevelOutcome]) -> Option<f64> {
     let speeds: Option<Vec<f64>> = counted(levels).map(|level| level.run.residual_speed).collect();
     speeds.and_then(|speeds| speeds.into_iter().reduce(larger))
 }
 
-/// Levels that count for the verdict.
+/// Returns the levels that count for the verdict.
 pub(super) fn counted(levels: &[LevelOutcome]) -> impl Iterator<Item = &LevelOutcome> {
     levels.iter().filter(|level| level.usable)
 }
@@ -154,7 +154,7 @@ macro_rules! run_figures {
         }
 
         impl RunFigure {
-            /// Heading in tables.
+            /// Returns the heading for tables.
             pub fn head(self) -> &'static str {
                 match self {
                     $(Self::$member => $head,)+

@@ -109,8 +109,8 @@ impl JudgePlan<'_> {
         judge(levels, &OrderHypothesis { formal_order, expected, axis })
     }
 
-    /// Reason why the gate requires nothing of a case with these levels; `None` if it requires
-    /// something.
+    /// Returns the reason why the gate requires nothing of a case with these levels; `None` if it
+    /// requires something.
     pub(super) fn exemption(&self, levels: &[LevelOutcome]) -> Option<String> {
         match self.gating {
             Some(Gating::NotGated(reason)) => Some(reason.clone()),

@@ -87,7 +87,7 @@ impl SuiteOutcome {
         self.cases.iter().all(CaseOutcome::passed)
     }
 
-    /// Results of all studies of type `R`, with the names of their cases.
+    /// Returns the results of all studies of type `R`, with the names of their cases.
     pub fn results<'a, R: StudyResults>(&'a self) -> impl Iterator<Item = (&'a str, &'a R)> {
         let study = |case: &'a CaseOutcome| Some((case.case.as_str(), case.results()?));
         self.cases.iter().filter_map(study)
@@ -123,7 +123,7 @@ impl CaseOutcome {
         self.lacks.is_empty() && self.exemption.is_none()
     }
 
-    /// Value of the method's setting `name`.
+    /// Returns the value of the method's setting `name`.
     pub fn setting(&self, name: &str) -> Option<&str> {
         self.settings.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
     }
@@ -189,7 +189,7 @@ impl CaseOutcome {
         Self { verdict, reason, exemption, expected: None, ..self }
     }
 
-    /// The expectation and its reason in one line.
+    /// Returns the expectation and its reason in one line.
     pub fn expectation(&self) -> String {
         match &self.expected {
             _ if self.exemption.is_some() => format!("nothing: {}", self.reason),
@@ -198,12 +198,12 @@ impl CaseOutcome {
         }
     }
 
-    /// The convergence study; `None` for other kinds of study.
+    /// Returns the convergence study; `None` for other kinds of study.
     pub fn convergence(&self) -> Option<&Convergence> {
         self.results()
     }
 
-    /// Results of the study, if they have the type `R`.
+    /// Returns the results of the study, if they have the type `R`.
     pub fn results<R: StudyResults>(&self) -> Option<&R> {
         let results: &dyn Any = self.study.as_deref()?;
         results.downcast_ref()

@@ -40,8 +40,8 @@ pub trait Reruns: Sync {
     /// If the level cannot be set up.
     fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, Self::Error>;
 
-    /// Sizes of the numbers that the solver rounds; `None` if the judged quantity has no natural
-    /// size.
+    /// Returns the sizes of the numbers that the solver rounds; `None` if the judged quantity has
+    /// no natural size.
     fn rounding(&self) -> Option<RoundingSizes>;
 }
 

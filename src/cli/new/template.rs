@@ -29,7 +29,7 @@ pub(in crate::cli) enum TruthChoice {
 }
 
 impl LawChoice {
-    /// Name of the material in suites.
+    /// Returns the name of the material in suites.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::LinearElastic => "linear_elastic",
@@ -48,7 +48,7 @@ impl LawChoice {
 }
 
 impl TruthChoice {
-    /// Name of the solution on the command line.
+    /// Returns the name of the solution on the command line.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Manufactured => "manufactured",

@@ -50,7 +50,7 @@ pub(super) fn prepare(
 }
 
 impl SolverGate {
-    /// Suites whose cases must all be tested for the gate to pass.
+    /// Returns the suites whose cases must all be tested for the gate to pass.
     pub(super) fn required(&self) -> BTreeSet<String> {
         if self.allows_not_applicable { BTreeSet::new() } else { self.named.clone() }
     }
@@ -226,7 +226,7 @@ fn check_order(source: &Source, path: &[Step], order: f64) -> Result<(), Diagnos
     Err(diagnostic.with_label(&format!("expected a number above 0 and up to {HIGHEST_ORDER}")))
 }
 
-/// Names of all suites and groups that an entry may refer to.
+/// Returns the names of all suites and groups that an entry may refer to.
 fn known_names(suites: &[Suite]) -> Vec<String> {
     let mut known = select::suite_names();
     for suite in suites {

@@ -216,13 +216,13 @@ struct Judging {
 }
 
 impl Judging {
-    /// Settings for reporting the results in a cache without running levels.
+    /// Returns the settings for reporting the results in a cache without running levels.
     fn of_kept(kept: ResultCache) -> Self {
         let (solvers, repeat) = (Vec::new(), 1);
         Self { kept: Some(kept), solvers, repeat, series: None, at_interrupt: None }
     }
 
-    /// Suites whose cases must all be tested for the gates to pass.
+    /// Returns the suites whose cases must all be tested for the gates to pass.
     fn required(&self) -> BTreeSet<String> {
         let gates = self.solvers.iter().filter_map(|solver| solver.gate.as_ref());
         gates.flat_map(SolverGate::required).collect()

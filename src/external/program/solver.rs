@@ -121,9 +121,9 @@ pub(super) struct Started {
     pub(super) bytes: Vec<u8>,
 }
 
-/// Hash of the command, of the files among its arguments, and of the hello message. Changes in
-/// other files that the program reads, such as modules, are detected only if the version in `hello`
-/// changes.
+/// Returns the hash of the command, of the files among its arguments, and of the hello message.
+/// Changes in other files that the program reads, such as modules, are detected only if the version
+/// in `hello` changes.
 fn identity(command: &[String], hello: &Hello) -> u64 {
     let mut all = DefaultHasher::new();
     (command, format!("{hello:?}")).hash(&mut all);

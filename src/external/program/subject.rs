@@ -13,8 +13,8 @@ use serde_json::json;
 /// Maximum number of requests for values for each step. The requests are counted between instants.
 pub(super) const QUESTIONS_PER_STEP: u64 = 1000;
 
-/// Maximum length (bytes) of an answer to `problem`. The limit allows all columns as decimal text,
-/// for three times as many points as particles.
+/// Returns the maximum length (bytes) of an answer to `problem`. The limit allows all columns as
+/// decimal text, for three times as many points as particles.
 pub(super) fn longest_answer(problem: &LevelProblem) -> usize {
     let (d, points) = (problem.dimension, 1000 + 3 * problem.particles.len());
     32 * points * (3 * d + 2 * d * d + 2)

@@ -37,15 +37,15 @@ pub(super) fn judge_plan<'a>(
     }
 }
 
-/// Distance (m) between neighbouring positions in single precision. Set if a solver in single
-/// precision is judged by its displacement and the motion is given by formulas.
+/// Returns the distance (m) between neighbouring positions in single precision. `None` unless a
+/// solver in single precision is judged by its displacement and formulas give the motion.
 fn position_spacing(plan: &ConvergencePlan, case: &Case) -> Option<f64> {
     let is_judged = plan.of == Quantity::Displacement && case.against != Against::Nothing;
     let exact = plan.exact.as_ref().filter(|_| is_judged && case.method.is_single_precision())?;
     single_precision_spacing(Extremes::of(exact).largest_coordinate())
 }
 
-/// Conserved sums whose drift is reported for a case without bounds on drifts.
+/// Returns the conserved sums whose drift is reported for a case without bounds on drifts.
 fn sums(plan: &ConvergencePlan, case: &Case) -> Vec<Conserved> {
     let dimension = plan.scene.dimension();
     let of_law = plan.scene.material.properties().has_energy(dimension).is_ok();
@@ -60,7 +60,7 @@ fn sums(plan: &ConvergencePlan, case: &Case) -> Vec<Conserved> {
     Conserved::ALL.iter().copied().filter(|sum| moves && has(sum)).collect()
 }
 
-/// Sizes of the numbers that the solver of a case rounds.
+/// Returns the sizes of the numbers that the solver of a case rounds.
 pub(super) fn rounding_sizes(
     plan: &ConvergencePlan,
     case: &Case,
@@ -93,7 +93,7 @@ const MIDPOINT: f64 = 2.0;
 /// non-zero.
 const AT_REST: f64 = 1e-9;
 
-/// Formal order of the displacement error.
+/// Returns the formal order of the displacement error.
 pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
     match plan.refine.axis {
         Axis::Space => case.method.formal_order(),
@@ -102,12 +102,12 @@ pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
     }
 }
 
-/// Formal order in time. Euler-Cromer is a leapfrog of order 2 if it starts with `v(-dt/2)`. A
-/// start with `v(0)` instead causes a velocity error of `dt/2 a(0)`: order 1 unless `a(0)` is zero.
-/// USF adds `dt grad v` of the initial velocity to F before the first motion: order 1 unless `v(0)`
-/// is zero. (USL and USF also have first-order terms proportional to h^2 and to the strain squared,
-/// which the suite temporal-order examines.) Without a formula for the motion, `v(0)` and `a(0)`
-/// are assumed to be non-zero.
+/// Returns the formal order in time. Euler-Cromer is a leapfrog of order 2 if it starts with
+/// `v(-dt/2)`. A start with `v(0)` instead causes a velocity error of `dt/2 a(0)`: order 1 unless
+/// `a(0)` is zero. USF adds `dt grad v` of the initial velocity to F before the first motion: order
+/// 1 unless `v(0)` is zero. (USL and USF also have first-order terms proportional to h^2 and to the
+/// strain squared, which the suite temporal-order examines.) Without a formula for the motion,
+/// `v(0)` and `a(0)` are assumed to be non-zero.
 pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
         Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),
@@ -158,7 +158,7 @@ fn begins(problem: &Problem) -> [bool; 2] {
 const FINE: usize = 20;
 const COARSE: usize = 8;
 
-/// Error scale of a case whose errors are measured against `truth`.
+/// Returns the error scale of a case whose errors are measured against `truth`.
 pub(crate) fn error_scale(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
     ErrorScale {
         problem: match case.load_steps(plan) {
@@ -180,7 +180,7 @@ fn size(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
     largest_exact(plan, case, truth)
 }
 
-/// Largest exact value of the judged quantity over the body and the run.
+/// Returns the largest exact value of the judged quantity over the body and the run.
 pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
     // A reference run with shorter steps has values at its own labels only. A formula for the
     // motion has values everywhere.
@@ -195,7 +195,7 @@ pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Tru
     plan.of.largest_exact(truth, &places(plan, per_axis), &times)
 }
 
-/// Sampling points of the body, including its faces.
+/// Returns the sampling points of the body, including its faces.
 fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
     let scene = &plan.scene;
     let place = |index: usize| -> Vec<f64> {
@@ -209,8 +209,8 @@ fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
     (0..(per_axis + 1).pow(scene.dimension() as u32)).map(place).filter(inside).collect()
 }
 
-/// Theoretical growth of the work, as a power of 1/spacing. The growth of the number of steps is
-/// computed from the levels, because the time step may be any formula.
+/// Returns the theoretical growth of the work, as a power of 1/spacing. The growth of the number of
+/// steps is computed from the levels, because the time step may be any formula.
 fn growth(plan: &ConvergencePlan) -> f64 {
     let d = plan.scene.dimension() as f64;
     let levels = &plan.refine.levels;

@@ -306,7 +306,7 @@ impl CaseRuns<'_, '_> {
     }
 }
 
-/// Resolution of a level that has run, with its actual time step.
+/// Returns the resolution of a level that has run, with its actual time step.
 fn taken(level: &LevelOutcome) -> LevelPlan {
     let LevelOutcome { cells, h, dt, ppc, .. } = *level;
     LevelPlan { cells, h, dt, ppc }

@@ -319,8 +319,8 @@ mod tests {
         (0..points).flat_map(point).collect()
     }
 
-    /// A polynomial of degree 5, 2 and 1 along the axes. These are the highest degrees that the
-    /// points determine.
+    /// Returns a polynomial of degree 5, 2 and 1 along the axes. These are the highest degrees that
+    /// the points determine.
     fn field(label: &[f64]) -> Vec<f64> {
         let degrees = [5.0, 2.0, 1.0];
         let product: f64 = label.iter().zip(degrees).map(|(x, n)| 1.0 - libm::pow(*x, n)).product();

@@ -11,7 +11,7 @@ use crate::suite::model::{Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::verify::{self, Axis, CaseOutcome, Expectation, Gating, StepKind};
 
-/// Rows that describe the whole study.
+/// Returns the rows that describe the whole study.
 pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     let mut rows = Rows::new();
     scene(&plan.scene, &mut rows);
@@ -49,7 +49,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     rows
 }
 
-/// Rows with the exact temperature; empty without a heat problem.
+/// Returns the rows with the exact temperature; empty without a heat problem.
 fn exact_temperature(plan: &ConvergencePlan) -> Vec<(String, String)> {
     let Some(problem) = plan.heat_problem() else { return Vec::new() };
     let Conduction { temperature, manufactured, motion, .. } = problem;
@@ -95,7 +95,7 @@ fn judged(plan: &ConvergencePlan) -> String {
     plan.scale.map_or_else(|| judged.clone(), |scale| format!("{judged}, divided by {scale}"))
 }
 
-/// Rows with time steps and particles, and with cells if they are not refined.
+/// Returns the rows with time steps and particles, and with cells if they are not refined.
 fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     let (plan, instants) = (&study.refine, study.instants);
     let list = |of: &dyn Fn(&LevelPlan) -> Option<u64>, levels: &[LevelPlan]| {
@@ -148,7 +148,7 @@ fn placed(scatter: &LatticeOffsets) -> String {
     format!("{} of their spacing", both.join(" and "))
 }
 
-/// Rows with the settings of one case.
+/// Returns the rows with the settings of one case.
 pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
     let mut rows = case.method.settings();
     let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());

@@ -34,7 +34,7 @@ pub struct TimeStep {
 }
 
 impl TimeStep {
-    /// Ratio of the actual step to the requested step.
+    /// Returns the ratio of the actual step to the requested step.
     pub fn ratio(&self) -> f64 {
         self.clock.dt() / self.wanted
     }
@@ -161,7 +161,7 @@ impl StableSteps {
         found
     }
 
-    /// Warnings about levels and fine grids of references, in the order of their runs.
+    /// Returns the warnings about levels and fine grids of references, in the order of their runs.
     pub(crate) fn warnings(&self, plan: &ConvergencePlan, extent: Extent) -> Vec<StepWarning> {
         let levels = plan.refine.levels(extent);
         let each = |case: &Case| levels.iter().copied().chain(case.against.fine_grid());
@@ -187,7 +187,7 @@ fn simplest(method: Method) -> Method {
     Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision }
 }
 
-/// Actual time step (s).
+/// Returns the actual time step (s).
 fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     case.clock(plan, level.dt).map_or(level.dt, |clock| clock.dt())
 }

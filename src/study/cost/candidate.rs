@@ -56,7 +56,7 @@ fn common_divisor(a: u64, b: u64) -> u64 {
 }
 
 impl Candidate {
-    /// The finest level of the converging part.
+    /// Returns the finest level of the converging part.
     pub(crate) fn finest(&self) -> &LevelOutcome {
         &self.study.levels[self.ranked.part.levels.end - 1]
     }
@@ -120,19 +120,19 @@ impl Candidate {
         Some(Self { stride: self.stride, reach: REACH, ..judged })
     }
 
-    /// Maximum number of cells of a level that is considered.
+    /// Returns the maximum number of cells of a level that is considered.
     pub(crate) fn most_cells(&self) -> u64 {
         let finest = self.finest().cells;
         let reach = if self.error.obstacle().is_none() { self.reach } else { 1 };
         finest.saturating_mul(reach).min(self.most_known())
     }
 
-    /// Maximum number of cells for which the reference is accurate enough.
+    /// Returns the maximum number of cells for which the reference is accurate enough.
     fn most_known(&self) -> u64 {
         self.case.against.fine_grid().map_or(u64::MAX, |level| level.cells / FINE_GRID)
     }
 
-    /// Reason why no level finer than `level` is considered; `None` if one is.
+    /// Returns the reason why no level finer than `level` is considered; `None` if one is.
     pub(crate) fn limit(&self, level: LevelPlan) -> Option<String> {
         let next = level.cells.saturating_add(self.stride);
         let last = next > self.most_cells();

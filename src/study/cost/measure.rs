@@ -21,16 +21,16 @@ use std::hint::black_box;
 use std::sync::LazyLock;
 use std::time::Instant;
 
-/// Minimum number of repeats.
+/// Minimum number of time measurements of a level.
 const FEWEST: usize = 5;
 
-/// Minimum total time (s) of the repeats.
+/// Minimum total time (s) of all measurements of a level.
 const LEAST: f64 = 0.05;
 
-/// Maximum total time (s) of the repeats.
+/// Total time (s) of the measurements after which a level is not measured again.
 const LONGEST: f64 = 1.0;
 
-/// Maximum number of repeats.
+/// Maximum number of time measurements of a level.
 const MOST: usize = 200;
 
 /// The time measurement of one level.
@@ -210,7 +210,7 @@ pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
 }
 
 impl Goal<'_> {
-    /// Name of the case.
+    /// Returns the name of the case.
     pub fn case(&self) -> &str {
         &self.case.name
     }
@@ -220,7 +220,7 @@ impl Goal<'_> {
         self.level.cells
     }
 
-    /// Error relative to the size of the solution, from the judged run.
+    /// Returns the error relative to the size of the solution, from the judged run.
     pub fn error(&self) -> f64 {
         self.error
     }
@@ -319,7 +319,7 @@ impl Observed {
     }
 }
 
-/// Load average over the last minute, if the system reports it.
+/// Returns the load average over the last minute, if the system reports it.
 fn load_average() -> Option<f64> {
     std::fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
 }

@@ -11,7 +11,7 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::sources;
 use crate::verify::rounded;
 
-/// Rows with the parameters and functions of a suite.
+/// Returns the rows with the parameters and functions of a suite.
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let parameter = |(name, text, value): &(String, String, Option<f64>)| match value {
@@ -152,12 +152,12 @@ pub enum Dispensable {
 }
 
 impl Dispensable {
-    /// All removable parts.
+    /// Returns all removable parts.
     pub fn all() -> impl Iterator<Item = Self> {
         EffectName::ALL.iter().map(|effect| Self::Effect(*effect)).chain([Self::Contact])
     }
 
-    /// Name in suites and reports.
+    /// Returns the name that suites and reports use.
     pub fn name(self) -> &'static str {
         match self {
             Self::Effect(effect) => effect.name(),
@@ -166,7 +166,7 @@ impl Dispensable {
     }
 }
 
-/// Cost profile of a step of `case` on the coarsest level.
+/// Returns the cost profile of a step of `case` on the coarsest level.
 pub(crate) fn step_profile(plan: &ConvergencePlan, case: &Case) -> Option<Profile> {
     dispatch::profile(plan, case.method, *plan.refine.levels.first()?)
 }

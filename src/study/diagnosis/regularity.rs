@@ -155,13 +155,14 @@ pub(crate) struct Jump {
 pub(crate) struct Sizes([f64; GROUPS.len()]);
 
 impl Sizes {
-    /// Length (m) over which the displacement changes: the square root of the ratio of its size to
-    /// the size of its second derivatives. For a sine this is the wavelength divided by 2 pi.
+    /// Returns the length (m) over which the displacement changes: the square root of the ratio of
+    /// its size to the size of its second derivatives. For a sine this is the wavelength divided by
+    /// 2 pi.
     pub(crate) fn length(&self) -> f64 {
         (self.0[0] / self.0[5]).sqrt()
     }
 
-    /// Length (m) over which the displacement gradient changes.
+    /// Returns the length (m) over which the displacement gradient changes.
     pub(crate) fn gradient_length(&self) -> f64 {
         self.0[2] / self.0[5]
     }
@@ -220,7 +221,7 @@ impl LocalLine {
         place
     }
 
-    /// Points of the line inside the body, with their numbers.
+    /// Returns the points of the line inside the body, with their numbers.
     fn inside<'a>(&'a self, problem: &'a Problem) -> impl Iterator<Item = (usize, Vec<f64>)> + 'a {
         let count = INTERVALS[problem.dimension().clamp(1, 3) - 1];
         let from = self.from[self.axis];

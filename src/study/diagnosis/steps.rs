@@ -20,8 +20,8 @@ const IN_QUESTION: f64 = 0.5;
 const CAUTIOUS: f64 = 0.2;
 
 /// Maximum ratio of the error with a stable step to the error with a longer one, for which the step
-/// is the cause. If the step is shortened to 2/5, an accurate method of order 2 in time has a ratio
-/// of 1/6.
+/// is the cause. For comparison: if the step is shortened to 2/5, an accurate method of order 2 in
+/// time has a ratio of 1/6.
 const MENDED: f64 = 0.03;
 
 /// A level whose step exceeds a limit (s), and its repetition with a stable step.
@@ -119,7 +119,7 @@ fn mended<'a>(known: &Known<'a>) -> Option<Vec<Mended<'a>>> {
     Some(mended).filter(|mended| !mended.is_empty())
 }
 
-/// Time step (s) above which the step of a level is doubtful.
+/// Returns the time step (s) above which the step of a level is doubtful.
 fn limit(plan: &ConvergencePlan, level: &LevelOutcome) -> Option<f64> {
     if plan.steps == StepKind::Load {
         return None;

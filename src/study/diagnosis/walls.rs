@@ -72,7 +72,7 @@ fn moving_wall(known: &Known<'_>) -> Option<KnownCause> {
     })
 }
 
-/// Largest distance (m) by which a face moves along its normal until time `until` (s).
+/// Returns the largest distance (m) by which a face moves along its normal until time `until` (s).
 fn path(problem: &Problem, face: &SceneFace, until: f64) -> f64 {
     let at = if face.high { problem.to[face.axis] } else { problem.from[face.axis] };
     let mut longest = 0.0_f64;

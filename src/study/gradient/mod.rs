@@ -136,7 +136,7 @@ fn failed(described: CaseOutcome, reason: &str) -> CaseOutcome {
     CaseOutcome { verdict: "failed".to_owned(), reason, unmet, ..described }
 }
 
-/// Rows that describe the study.
+/// Returns the rows that describe the study.
 fn rows(plan: &GradientPlan) -> Rows {
     let mut rows = statement::rows(&plan.problem);
     rows.retain(|(key, _)| !["instants", "judged", "crossing levels"].contains(&key.as_str()));

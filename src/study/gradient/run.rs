@@ -152,7 +152,8 @@ impl GradientRun<'_> {
         Ok(level_problem(self.context.suite, &self.plan.problem, &self.case.solver, level)?)
     }
 
-    /// Rounding error of the Taylor remainder, in units of the largest term of the functional.
+    /// Returns the rounding error of the Taylor remainder, in units of the largest term of the
+    /// functional.
     fn rounding(&self) -> f64 {
         let half = match self.solver.precision() {
             Precision::Double => 0.5 * f64::EPSILON,
@@ -161,7 +162,8 @@ impl GradientRun<'_> {
         ROUNDING * half
     }
 
-    /// Maximum difference between the reported value and the value of a run without derivatives.
+    /// Returns the maximum difference between the reported value and the value of a run without
+    /// derivatives.
     fn tolerance(&self, plain: FunctionalValue) -> f64 {
         let relative = match self.solver.precision() {
             Precision::Double => 1e-12,

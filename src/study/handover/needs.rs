@@ -15,7 +15,7 @@ use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::verify::{Quantity, StepKind, SumNeed};
 use std::sync::Arc;
 
-/// Capabilities that a convergence study requires.
+/// Returns the capabilities that a convergence study requires.
 pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         column: column(plan.of),
@@ -31,7 +31,7 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     needs
 }
 
-/// Capabilities that a scene requires. They do not depend on the judged quantities.
+/// Returns the capabilities that a scene requires. They do not depend on the judged quantities.
 pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         dimension: scene.dimension(),
@@ -64,7 +64,7 @@ pub fn lacking(suite: &Suite, solver: &dyn SolverFactory) -> Vec<String> {
     study(suite).needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
 }
 
-/// Column of the judged quantity, if it is optional.
+/// Returns the column of the judged quantity, if it is optional.
 fn column(of: Quantity) -> Option<&'static str> {
     (of.is_optional() && !of.is_sum()).then(|| of.name())
 }
@@ -110,8 +110,9 @@ fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<Con
     Some(plan)
 }
 
-/// Value of a parameter of the replacing law. If the stated law has the same parameter, its value
-/// is used. Otherwise the stiffness of the stated law is used, so the time step remains stable.
+/// Returns the value of a parameter of the replacing law. If the stated law has the same parameter,
+/// its value is used. Otherwise the stiffness of the stated law is used, so the time step remains
+/// stable.
 fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     let parameters = own.parameters();
     let known = parameters.iter().find(|(other, _)| other.what == parameter.what);

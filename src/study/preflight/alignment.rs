@@ -20,7 +20,7 @@ struct Plane {
 }
 
 impl Plane {
-    /// Distance from the nearest grid line, in cells of size `h` (m).
+    /// Returns the distance from the nearest grid line, in cells of size `h` (m).
     fn off(&self, scene: &Scene, h: f64) -> f64 {
         let line = (self.x - grid_axis(scene, self.axis, h).0) / h;
         (line - libm::round(line)).abs()

@@ -179,8 +179,8 @@ pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     vec![found.with_help(&help)]
 }
 
-/// Factor by which the distance between positions in single precision decreases if the body is
-/// centred at the origin; `None` if it does not decrease.
+/// Returns the factor by which the distance between positions in single precision decreases if the
+/// body is centred at the origin; `None` if it does not decrease.
 fn nearer_origin(motion: &Extremes, spacing: f64) -> Option<f64> {
     let lengths = motion.reach.iter().map(|(low, high)| high - low);
     let half = 0.5 * lengths.filter(|length| length.is_finite()).fold(0.0, f64::max);

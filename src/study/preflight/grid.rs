@@ -122,8 +122,8 @@ pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     found.into_iter().collect()
 }
 
-/// Position (m) of the last particles along `axis` in the solver, if they lie on nodes that are not
-/// the last nodes of the grid.
+/// Returns the position (m) of the last particles along `axis` in the solver, if they lie on nodes
+/// that are not the last nodes of the grid.
 fn last_on_node(plan: &ConvergencePlan, axis: usize, level: &LevelPlan) -> Option<f64> {
     let scene = &plan.scene;
     if !scene.faces.get(2 * axis + 1)?.hold.is_free() {

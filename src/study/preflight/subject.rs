@@ -33,12 +33,12 @@ impl<'a> Preflight<'a> {
         self.of_an_order().next().is_some()
     }
 
-    /// Levels that run without `--full`.
+    /// Returns the levels that run without `--full`.
     pub(crate) fn levels(&self) -> &[LevelPlan] {
         self.plan.refine.levels(Extent::Usual)
     }
 
-    /// Cases with an expected order, which is stated or theoretical.
+    /// Returns the cases with an expected order, which is stated or theoretical.
     pub(crate) fn of_an_order(&self) -> impl Iterator<Item = &Case> {
         let claims = |case: &&Case| match &case.expectation {
             Some(expected) => expected.verdict == Some(Verdict::Converging),
@@ -47,7 +47,7 @@ impl<'a> Preflight<'a> {
         self.plan.cases.iter().filter(claims)
     }
 
-    /// Path of the list of levels on the refined axis.
+    /// Returns the path of the list of levels on the refined axis.
     pub(crate) fn sizes(&self) -> Path {
         Path::top("refine").then(match self.plan.refine.axis {
             Axis::Space => "cells",
@@ -56,13 +56,13 @@ impl<'a> Preflight<'a> {
         })
     }
 
-    /// Path of the exact solution.
+    /// Returns the path of the exact solution.
     pub(crate) fn truth(&self) -> Path {
         let keys = ["exact", "manufactured", "equilibrium"].map(Path::top);
         keys.into_iter().find(|path| self.stands(path)).unwrap_or_else(|| Path::top("exact"))
     }
 
-    /// Path of the motion in the exact solution.
+    /// Returns the path of the motion in the exact solution.
     pub(crate) fn motion(&self) -> Path {
         let motion = self.truth().then("displacement");
         if self.stands(&motion) { motion } else { self.truth() }

@@ -11,7 +11,7 @@ use crate::suite::compile::stability::setup::RunSetup;
 use crate::suite::model::Scene;
 use crate::verify::is_looked_at;
 
-/// Capabilities that a run requires of a solver.
+/// Returns the capabilities that a run requires of a solver.
 pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
     let start = handed("", setup).map(|problem| problem.particles);
     let mut needs = ProblemNeeds {

@@ -132,7 +132,7 @@ fn outcome(run: &CaseRun<'_>, rows: Vec<StabilityRow>) -> CaseOutcome {
     }
 }
 
-/// Rows that describe the study. The set-up is that of the first row.
+/// Returns the rows that describe the study. The set-up is that of the first row.
 pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
     let mut rows = Rows::new();
     let first = |value: &f64| plan.template.setup(&[(&plan.swept, *value)]).ok();

@@ -72,8 +72,8 @@ impl CaseRun<'_> {
         Ok(setup)
     }
 
-    /// Stable time step (s). For an external solver, the time in which a wave crosses a cell is
-    /// used.
+    /// Returns the stable time step (s). For an external solver, the time in which a wave crosses a
+    /// cell is used.
     fn stable_time_step(&self, setup: &RunSetup) -> Result<f64, SubjectError> {
         let of_body = |body: &Body<'_>| match self.case.method {
             Method::External { .. } => Ok(setup.level.h / body.own.wave_speed()),

@@ -65,7 +65,7 @@ impl Model {
         best.map(|(_, seconds)| Self { seconds })
     }
 
-    /// Predicted seconds of a run.
+    /// Returns the predicted seconds of a run.
     pub fn predict(&self, load: &Workload) -> f64 {
         load.columns().iter().zip(&self.seconds).map(|(x, s)| x * s).sum()
     }
@@ -133,7 +133,7 @@ mod tests {
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
-    /// Workload of a level in 2-D, with additional cells around the body.
+    /// Returns the workload of a level in 2-D, with additional cells around the body.
     fn load(cells: f64) -> Workload {
         let (particles, steps) = (4.0 * cells * cells, 10.0 * cells);
         Workload {

@@ -75,7 +75,7 @@ impl PredictedError {
         Self { levels, beyond }
     }
 
-    /// Reason why no error is predicted for finer levels; `None` if one is predicted.
+    /// Returns the reason why no error is predicted for finer levels; `None` if one is predicted.
     pub fn obstacle(&self) -> Option<Unpredicted> {
         self.beyond.err()
     }

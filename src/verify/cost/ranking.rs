@@ -101,7 +101,7 @@ fn ranked(method: MethodCost, targets: &[f64], front: Vec<usize>) -> Ranked {
 }
 
 impl Ranked {
-    /// Reason why the method does not reach the finest target; `None` if it does.
+    /// Returns the reason why the method does not reach the finest target; `None` if it does.
     pub fn obstacle(&self) -> Option<End> {
         let reached = self.reaches.last().is_some_and(|reach| reach.work().is_some());
         (!reached).then_some(self.part.end)

@@ -212,7 +212,7 @@ impl Reach {
         }
     }
 
-    /// Work at the error, if it is reached.
+    /// Returns the work at the error, if it is reached.
     pub fn work(&self) -> Option<f64> {
         match self {
             Self::At { work, .. } | Self::Already { work, .. } => Some(*work),
@@ -220,7 +220,7 @@ impl Reach {
         }
     }
 
-    /// Spacing at the error, if it is reached.
+    /// Returns the spacing at the error, if it is reached.
     pub fn spacing(&self) -> Option<f64> {
         match self {
             Self::At { spacing, .. } | Self::Already { spacing, .. } => Some(*spacing),

@@ -51,7 +51,7 @@ impl Timing {
         Some(Self { median: at(0.5), low: at(0.25), high: at(0.75), repeats: sorted.len() })
     }
 
-    /// Interquartile range divided by the median.
+    /// Returns the interquartile range divided by the median.
     pub fn spread(&self) -> f64 {
         (self.high - self.low) / self.median
     }
@@ -82,7 +82,7 @@ impl TimedSuite {
         by_transfers(&self.outcome.cases)
     }
 
-    /// Measured time (s) of level number `level` of a case.
+    /// Returns the measured time (s) of level number `level` of a case.
     pub fn timing(&self, case: &str, level: usize) -> Option<Timing> {
         let index = self.outcome.cases.iter().position(|known| known.case == case)?;
         self.levels.get(index)?.get(level)?.1

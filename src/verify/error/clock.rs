@@ -57,12 +57,12 @@ impl Clock {
         (usable && steps <= MOST_STEPS).then_some(steps.max(1.0) as u64)
     }
 
-    /// Length of a step (s).
+    /// Returns the length of a step (s).
     pub fn dt(&self) -> f64 {
         self.until / self.steps as f64
     }
 
-    /// Time after `step` steps, without accumulated rounding errors.
+    /// Returns the time after `step` steps, without accumulated rounding errors.
     pub fn time(&self, step: u64) -> f64 {
         self.until * step as f64 / self.steps as f64
     }

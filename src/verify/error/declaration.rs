@@ -100,7 +100,7 @@ pub(super) enum TensorShape {
 }
 
 impl TensorShape {
-    /// Number of components at each label in `d` dimensions.
+    /// Returns the number of components at each label in `d` dimensions.
     pub(super) fn components(&self, d: usize) -> usize {
         match self {
             // In zero dimensions there is nothing to compare, not even a scalar.

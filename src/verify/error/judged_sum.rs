@@ -45,7 +45,7 @@ impl JudgedSum {
         Ok(Self { of, exact, reference, face })
     }
 
-    /// Largest size of the exact sum during the run. Errors are relative to it.
+    /// Returns the largest size of the exact sum during the run. Errors are relative to it.
     pub fn size(&self) -> f64 {
         let size = self.exact.size();
         match self.of.sum().map(|sum| sum.computed) {
@@ -54,7 +54,8 @@ impl JudgedSum {
         }
     }
 
-    /// Difference from the exact sum at time `t` (s); NaN if the subject does not report the sum.
+    /// Returns the difference from the exact sum at time `t` (s); NaN if the subject does not
+    /// report the sum.
     pub(super) fn error(&self, subject: &dyn Subject, t: f64) -> [f64; 3] {
         let found = match self.of.sum().map(|sum| sum.computed) {
             Some(ComputedSum::OfTotals(value)) => {

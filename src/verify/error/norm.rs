@@ -175,12 +175,12 @@ impl RunErrors {
     }
 }
 
-/// Euclidean length of a vector.
+/// Returns the Euclidean length of a vector.
 pub(super) fn length(error: &[f64]) -> f64 {
     error.iter().fold(0.0, |sum, &e| libm::hypot(sum, e))
 }
 
-/// Largest length of vectors in `dimension` dimensions; NaN if any length is NaN.
+/// Returns the largest length of vectors in `dimension` dimensions; NaN if any length is NaN.
 pub(super) fn largest_length(vectors: &[f64], dimension: usize) -> f64 {
     vectors.chunks_exact(dimension.max(1)).map(length).fold(0.0, larger)
 }

@@ -70,17 +70,17 @@ impl Quantity {
         }
     }
 
-    /// The quantity with this name.
+    /// Returns the quantity with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|known| known.name() == name)
     }
 
-    /// Name in running text.
+    /// Returns the name as written in running text.
     pub fn words(self) -> String {
         self.name().replace('_', " ")
     }
 
-    /// Unit; empty for a dimensionless quantity.
+    /// Returns the unit; empty for a dimensionless quantity.
     pub fn unit(self) -> &'static str {
         self.declaration().unit
     }
@@ -112,14 +112,15 @@ impl Quantity {
         self.sum().is_some()
     }
 
-    /// Quantity that is plotted at labels: `self`, or the displacement if `self` is a sum.
+    /// Returns the quantity that is plotted at labels: `self`, or the displacement if `self` is a
+    /// sum.
     #[must_use]
     pub fn at_labels(self) -> Self {
         if self.is_sum() { Self::default() } else { self }
     }
 
-    /// Property of the problem that a sum requires, in addition to a moving body; `None` for a
-    /// field.
+    /// Returns the property of the problem that a sum requires, in addition to a moving body;
+    /// `None` for a field.
     pub(crate) fn sum_need(self) -> Option<SumNeed> {
         self.sum().map(|sum| sum.needs)
     }
@@ -133,13 +134,13 @@ impl Quantity {
         self.declaration().sum
     }
 
-    /// Size of the numbers whose rounding limits the smallest possible error, on a body of length
-    /// `length` (m). NaN if it is unknown.
+    /// Returns the size of the numbers whose rounding limits the smallest possible error, on a body
+    /// of length `length` (m). NaN if it is unknown.
     pub fn rounding_size(self, length: f64) -> f64 {
         (self.declaration().rounding_size)(length)
     }
 
-    /// Number of components at each label in `d` dimensions.
+    /// Returns the number of components at each label in `d` dimensions.
     fn components(self, d: usize) -> usize {
         self.declaration().shape.components(d)
     }

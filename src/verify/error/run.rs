@@ -277,7 +277,7 @@ pub struct RunResult {
 }
 
 impl RunResult {
-    /// Errors of the displacement (m), regardless of the judged quantity.
+    /// Returns the errors of the displacement (m), regardless of the judged quantity.
     pub fn errors_of_displacement(&self) -> &RunErrors {
         self.displacement_errors.as_ref().unwrap_or(&self.errors)
     }

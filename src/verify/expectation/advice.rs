@@ -29,7 +29,7 @@ pub(crate) fn range(order: f64) -> String {
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
-/// Levels that count for the verdict.
+/// Returns the levels that count for the verdict.
 pub(crate) fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome> {
     study.levels.iter().filter(|level| level.usable)
 }

@@ -82,12 +82,12 @@ pub struct GateResult {
 }
 
 impl Requirement {
-    /// Lowest order that is accepted.
+    /// Returns the lowest order that is accepted.
     fn lowest(&self) -> Option<f64> {
         self.order.map(|order| order - OrderHypothesis::TOLERANCE)
     }
 
-    /// The requirement in one line.
+    /// Returns the requirement in one line.
     pub fn summary(&self) -> String {
         let order = self.lowest().map(|order| format!("order at least {order:.2}"));
         let bound = self.bound().map(|bound| format!("errors at most {:e}", rounded(bound, 4)));
@@ -95,13 +95,13 @@ impl Requirement {
         parts.join(", or ")
     }
 
-    /// Bound at which errors are accepted without an order.
+    /// Returns the bound at which errors are accepted without an order.
     fn bound(&self) -> Option<f64> {
         self.error_below.or(self.own_error_below)
     }
 
-    /// Reason why these levels cannot test the requirement; `None` if they can. The failure of a
-    /// level is never such a reason, because the gate rejects failures.
+    /// Returns the reason why these levels cannot test the requirement; `None` if they can. The
+    /// failure of a level is never such a reason, because the gate rejects failures.
     pub(crate) fn untestable(&self, levels: &[Level]) -> Option<String> {
         let has_failed =
             levels.iter().any(|level| level.failed.is_some() || !level.error.is_finite());

@@ -33,7 +33,7 @@ impl Measured {
     pub const NONE: Self =
         Self { figures: [None; CaseFigure::ALL.len()], drift: None, energy_rate: None };
 
-    /// Measured value of `figure`.
+    /// Returns the measured value of `figure`.
     pub fn figure(&self, figure: CaseFigure) -> Option<f64> {
         self.figures[figure as usize]
     }
@@ -86,12 +86,12 @@ impl Limits {
         *self == Self::default()
     }
 
-    /// Bound on the measured value `figure`.
+    /// Returns the bound on the measured value `figure`.
     pub fn bound(&self, figure: CaseFigure) -> Option<f64> {
         self.bounds.iter().find(|(bounded, _)| *bounded == figure).map(|(_, limit)| *limit)
     }
 
-    /// Sums with a bound on their drift.
+    /// Returns the sums with a bound on their drift.
     pub fn drifts(&self) -> Vec<Conserved> {
         self.drift.iter().map(|(sum, _)| *sum).collect()
     }

@@ -132,7 +132,7 @@ impl Expectation {
         unmet
     }
 
-    /// The expectation in one line, for reports.
+    /// Returns the expectation in one line, for reports.
     pub fn summary(&self) -> String {
         let mut parts: Vec<String> = self.verdict.iter().map(Verdict::to_string).collect();
         parts.extend(self.order.map(|b| format!("order within {}", show(b))));

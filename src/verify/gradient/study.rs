@@ -29,7 +29,7 @@ pub struct GradientLevel {
 }
 
 impl GradientLevel {
-    /// Magnitude of the error of the derivative.
+    /// Returns the magnitude of the error of the derivative.
     pub fn error(&self) -> f64 {
         (self.gradient - self.exact).abs()
     }
@@ -96,15 +96,15 @@ impl GradientStudy {
         }
     }
 
-    /// Orders of the derivative error between neighbouring levels; NaN if undefined.
+    /// Returns the orders of the derivative error between neighbouring levels; NaN if undefined.
     pub fn pairwise_orders(&self) -> Vec<f64> {
         let level = |level: &GradientLevel| Level::new(level.h, level.error());
         let order = |pair: &[GradientLevel]| observed_order(&level(&pair[0]), &level(&pair[1]));
         self.levels.windows(2).map(|pair| order(pair).unwrap_or(f64::NAN)).collect()
     }
 
-    /// Order of the derivative error: the slope of the least-squares line of log error over log h.
-    /// NaN with fewer than two levels, or if an error is zero or not finite.
+    /// Returns the order of the derivative error: the slope of the least-squares line of log error
+    /// over log h. NaN with fewer than two levels, or if an error is zero or not finite.
     pub fn order(&self) -> f64 {
         let point = |(index, level): (usize, &GradientLevel)| LogPoint {
             level: index,
@@ -128,14 +128,14 @@ pub struct GradientTerms {
 }
 
 impl GradientTerms {
-    /// Requirements of the gate on a solver with this formal order: any state except `wrong`, and
-    /// the order.
+    /// Returns the requirements of the gate on a solver with this formal order: any state except
+    /// `wrong`, and the order.
     pub fn of_gate(formal_order: f64) -> Self {
         let around = |width: f64| Some((formal_order - width, formal_order + width));
         Self { state: None, order: around(ORDER), finest: around(FINEST) }
     }
 
-    /// Requirements in one line.
+    /// Returns the requirements in one line.
     pub fn summary(&self) -> String {
         let range = |name: &str, range: (f64, f64)| {
             format!("{name} {} to {}", format_number(range.0), format_number(range.1))

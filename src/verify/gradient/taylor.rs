@@ -63,8 +63,8 @@ impl Taylor {
         self.perturbed.iter().map(remainder).collect()
     }
 
-    /// Orders of the remainder between consecutive perturbations; `None` if a remainder is not
-    /// larger than its rounding error.
+    /// Returns the orders of the remainder between consecutive perturbations; `None` if a remainder
+    /// is not larger than its rounding error.
     pub fn orders(&self) -> Vec<Option<f64>> {
         let all: Vec<(f64, f64)> =
             self.perturbed.iter().map(|p| p.by).zip(self.remainders()).collect();
@@ -154,8 +154,8 @@ impl Taylor {
     }
 }
 
-/// Difference between the largest and the smallest number, relative to the largest magnitude; NaN
-/// if a number is NaN.
+/// Returns the difference between the largest and the smallest number, relative to the largest
+/// magnitude; NaN if a number is NaN.
 fn spread(numbers: &[f64]) -> f64 {
     if numbers.iter().any(|number| number.is_nan()) {
         return f64::NAN;
@@ -178,7 +178,7 @@ fn has_tail(orders: &[Option<f64>], range: (f64, f64)) -> bool {
     end - start == LEVELS - 1 && orders[start..end].iter().all(|order| is_in(*order, range))
 }
 
-/// Maximum number of consecutive orders in a range.
+/// Returns the maximum number of consecutive orders in a range.
 fn longest_run(orders: &[Option<f64>], range: (f64, f64)) -> usize {
     let extend = |(longest, now): (usize, usize), order: &Option<f64>| {
         let now = if is_in(*order, range) { now + 1 } else { 0 };

@@ -33,7 +33,7 @@ impl Interval {
         format!("{:.2} [{:.2}, {:.2}]", self.value, self.low, self.high)
     }
 
-    /// Half of the width of the interval.
+    /// Returns half of the width of the interval.
     pub fn half_width(&self) -> f64 {
         0.5 * (self.high - self.low)
     }
@@ -76,8 +76,8 @@ impl FittedLine {
         (sxx > 0.0 && line.slope.is_finite()).then_some(line)
     }
 
-    /// Vertical distance of a point from the line: `ln` of the ratio of its error to that of the
-    /// line.
+    /// Returns the vertical distance of a point from the line: `ln` of the ratio of its error to
+    /// that of the line.
     pub(crate) fn departure(&self, point: &LogPoint) -> f64 {
         (point.y - self.mean_y) - self.slope * (point.x - self.mean_x)
     }

@@ -38,15 +38,15 @@ impl OrderHypothesis {
         Self { axis, ..self }
     }
 
-    /// Range in which the observed order must lie.
+    /// Returns the range in which the observed order must lie.
     pub fn range(&self) -> (f64, f64) {
         let formal = self.formal_order;
         let usual = (formal - Self::TOLERANCE, formal + Self::TOLERANCE);
         self.expected.unwrap_or(usual)
     }
 
-    /// Reason why this hypothesis cannot be tested: the range is not finite and positive, or is so
-    /// wide that nearly every order is inside. `None` if it can be tested.
+    /// Returns the reason why this hypothesis cannot be tested: the range is not finite and
+    /// positive, or is so wide that nearly every order is inside. `None` if it can be tested.
     pub(crate) fn diagnostic(&self) -> Option<String> {
         let (low, high) = self.range();
         let orders = [self.formal_order, low, high];

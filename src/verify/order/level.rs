@@ -18,7 +18,7 @@ named! {
 }
 
 impl Axis {
-    /// Symbol of the refined spacing, for texts and tables.
+    /// Returns the symbol of the refined spacing, for texts and tables.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Space => "h",
@@ -27,7 +27,7 @@ impl Axis {
         }
     }
 
-    /// Name of the refined spacing.
+    /// Returns the name of the refined spacing.
     pub fn noun(self) -> &'static str {
         match self {
             Self::Space => "cell size",

@@ -124,7 +124,7 @@ pub enum EstimateRefusal {
 }
 
 impl EstimateRefusal {
-    /// The reason in two or three words, for tables.
+    /// Returns the reason in two or three words, for tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::TooFewLevels { .. } => "too few levels",

@@ -15,7 +15,7 @@ pub struct SpectrumExpectation {
 }
 
 impl SpectrumExpectation {
-    /// The expectation in one line.
+    /// Returns the expectation in one line.
     pub fn summary(&self) -> String {
         let phase = self.phase_within.map(|share| format!("phase error within {share} of theory"));
         let damping = self

@@ -59,12 +59,12 @@ impl Recurrence {
         Self { determinant, deficit: 1.0 - trace + determinant }
     }
 
-    /// Sum of the eigenvalues of the step.
+    /// Returns the sum of the eigenvalues of the step.
     pub fn trace(&self) -> f64 {
         1.0 + self.determinant - self.deficit
     }
 
-    /// Product of the eigenvalues of the step.
+    /// Returns the product of the eigenvalues of the step.
     pub fn determinant(&self) -> f64 {
         self.determinant
     }
@@ -75,14 +75,14 @@ impl Recurrence {
         2.0 * self.deficit * (1.0 + self.determinant) - self.deficit * self.deficit - lost * lost
     }
 
-    /// Argument of the complex eigenvalues (rad), which is the phase angle per step; `None` if the
-    /// eigenvalues are real or NaN.
+    /// Returns the argument of the complex eigenvalues (rad), which is the phase angle per step;
+    /// `None` if the eigenvalues are real or NaN.
     pub fn angle(&self) -> Option<f64> {
         let discriminant = self.discriminant();
         (discriminant > 0.0).then(|| libm::atan2(discriminant.sqrt(), self.trace()))
     }
 
-    /// Logarithm of the largest modulus of an eigenvalue.
+    /// Returns the logarithm of the largest modulus of an eigenvalue.
     pub fn log_modulus(&self) -> f64 {
         let discriminant = self.discriminant();
         if discriminant > 0.0 {
@@ -91,14 +91,14 @@ impl Recurrence {
         libm::log(0.5 * (self.trace().abs() + (-discriminant).sqrt()))
     }
 
-    /// Relative error of the phase speed of a wave whose length is `cells` cells, at the Courant
-    /// number `courant`. `None` if the wave has no phase.
+    /// Returns the relative error of the phase speed of a wave whose length is `cells` cells, at
+    /// the Courant number `courant`. `None` if the wave has no phase.
     pub fn phase_error(&self, cells: f64, courant: f64) -> Option<f64> {
         Some(self.angle()? / (TAU / cells * courant) - 1.0)
     }
 
-    /// Logarithm of the amplitude factor over one exact period of a wave whose length is `cells`
-    /// cells.
+    /// Returns the logarithm of the amplitude factor over one exact period of a wave whose length
+    /// is `cells` cells.
     pub fn log_kept_per_period(&self, cells: f64, courant: f64) -> f64 {
         self.log_modulus() * cells / courant
     }

@@ -22,7 +22,7 @@ impl WaveFigures {
         }
     }
 
-    /// Amplitude factor over one exact period.
+    /// Returns the amplitude factor over one exact period.
     pub fn kept(&self) -> f64 {
         libm::exp(self.log_kept)
     }
@@ -49,9 +49,9 @@ pub struct SpectrumRow {
 }
 
 impl SpectrumRow {
-    /// Deviations of the phase error and of the amplitude from the prediction, relative to it. A
-    /// deviation is `None` if a value is missing. The second one is also `None` if the predicted
-    /// amplitude is constant.
+    /// Returns the deviations of the phase error and of the amplitude from the prediction, relative
+    /// to it. A deviation is `None` if a value is missing. The second one is also `None` if the
+    /// predicted amplitude is constant.
     pub fn deviations(&self) -> (Option<f64>, Option<f64>) {
         let (Some(predicted), Ok(measured)) = (&self.predicted, &self.measured) else {
             return (None, None);

@@ -15,7 +15,7 @@ pub enum StabilityLimit {
 }
 
 impl StabilityLimit {
-    /// The limit, if it lies in the range.
+    /// Returns the limit, if it lies in the range.
     pub fn value(self) -> Option<f64> {
         match self {
             Self::At(value) => Some(value),

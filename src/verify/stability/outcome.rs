@@ -54,7 +54,7 @@ pub struct Prediction {
 }
 
 impl Critical {
-    /// Predicted limit; without a prediction, the observed limit.
+    /// Returns the predicted limit; without a prediction, the observed limit.
     pub fn limit(&self) -> Option<StabilityLimit> {
         self.predicted.map(|prediction| prediction.limit).or(self.observed)
     }

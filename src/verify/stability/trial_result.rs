@@ -18,7 +18,7 @@ named! {
 }
 
 impl Stability {
-    /// Name in reports.
+    /// Returns the name for reports.
     pub fn words(self) -> &'static str {
         match self {
             Self::BoundedGrowth => "bounded growth",

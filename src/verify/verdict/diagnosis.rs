@@ -129,7 +129,7 @@ pub struct Diagnosis {
 }
 
 impl Cause<'_> {
-    /// The cause, as a clause without a full stop.
+    /// Returns the cause, as a clause without a full stop.
     pub fn cause(&self) -> &str {
         match self {
             Self::Known(finding) => &finding.cause,
@@ -137,7 +137,8 @@ impl Cause<'_> {
         }
     }
 
-    /// Change of the suite that removes the cause; `None` if `check` accepts no such change.
+    /// Returns the change of the suite that removes the cause; `None` if `check` accepts no such
+    /// change.
     pub fn remedy(&self) -> Option<&str> {
         match self {
             Self::Known(finding) => finding.remedy.as_deref(),
@@ -157,7 +158,7 @@ impl Diagnosis {
         self.findings.iter().any(|finding| finding.kind < KnownCauseKind::CoarseLevels)
     }
 
-    /// The finding of this kind, if any.
+    /// Returns the finding of this kind, if any.
     pub fn finding(&self, kind: KnownCauseKind) -> Option<&KnownCause> {
         self.findings.iter().find(|finding| finding.kind == kind)
     }
@@ -194,7 +195,7 @@ impl Diagnosis {
         causes
     }
 
-    /// Distance of an order from the theoretical order.
+    /// Returns the distance of an order from the theoretical order.
     fn off(&self, order: Option<Interval>) -> f64 {
         order.map_or(f64::INFINITY, |order| (order.value - self.formal_order).abs())
     }

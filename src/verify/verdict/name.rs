@@ -42,7 +42,7 @@ impl Verdict {
         Self::TooFewLevels,
     ];
 
-    /// Name of the verdict in reports.
+    /// Returns the name of the verdict in reports.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Converging => "converging",

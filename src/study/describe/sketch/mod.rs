@@ -30,9 +30,9 @@ fn label(scene: &Scene, number: usize, face: &SceneFace) -> String {
     format!("{}: {state}", face.name)
 }
 
-/// The scene as text, with one character for each part of the grid: `.` if it is empty, `#` (or the
-/// number of the body, if there are several) if it contains material. Empty for a suite without a
-/// scene.
+/// Returns the scene as text, with one character for each part of the grid: `.` if it is empty, `#`
+/// (or the number of the body, if there are several) if it contains material. Empty for a suite
+/// without a scene.
 pub fn sketch_text(suite: &Suite) -> Vec<String> {
     let Some(view) = View::of(suite) else { return Vec::new() };
     let size = view.size();

@@ -11,7 +11,7 @@ const OPACITY: &str = "0.35";
 /// Maximum distance between points that count as equal, relative to the size of the body.
 const ROUNDING: f64 = 1e-9;
 
-/// Closed lines around a body in the plane of the first two axes (m).
+/// Returns the closed lines around a body in the plane of the first two axes (m).
 pub(super) fn rims(view: &View, body: &Scene) -> Vec<Vec<Pt>> {
     let Some(outline) = &body.outline else {
         let (low, high) = view.rise(body);

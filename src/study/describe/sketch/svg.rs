@@ -86,7 +86,7 @@ impl Row {
     }
 }
 
-/// Rows below the scene: the viewing direction, and the statement of the problem.
+/// Returns the rows below the scene: the viewing direction, and the statement of the problem.
 fn words(view: &View) -> Vec<Row> {
     let cells = |axis: usize| libm::round(view.size()[axis] / view.h);
     let counts = match view.scene.dimension() {

@@ -52,8 +52,8 @@ impl View {
         [self.to[0] - self.from[0], self.to[1] - self.from[1]]
     }
 
-    /// Scale (px/m) along each axis. Both scales differ for bodies that would otherwise be too
-    /// flat.
+    /// Returns the scale (px/m) along each axis. Both scales differ for bodies that would otherwise
+    /// be too flat.
     pub(super) fn scale(&self) -> [f64; 2] {
         let size = self.size();
         let equal = f64::min((WIDTH - 2.0 * MARGIN) / size[0], HIGHEST / size[1]);
@@ -69,7 +69,7 @@ impl View {
         self.scene.dimension() == 1 || across == up
     }
 
-    /// Height (px) of the grid including its margins.
+    /// Returns the height (px) of the grid including its margins.
     pub(super) fn height(&self) -> f64 {
         self.size()[1] * self.scale()[1] + 2.0 * MARGIN
     }
