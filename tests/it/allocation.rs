@@ -31,7 +31,8 @@ fn holds_its_memory(name: &str, subject: &mut dyn Subject, dt: f64) {
     assert!(!samples.is_empty(), "{name}: there was something to sample");
 }
 
-/// The force of a small manufactured motion with terms of every kind: in X, in t and in both.
+/// Creates the force of a small manufactured motion with terms of every kind: in X, in t and in
+/// both.
 fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
     let names: Vec<&str> = ["X", "Y", "Z"][..D].iter().chain(&["t"]).copied().collect();
     let expr = Expr::parse("sum(n, 1, 3, 1e-5*sin(n*X)*cos(t))*cos(X*t)").unwrap();
@@ -62,8 +63,8 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
     Forcing::new(&problem, labels.iter().map(Vector::as_slice))
 }
 
-/// Conduction with a manufactured source and a condition of every kind, in the particles of a body
-/// that may deform.
+/// Creates conduction with a manufactured source and a condition of every kind, in the particles of
+/// a body that may deform.
 fn heat<const D: usize>(
     particles: &mut Particles<D>,
     (grid, basis): (&Grid<D>, BasisName),
@@ -102,8 +103,8 @@ fn heat<const D: usize>(
         .with_source(Box::new(move |t, _, into| forcing.at(t, into)))
 }
 
-/// A heated body under gravity and a manufactured force, with a load at its far end and walls of
-/// every kind. A force acts on some particles, and others have a prescribed velocity.
+/// Runs a heated body under gravity and a manufactured force, with a load at its far end and walls
+/// of every kind. A force acts on some particles, and others have a prescribed velocity.
 fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
     for method in methods() {
         let mut setup = free_body::<D>(method, scheme);
@@ -164,7 +165,7 @@ fn an_mpm_step_after_the_first_allocates_nothing(
     in_dimension!(dimension, mpm_holds_its_memory(scheme, start));
 }
 
-/// Three bodies that touch. They are in contact or share one velocity field.
+/// Runs three bodies that touch. They are in contact or share one velocity field.
 fn bodies_hold_their_memory<const D: usize>(scheme: SchemeName) {
     for friction in [None, Some(0.0), Some(0.4)] {
         let body = |k: usize| {
@@ -314,7 +315,7 @@ fn no_scheme_is_left_out_above() {
     assert_eq!(SchemeName::ALL, [SchemeName::Usf, SchemeName::Usl, SchemeName::Musl]);
 }
 
-/// A bar under a body force, fixed on the left and pulled on the right.
+/// Creates a bar under a body force, fixed on the left and pulled on the right.
 fn loaded_bar(element: Element, mass: Mass, start: Start, sampling: Sampling) -> Bar {
     let setup = fem::BarSetup {
         from: 0.0,

@@ -5,7 +5,7 @@ use super::refused;
 use mpm_verify::suite::embedded;
 use rstest::rstest;
 
-/// A column of water. Its relative residual is 2e-6, and its tolerance is 5e-6.
+/// Creates a column of water. Its relative residual is 2e-6, and its tolerance is 5e-6.
 fn column() -> String {
     embedded::source("acoustic-column").expect("a suite").expect("a text").text().to_owned()
 }

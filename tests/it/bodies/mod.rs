@@ -10,7 +10,7 @@ use mpm_verify::mpm::{
 use mpm_verify::subject::{Samples, Start, Subject, Totals};
 use rstest::rstest;
 
-/// Methods for these tests; in 3-D only fast ones.
+/// Returns the methods for these tests; in 3-D only fast ones.
 fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     let few = |(basis, transfer): &(BasisName, TransferName)| match transfer {
         TransferName::Flip => matches!(basis, BasisName::Linear | BasisName::ContiguousGimp),
@@ -20,7 +20,7 @@ fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     methods().filter(move |method| dimension < 3 || few(method))
 }
 
-/// Methods that support coupled bodies.
+/// Returns the methods that support coupled bodies.
 fn coupled_methods(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     some(dimension).filter(|(_, transfer)| {
         !matches!(transfer.kind(), TransferKind::Series | TransferKind::Cells)

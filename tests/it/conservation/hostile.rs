@@ -17,7 +17,7 @@ use scene::{Scene, body, every_method, materials};
 /// A change that makes the state of particle 1 extreme.
 type Spoil<const D: usize> = fn(&mut Particles<D>);
 
-/// Extreme states without NaN or infinite numbers.
+/// Returns extreme states without NaN or infinite numbers.
 fn extremes<const D: usize>() -> Vec<(&'static str, Spoil<D>)> {
     vec![
         ("on a node", |b| b.x[1] = Vector::from_element(1.0)),

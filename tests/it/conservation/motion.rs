@@ -16,7 +16,7 @@ fn momentum<const D: usize>(particles: &Particles<D>) -> Vector<D> {
     particles.v.iter().zip(&particles.mass).map(|(v, m)| v * *m).sum()
 }
 
-/// Sum of |m v|, the scale for round-off in the momentum.
+/// Returns the sum of |m v|, the scale for round-off in the momentum.
 fn size<const D: usize>(particles: &Particles<D>) -> f64 {
     particles.v.iter().zip(&particles.mass).map(|(v, m)| v.norm() * m).sum()
 }

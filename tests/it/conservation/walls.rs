@@ -89,7 +89,7 @@ fn rollers_carry_no_force_along_themselves(
     in_dimension!(dimension, slides(scheme));
 }
 
-/// Velocity along the first axis that changes with time.
+/// Returns a velocity along the first axis that changes with time.
 fn swing<const D: usize>() -> VelocityField<D> {
     Box::new(|_, t| {
         assert!(t >= 0.0, "no velocity is asked for before the start");
@@ -97,7 +97,7 @@ fn swing<const D: usize>() -> VelocityField<D> {
     })
 }
 
-/// Displacement under the velocity [`swing`] over `steps` steps, by the midpoint rule.
+/// Returns the displacement under the velocity [`swing`] over `steps` steps, by the midpoint rule.
 fn path<const D: usize>(steps: usize) -> Vector<D> {
     (0..steps).map(|k| swing()(&Vector::zeros(), (k as f64 + 0.5) * DT) * DT).sum()
 }

@@ -107,7 +107,7 @@ impl Change {
         moved.into_iter().map(|x| x + self.moved * h * self.length).collect()
     }
 
-    /// The unit of stress in `d` dimensions, of energy, and of a dynamic viscosity.
+    /// Returns the new value of one unit of stress in `d` dimensions.
     pub(super) fn stress(&self, d: usize) -> f64 {
         let per_time = 1.0 / (self.time * self.time);
         self.mass * per_time * self.length.powi(2 - d as i32)

@@ -39,7 +39,7 @@ impl Known {
         Self { suite, text, study, seconds }
     }
 
-    /// Indices of the cases that are judged and require no external program.
+    /// Returns the indices of the cases that are judged and require no external program.
     pub(super) fn cases(&self) -> Vec<usize> {
         let plan = self.suite.plan::<ConvergencePlan>();
         let is_own = |case: &usize| plan.is_none_or(|plan| plan.cases[*case].solver.is_none());
