@@ -45,7 +45,7 @@ pub struct Ranked {
 pub struct Ranking {
     /// Description of the problem.
     pub problem: String,
-    /// Description of the problem, without the method.
+    /// Size of the solution. Errors are divided by it.
     pub size: f64,
     /// Target errors, from coarse to fine.
     pub targets: Vec<f64>,

@@ -50,7 +50,7 @@ proptest! {
     }
 }
 
-/// Counts the operations that must run for every position and time.
+/// Only operations that depend on both position and time must run for each of them.
 #[rstest]
 #[case::nothing("2*pi", 0)]
 #[case::place("sin(pi*x)+sqrt(x)", 0)]

@@ -144,7 +144,7 @@ impl Subject for FaultySubject {
         match self.fault {
             Fault::EmptyCheckpoint => true,
             Fault::LongerCheckpoint => {
-                // The stored length is the number of steps, so it differs in a new subject.
+                // The recorded number is the number of steps, so it differs in a new subject.
                 checkpoint.same(self.steps as usize);
                 self.sound.checkpoint(checkpoint)
             }
