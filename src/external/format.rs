@@ -13,7 +13,7 @@ use zip::write::SimpleFileOptions;
 named! {
     /// File formats for a problem.
     pub enum ProblemFormat {
-        /// A table, one particle a line.
+        /// A table with one particle per line.
         Csv = "csv",
         /// One document with the keys of the protocol.
         Json = "json",

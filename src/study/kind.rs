@@ -48,8 +48,8 @@ pub struct StepWarning {
     pub case: usize,
     /// Text of the warning.
     pub text: String,
-    /// Whether the step is too long. A suite may use such a step deliberately, and expect a
-    /// failure.
+    /// Whether the step is too long. A suite may use such a step deliberately, and expect
+    /// the result.
     pub is_too_long: bool,
 }
 
